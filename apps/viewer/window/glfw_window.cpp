@@ -3,6 +3,7 @@
 #include <array>
 #include <cctype>
 #include <cmath>
+#include <cstdlib>
 #include <cstring>
 #include <string_view>
 
@@ -17,6 +18,7 @@
 #include <glm/common.hpp>
 
 #include "draw_interface.hpp"
+#include "imgui_input.hpp"
 #include "portal.hpp"
 #include "presenter.hpp"
 
@@ -122,6 +124,10 @@ public:
     Status open(const WindowOptions& options)
     {
         glfwSetErrorCallback(nullptr);
+#ifdef GLFW_PLATFORM // 3.4: without this it prefers Wayland, with which the window was not tried
+        if (!std::getenv("WAYLAND_DISPLAY") || std::getenv("DISPLAY"))
+            glfwInitHint(GLFW_PLATFORM, GLFW_PLATFORM_X11);
+#endif
         if (!glfwInit())
             return unavailableError("view: no display: " + lastProblem());
         if (!glfwVulkanSupported())
@@ -305,13 +311,8 @@ private:
 
     void hold(const Event& event)
     {
-        ImGuiIO& io = ImGui::GetIO();
-        const int key = keyOfName(bareWord(event));
-        if (key >= 0 && key < IM_ARRAYSIZE(io.KeysDown))
-            io.KeysDown[key] = event.kind == EventKind::key;
-        io.KeyCtrl = holds(event, "ctrl");
-        io.KeyShift = holds(event, "shift");
-        io.KeyAlt = holds(event, "alt");
+        tellImGuiKey(keyOfName(bareWord(event)), event.kind == EventKind::key, holds(event, "ctrl"),
+                     holds(event, "shift"), holds(event, "alt"));
     }
 
     // Dear ImGui's frame, up to its triangles.
@@ -335,12 +336,7 @@ private:
         ImGuiIO& io = ImGui::GetIO();
         io.DisplaySize = {float(size().x), float(size().y)}; // pixels are the units throughout
         io.DisplayFramebufferScale = {1, 1};
-        io.MousePos = {pointer_.x, pointer_.y};
-        for (std::size_t i = 0; i < kButtons.size(); ++i)
-            io.MouseDown[i] = buttons_[i];
-        const glm::vec2 wheel = std::exchange(wheel_, glm::vec2(0));
-        io.MouseWheelH = wheel.x;
-        io.MouseWheel = wheel.y;
+        tellImGuiPointer(pointer_, buttons_, std::exchange(wheel_, glm::vec2(0)));
         if (played_)
             io.DeltaTime = 0.05f;
         ImGui::NewFrame();
