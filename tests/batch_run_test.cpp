@@ -440,6 +440,10 @@ TEST(BatchDegrees, areTheWorstMapWithTheBestFrameAndWhatWasMeasuredByPictures)
         "verify": {"degrees": {"mean_degrees": 0.5}}})");
     ASSERT_TRUE(convert);
     EXPECT_EQ(convert->mean, 0.5);
+    const auto objects = degreesIn(R"({"command": "bake", "objects": [{"verify": {"all": {"mean_degrees": 1}}},
+        {"verify": {"all": {"mean_degrees": 3}}}, {"verify": {"all": {"mean_degrees": null}}}]})");
+    ASSERT_TRUE(objects);
+    EXPECT_EQ(objects->mean, 3);
     for (const char* none : {"", "{", "[]", "{\"command\": \"lint\"}", "{\"command\": \"lint\", \"fits\": []}",
                              "{\"command\": 3}", "{\"command\": \"lint\", \"fits\": {\"orthonormal\": 1}}",
                              "{\"command\": \"compare\", \"normals\": {\"mean_degrees\": null}}"})

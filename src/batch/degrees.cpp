@@ -22,6 +22,7 @@ struct Place {
 constexpr Place kPlaces[] = {
     {"lint", "fits/*/orthonormal|cotangent|smooth/mean", "read without tangents"},
     {"bake", "verify/all/mean_degrees", "against the detailed mesh"},
+    {"bake", "objects/*/verify/all/mean_degrees", "against the detailed mesh"},
     {"convert", "verify/degrees/mean_degrees", "drawn, against the original"},
     {"convert", "maps/*/degrees_after_rounding|degrees_unconverted/mean", "read with the new frame"},
     {"compare", "normals/mean_degrees", "between the frames"},

@@ -16,37 +16,42 @@ from cotan import words
 
 @pytest.fixture(scope="module")
 def check(source, tmp_path_factory):
-    """Lines that mypy --strict prints about a program."""
+    """Lines that mypy --strict prints about programs: a list for each of them."""
     found = shutil.which("mypy") or (os.access("/usr/bin/mypy", os.X_OK) and "/usr/bin/mypy")
     if not found:
         pytest.skip("skipped: no mypy here (Debian's package mypy)")
     folder = tmp_path_factory.mktemp("types")
 
-    def run(program):
-        file = folder / "program.py"
-        file.write_text(program)
+    def run(programs):
+        files = [folder / f"program{number}.py" for number in range(len(programs))]
+        for file, program in zip(files, programs):
+            file.write_text(program)
         done = subprocess.run(
-            [found, "--strict", "--python-executable", sys.executable, "--cache-dir", folder / "cache", file],
+            [found, "--strict", "--python-executable", sys.executable, "--cache-dir", folder / "cache", *files],
             capture_output=True,
             text=True,
             env={**os.environ, "MYPYPATH": str(source / "bindings/python")},
             cwd=folder,
         )
         lines = done.stdout.splitlines()
-        return [line for line in lines if line.startswith("program.py")] or ([] if done.returncode == 0 else lines)
+        said = [[line for line in lines if line.startswith(file.name + ":")] for file in files]
+        assert any(said) == (done.returncode != 0), done.stdout + done.stderr
+        return said
 
     return run
 
 
 def test_the_pages_examples_are_clean(source, check):
     prelude = "import numpy as np\nimport cotan\nlow: cotan.Mesh\nhigh: cotan.Mesh\n"
-    seen = 0
+    blocks, programs = [], []
     for page in ("docs/python.md", "bindings/python/README.md"):
         for block in re.findall(r"```python\n(.*?)```", (source / page).read_text(), re.S):
             declared = re.sub(r"^(low|high): cotan.Mesh\n", "", prelude, flags=re.M) if re.search(r"^low = ", block, re.M) else prelude
-            assert check(declared + block) == [], block
-            seen += 1
-    assert seen > 5
+            blocks.append(block)
+            programs.append(declared + block)
+    assert len(blocks) > 5
+    for block, said in zip(blocks, check(programs)):
+        assert said == [], block
 
 
 def test_a_misspelt_word_is_an_error_and_a_right_one_is_not(check):
@@ -65,8 +70,8 @@ except FileNotFoundError as error:
 except cotan.Error as error:
     print(error.file, error.field)
 """
-    assert check(right) == []
-    for wrong in (
+    assert check([right]) == [[]]
+    mistakes = (
         'cotan.bake("a.obj", "b.obj", frame="smoth")',
         'cotan.bake("a.obj", "b.obj", kind="normals")',
         'cotan.render("m.glb", frame="mikktspac")',
@@ -76,9 +81,9 @@ except cotan.Error as error:
         'cotan.tangents(cotan.Mesh([[0, 0, 0]], [0, 0, 0]), kind="smooth")',
         'cotan.shader("cg")',
         'cotan.convert(1)',
-    ):
-        said = check(f"import cotan\n{wrong}\n")
-        assert len(said) >= 1 and "program.py:2: error" in said[0], (wrong, said)
+    )
+    for wrong, said in zip(mistakes, check([f"import cotan\n{wrong}\n" for wrong in mistakes])):
+        assert len(said) >= 1 and ".py:2: error" in said[0], (wrong, said)
 
 
 def test_the_words_are_those_of_the_program(command):
