@@ -6,7 +6,6 @@
 #include <functional>
 #include <vector>
 
-#include <embree3/rtcore.h>
 #include <fmt/format.h>
 #include <sys/resource.h>
 
@@ -15,6 +14,7 @@
 #include "cotan/bake/bake.hpp"
 #include "cotan/model/load.hpp"
 #include "cotan/surface/uv_raster.hpp"
+#include "embree.hpp"
 
 using namespace cotan;
 
@@ -158,9 +158,7 @@ int main(int argc, char** argv)
     if (!low || !high)
         return 2;
     const Bare bare(*highScene);
-    RTCIntersectContext context;
-    rtcInitIntersectContext(&context);
-    context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+    RayQuery query(Coherence::coherent);
     alignas(64) const int valid[16] = {-1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1};
     if (!measureRayStarts(*low, *high, options))
         return 2;
@@ -170,7 +168,7 @@ int main(int argc, char** argv)
         std::vector<RTCRayHit16> sixteen = packetsOf(rays);
         return timed([&] {
             for (RTCRayHit16& r : sixteen)
-                rtcIntersect16(valid, bare.scene, &context, &r);
+                intersect(valid, bare.scene, query, r);
         });
     };
     std::vector<double> ones, rows, squares, bakes;
@@ -179,7 +177,7 @@ int main(int argc, char** argv)
         std::vector<RTCRayHit> one = inSquares;
         ones.push_back(timed([&] {
             for (RTCRayHit& r : one)
-                rtcIntersect1(bare.scene, &context, &r);
+                intersect(bare.scene, query, r);
         }));
         rows.push_back(packets(inRows));
         squares.push_back(packets(inSquares));

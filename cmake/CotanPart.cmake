@@ -5,7 +5,17 @@
 add_library(cotan_warnings INTERFACE)
 target_compile_options(cotan_warnings INTERFACE
   -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion -ffp-contract=off
+  $<$<AND:$<CXX_COMPILER_ID:GNU>,$<VERSION_LESS:$<CXX_COMPILER_VERSION>,13>>:-Wno-restrict> # of std::string, GCC bug 105651
   $<$<BOOL:${COTAN_WARNINGS_AS_ERRORS}>:-Werror>)
+# GLM's vectors without unions (x, y, z only): compilers keep those in registers and take several at a time in loops. For
+# what is built here and nobody else: layouts are the same, but a program may want .rgb of its own vectors.
+target_compile_definitions(cotan_warnings INTERFACE GLM_FORCE_XYZW_ONLY)
+
+# Something that is not there, why, and what that costs, each without a semicolon: the end of the configuration says so, and
+# with COTAN_REQUIRE_ALL it fails.
+function(cotan_without what reason cost)
+  set_property(GLOBAL APPEND PROPERTY COTAN_WITHOUT "${what} (${reason}): ${cost}")
+endfunction()
 
 # Several files of a target compiled as one: what they include is read, and what they instantiate is made, once. What
 # is built whole has three times as many at once; where files are changed, one is compiled again with fewer.
@@ -44,10 +54,11 @@ function(cotan_fast_sources target)
   endif()
 endfunction()
 
-# Where headers of a part are found here and once installed, and what find_package(cotan COMPONENTS name) needs for it:
+# A part as cotan::name, here and once installed, and what find_package(cotan COMPONENTS name) needs for it:
 # the parts and packages that it links, privately or not, since static libraries need them and shared ones may.
 function(cotan_component target name)
   set_target_properties(${target} PROPERTIES EXPORT_NAME ${name})
+  add_library(cotan::${name} ALIAS ${target})
   set_property(GLOBAL APPEND PROPERTY COTAN_COMPONENTS ${name})
   set_property(GLOBAL PROPERTY COTAN_LINKS_${name} ${ARGN})
 endfunction()

@@ -3,6 +3,9 @@
 # spirv-opt -O makes most of it half as long where that is installed: a driver then takes an eighth of the time for it.
 # Every shader depends on all included text; there is little of it, and lists go stale.
 find_program(COTAN_SPIRV_OPT spirv-opt)
+if(COTAN_GLSLANG AND NOT COTAN_SPIRV_OPT)
+  cotan_without(spirv-opt "not found: install spirv-tools" "drivers take longer for shaders")
+endif()
 file(GLOB COTAN_SHADER_INCLUDES CONFIGURE_DEPENDS
   ${PROJECT_SOURCE_DIR}/shaders/cotan/*.h ${PROJECT_SOURCE_DIR}/shaders/*.glsl ${PROJECT_SOURCE_DIR}/shaders/cost/*.h
   ${PROJECT_SOURCE_DIR}/shaders/cost/*.glsl ${PROJECT_SOURCE_DIR}/examples/deforming/*.glsl

@@ -2,24 +2,24 @@
 # All three as one target, Cotan::Window.
 find_package(glfw3 QUIET)
 find_package(Vulkan QUIET)
-find_path(CotanWindow_IMGUI_INCLUDE_DIR backends/imgui_impl_vulkan.h PATH_SUFFIXES imgui)
-find_library(CotanWindow_IMGUI_LIBRARY imgui)
-find_library(CotanWindow_STB_LIBRARY stb)
-mark_as_advanced(CotanWindow_IMGUI_INCLUDE_DIR CotanWindow_IMGUI_LIBRARY CotanWindow_STB_LIBRARY)
+find_path(COTAN_IMGUI_INCLUDE_DIR backends/imgui_impl_vulkan.h PATH_SUFFIXES imgui)
+find_library(COTAN_IMGUI_LIBRARY imgui)
+find_library(COTAN_STB_LIBRARY stb)
+mark_as_advanced(COTAN_IMGUI_INCLUDE_DIR COTAN_IMGUI_LIBRARY COTAN_STB_LIBRARY)
 set(CotanWindow_PARTS FALSE)
 if(TARGET glfw AND TARGET Vulkan::Vulkan)
   set(CotanWindow_PARTS TRUE)
 endif()
 include(FindPackageHandleStandardArgs)
 find_package_handle_standard_args(CotanWindow
-  REQUIRED_VARS CotanWindow_IMGUI_LIBRARY CotanWindow_IMGUI_INCLUDE_DIR CotanWindow_STB_LIBRARY CotanWindow_PARTS)
+  REQUIRED_VARS COTAN_IMGUI_LIBRARY COTAN_IMGUI_INCLUDE_DIR COTAN_STB_LIBRARY CotanWindow_PARTS)
 # The desktop's dialog for files, where there is libsystemd.
-find_path(CotanWindow_BUS_INCLUDE_DIR systemd/sd-bus.h)
-find_library(CotanWindow_BUS_LIBRARY systemd)
-mark_as_advanced(CotanWindow_BUS_INCLUDE_DIR CotanWindow_BUS_LIBRARY)
+find_path(COTAN_BUS_INCLUDE_DIR systemd/sd-bus.h)
+find_library(COTAN_BUS_LIBRARY systemd)
+mark_as_advanced(COTAN_BUS_INCLUDE_DIR COTAN_BUS_LIBRARY)
 if(CotanWindow_FOUND AND NOT TARGET Cotan::Window)
   add_library(Cotan::Window INTERFACE IMPORTED)
   set_target_properties(Cotan::Window PROPERTIES
-    INTERFACE_INCLUDE_DIRECTORIES "${CotanWindow_IMGUI_INCLUDE_DIR}"
-    INTERFACE_LINK_LIBRARIES "${CotanWindow_IMGUI_LIBRARY};${CotanWindow_STB_LIBRARY};glfw;Vulkan::Vulkan")
+    INTERFACE_INCLUDE_DIRECTORIES "${COTAN_IMGUI_INCLUDE_DIR}"
+    INTERFACE_LINK_LIBRARIES "${COTAN_IMGUI_LIBRARY};${COTAN_STB_LIBRARY};glfw;Vulkan::Vulkan")
 endif()

@@ -2,6 +2,7 @@
 // from the first bytes; of an OBJ, what follows the line "#mtl" is the library m.mtl beside it. FBX is left out:
 // nothing is checked in front of Assimp's reader, which can overflow the stack; the tool reads it in a process of its
 // own.
+#include <algorithm>
 #include <string_view>
 
 #include "scene_checks.hpp"

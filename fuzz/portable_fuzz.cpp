@@ -1,5 +1,6 @@
 // The portable text over random bits: the total functions give finite frames and unit normals for any input, in float
 // and in double; the fused forms give what the frames give, within the range that fused.h states.
+#include <algorithm>
 #include <array>
 #include <numbers>
 

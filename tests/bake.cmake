@@ -4,8 +4,8 @@ cotan_test(bake_test BATCH 4 # four in a line are compiled at once; names of two
     bake_bilinear_test.cpp bake_high_map_test.cpp bake_test.cpp bake_first_test.cpp bake_rays_test.cpp
   LIBRARIES cotan_bake cotan_model cotan_shapes cotan_truth cotan_core)
 cotan_test(bake_command_test BATCH 1
-  SOURCES bake_command_test.cpp bake_features_test.cpp bake_high_map_command_test.cpp
-  LIBRARIES cotan_model cotan_shapes cotan_truth cotan_core nlohmann_json::nlohmann_json)
+  SOURCES bake_command_test.cpp bake_features_test.cpp bake_high_map_command_test.cpp bake_objects_command_test.cpp
+  LIBRARIES cotan_model cotan_shapes cotan_truth cotan_core nlohmann_json::nlohmann_json fmt::fmt)
 target_compile_definitions(bake_command_test PRIVATE COTAN_TOOL="$<TARGET_FILE:cotan>")
 add_dependencies(bake_command_test cotan)
 cotan_test(not_built_test

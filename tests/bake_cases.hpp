@@ -1,6 +1,7 @@
 // Pairs of meshes that tell bakers apart: parts that stand off, thin things, things in front of one another.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <initializer_list>

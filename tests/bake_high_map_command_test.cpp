@@ -1,6 +1,7 @@
 // `cotan bake --high-normals` as a user runs it.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 

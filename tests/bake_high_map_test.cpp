@@ -1,6 +1,7 @@
 // The high mesh's own normal map as the source of detail: what it says in its own frame is what the low mesh gets.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <numbers>

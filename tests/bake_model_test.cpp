@@ -6,6 +6,7 @@
 #include <cmath>
 #include <functional>
 
+#include <fmt/format.h>
 #include <glm/geometric.hpp>
 
 #include "bake_scene.hpp"
@@ -233,6 +234,12 @@ TEST(BakeModel, errorsOfOptionsBeginWithTheirNames)
               "options.bake: expected a width and a height from 1 to 65535; found 12x0");
     EXPECT_EQ(errorWith([](O& o, H&) { o.bake.samples = 3; }),
               "options.bake: expected 1, 2 or 4 samples a texel and axis; found 3");
+    EXPECT_EQ(errorWith([](O& o, H&) { o.bake.frame = Frame(99); }), fmt::format("options.bake.frame: expected 0 to {}; found 99", kFrameCount - 1));
+    EXPECT_EQ(errorWith([](O& o, H&) { o.highFrame = Frame(-1); }), fmt::format("options.highFrame: expected 0 to {}; found -1", kFrameCount - 1));
+    EXPECT_EQ(errorWith([](O& o, H&) { o.bake.occlusionRays = 0; }),
+              "options.bake: expected 1 to 65536 rays for occlusion; found 0");
+    EXPECT_EQ(errorWith([](O& o, H&) { o.bake.cageReach = NAN; }), "options.cageReach: expected 0 to 1e+17; found nan");
+    EXPECT_EQ(errorWith([](O& o, H&) { o.tiles = {}; }), "options.tiles: expected one tile or more; found none");
     EXPECT_EQ(errorWith([](O& o, H&) { o.tiles = {1000}; }),
               "options.tiles: expected numbers from 1001 on; found 1000");
     EXPECT_EQ(errorWith([](O&, H& h) { h.maps.resize(2); }),
@@ -267,7 +274,18 @@ TEST(BakeModel, positionsFromWhichNoRayCanStartAreRefused)
     options.bake.extrusion = 0;
     options.bake.maxDistance = 1e20f;
     EXPECT_EQ(errorOf(bakeModel(flat, highOf(flat), options)),
-              "options.maxDistance: expected at most 1e+17; found 1e+20");
+              "options.maxDistance: expected 0 to 1e+17; found 1e+20");
+    options.bake.maxDistance = -1;
+    EXPECT_EQ(errorOf(bakeModel(flat, highOf(flat), options)), "options.maxDistance: expected 0 to 1e+17; found -1");
+}
+
+TEST(BakeModel, aTransformThatLeavesNoAreaIsRefused)
+{
+    const Scene high = sceneOfMeshes({square({0, 0, 0}, {1, 0, 0})});
+    Scene low = high;
+    low.instances[0].toWorld = glm::mat4(0);
+    EXPECT_EQ(errorOf(bakeModel(low, highOf(high), smallOptions())),
+              "low: expected a triangle with an area; all 2 have none as they are placed");
 }
 
 } // namespace

@@ -3,6 +3,7 @@
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
+#include <ctime>
 #include <fstream>
 #include <string>
 #include <thread>
@@ -39,6 +40,28 @@ int perform(const std::vector<std::string>& words)
     if (what == "stubborn") { // does not end when it is asked to
         std::signal(SIGTERM, SIG_IGN);
         sleepForever();
+    }
+    if (what == "wait") // wait SECONDS, without work
+        std::this_thread::sleep_for(std::chrono::duration<double>(std::atof(words.at(1).c_str())));
+    if (what == "spin") { // spin SECONDS of processor time
+        const double enough = std::atof(words.at(1).c_str());
+        while (double(std::clock()) < enough * CLOCKS_PER_SEC)
+            ;
+    }
+    if (what == "flaky") { // flaky FILE N: crashes the first N times
+        int times = 0;
+        std::ifstream(words.at(1)) >> times;
+        std::ofstream(words.at(1)) << times + 1;
+        if (times < std::atoi(words.at(2).c_str()))
+            std::raise(SIGKILL);
+    }
+    if (what == "variables") { // variables TO NAME...: their values
+        std::string text;
+        for (std::size_t i = 2; i < words.size() && !words[i].starts_with("--"); ++i) { // up to the batch's own
+            const char* const value = std::getenv(words.at(i).c_str());
+            text += std::string(value ? value : "none") + "\n";
+        }
+        return cotan::writeFileWhole(words.at(1), text) ? 0 : 4;
     }
     if (what == "eat") {
         std::vector<std::vector<char>> all;

@@ -1,6 +1,7 @@
 // Files of jobs, and which job waits for which.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <fstream>
 #include <numeric>
 #include <random>

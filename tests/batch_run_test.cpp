@@ -107,6 +107,7 @@ JobRecord fullRecord()
     JobRecord r;
     r.state = JobState::limit;
     r.code = 5;
+    r.signal = 15;
     r.reason = "over <the> limit";
     r.said = "line\nline \xff\n";
     r.seconds = 1.5;
@@ -227,9 +228,16 @@ TEST_F(BatchRun, aJobThatCrashesHangsOrEatsMemoryIsOneResultAndNotTheEnd)
         EXPECT_EQ(results[i].record.state, cases[i].second)
             << cases[i].first << ": " << name(results[i].record.state) << ", " << results[i].record.reason;
         EXPECT_EQ(results[i].record.reason.empty(), cases[i].second == JobState::done) << cases[i].first;
+        const JobRecord& record = results[i].record;
+        EXPECT_NE(record.code.has_value(), record.signal.has_value()) << cases[i].first << " ended one way";
     }
+    EXPECT_EQ(results[0].record.signal, SIGSEGV);
+    EXPECT_EQ(results[3].record.signal, SIGTERM) << "too slow, and asked to end";
+    EXPECT_EQ(results[4].record.signal, SIGKILL);
+    EXPECT_EQ(results[8].record.code, 0);
     EXPECT_EQ(results[9].record.state, JobState::failed);
     EXPECT_EQ(results[9].record.reason, "a.glb: broken");
+    EXPECT_EQ(results[9].record.code, 2);
     EXPECT_EQ(results[10].record.state, JobState::limit);
     EXPECT_EQ(results[10].record.reason, "over 3 degrees");
     const std::string& said = results[6].record.said;

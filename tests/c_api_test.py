@@ -241,6 +241,13 @@ six = (c.c_uint32 * 6)(0, 1, 2, 0, 2, 3)
 low = Mesh(4, array([w for x, y in xy for w in (x, y, 0)]), array([0, 0, 1] * 4), array([w for x, y in xy for w in (x, 1 - y)]), 6, six)
 slope = math.hypot(0.1, 1)
 high = Mesh(4, array([w for x, y in xy for w in (3 * x - 1, 3 * y - 1, 0.3 * x - 0.15)]), array([-0.1 / slope, 0, 1 / slope] * 4), None, 6, six)
+for field, width in (("positions", 3), ("normals", 3), ("texcoords", 2)):
+    numbers = getattr(low, field)
+    kept, numbers[width + 1] = numbers[width + 1], math.nan
+    for function, outputs in (("cotan_tangents", [c.c_int(0), array([0] * 24)]), ("cotan_smooth_cotangents", [array([0] * 12)] * 2)):
+        words = ([b"mikktspace"] if function == "cotan_tangents" else []) + [c.byref(low)] + outputs
+        assert f"mesh.{field}[1]: expected finite numbers, found nan" in call(function, *words, expect=2)
+    numbers[width + 1] = kept
 shares = []
 options = BakeOptions(None, None, None, 1, 0, 0, 0, 0.5, 1, Progress(lambda user, done: shares.append(done) or 0), None)
 pixels8 = (c.c_uint8 * (16 * 16 * 4))()
@@ -281,6 +288,9 @@ if call("cotan_bake", c.byref(low), c.byref(high), c.byref(options), c.byref(bak
     options.size += 8
     options.frame = b"cotangent-2013"
     assert "depends on the view" in call("cotan_bake", c.byref(low), c.byref(high), c.byref(options), c.byref(baked_map), None, expect=1)
+    options.frame, options.samples = None, 3
+    assert call("cotan_bake", c.byref(low), c.byref(high), c.byref(options), c.byref(baked_map), None, expect=1).startswith("options.samples: expected 1, 2 or 4 samples")
+    options.samples = 1
     six[5] = 4
     assert "low.indices[5]: expected less than 4" in call("cotan_bake", c.byref(low), c.byref(high), None, c.byref(baked_map), None, expect=2)
     six[5] = 3
@@ -446,7 +456,7 @@ if call("cotan_render", None, c.c_size_t(0), None, None, None, None, expect="fil
     call("cotan_image_picture", made, c.byref(drawn))
     assert (drawn.width, drawn.height, drawn.bits) == (8, 6, 8)
     cotan.cotan_image_free(made)
-    wanted.words[1] = b"8"
+    wanted.words[1] = b"8x"
     assert "--size: expected WxH" in call("cotan_render", None, c.c_size_t(0), None, c.byref(wanted), c.byref(made), None, expect=1)
     call("cotan_set_reader", c.c_size_t(0), None)
     assert "words: expected an array" in call("cotan_set_reader", c.c_size_t(1), None, expect=1)

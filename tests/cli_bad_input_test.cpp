@@ -169,5 +169,26 @@ TEST(HugeModels, aMillionInstancesAreRefusedByRenderersAndJudgedByLint)
     }
 }
 
+// Where it is, and what is there; not what the parser calls it.
+TEST(CommandLine, aModelThatIsNoJsonIsToldByLineAndColumn)
+{
+    TemporaryFolder folder;
+    const std::pair<std::string, std::string> cases[] = {
+        {"{\"asset\": x}", "line 1, column 11: expected valid JSON; found '\"asset\": x'"},
+        {"{\"a\": [1,\n 2,,3]}", "line 2, column 4: expected valid JSON; found '2,,'"},
+        {"{", "line 1, column 2: expected more; found the end of the file"},
+        {"{\"a\": 1e999}", "line 1, column 11: expected a number that a double holds; found '1e999'"},
+        {"{}\x01\xff", "line 1, column 3: expected valid JSON; found "},
+    };
+    for (const auto& [text, message] : cases) {
+        std::ofstream(folder / "bad.gltf") << text;
+        const ToolRun run = runTool({"lint", "bad.gltf"}, folder.path());
+        EXPECT_EQ(run.code, 2);
+        EXPECT_EQ(lines(run.err), 1) << run.err;
+        EXPECT_NE(run.err.find("bad.gltf: JSON: " + message), std::string::npos) << run.err;
+        EXPECT_EQ(run.err.find("exception"), std::string::npos) << run.err;
+    }
+}
+
 } // namespace
 } // namespace cotan

@@ -42,7 +42,7 @@ TEST(CommandLine, wrongWordsExitOneWithOneLineAndNoFile)
         {"rendr"},
         {"render"},
         {"render", "-o", "a.png", "--frame", "tangent"},
-        {"render", "-o", "a.png", "--size", "640"},
+        {"render", "-o", "a.png", "--size", "640x"},
         {"render", "-o", "a.png", "--size", "0x10"},
         {"render", "-o", "a.png", "--size", "99999x10"},
         {"render", "-o", "a.png", "--camera", "1,2,3"},

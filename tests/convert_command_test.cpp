@@ -1,6 +1,7 @@
 // `cotan convert` as a user runs it: what the files say afterwards, and what --verify measures.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstring>
@@ -306,6 +307,71 @@ TEST(ConvertCommand, realModelsLookTheSameWithoutTangents)
                       .code,
                   0);
     }
+}
+
+// Bytes of a model and of the files that it names.
+std::uintmax_t bytesWithItsFiles(const std::filesystem::path& model)
+{
+    std::uintmax_t bytes = std::filesystem::file_size(model);
+    if (model.extension() == ".glb")
+        return bytes;
+    const json root = json::parse(readWhole(model));
+    for (const char* list : {"buffers", "images"})
+        for (const json& named : root.value(list, json::array()))
+            bytes += std::filesystem::file_size(model.parent_path() / named["uri"].get<std::string>());
+    return bytes;
+}
+
+TEST(ConvertCommand, withKeepMapsTangentsGoMapsStayToTheByteAndTheFileShrinks)
+{
+    std::size_t tried = 0;
+    for (const char* file :
+         {"FlightHelmet/FlightHelmet.gltf", "SketchfabCat/scene.gltf", "BoomBox/BoomBox.gltf",
+          "ClearCoatTest/ClearCoatTest.glb", "GlamVelvetSofa/GlamVelvetSofa.glb", "TwoSidedPlane/TwoSidedPlane.glb",
+          "NormalTangentTest/NormalTangentTest.glb", "NormalTangentMirrorTest/NormalTangentMirrorTest.glb",
+          "SunglassesKhronos/SunglassesKhronos.glb", "AnisotropyStrengthTest/AnisotropyStrengthTest.glb"}) {
+        const std::filesystem::path model = shared("models/" + std::string(file));
+        if (!std::filesystem::exists(model))
+            continue;
+        ++tried;
+        TemporaryFolder folder;
+        const json r = convertJson(folder.path(), {model.string(), "--keep-maps", "-o", "out.glb"});
+        EXPECT_EQ(r["to"], "orthonormal");
+        for (const json& map : r["maps"])
+            EXPECT_EQ(map["bytes_after"], map["bytes_before"]) << file;
+        // A text of JSON and padding may be laid out anew: 2 %.
+        EXPECT_LT(double(std::filesystem::file_size(folder / "out.glb")), 1.02 * double(bytesWithItsFiles(model)))
+            << file;
+        const auto before = openGltfDocument(model), after = openGltfDocument(folder / "out.glb");
+        ASSERT_TRUE(before && after) << file;
+        ASSERT_EQ(after->root["images"].size(), before->root["images"].size());
+        for (std::size_t i = 0; i < after->root["images"].size(); ++i)
+            EXPECT_TRUE(*gltfImageBytes(*after, i) == *gltfImageBytes(*before, i)) << file << " image " << i;
+    }
+    if (tried == 0)
+        GTEST_SKIP() << "no model is there";
+}
+
+TEST(ConvertCommand, keepMapsIsRefusedBesideWhatItContradicts)
+{
+    TemporaryFolder folder;
+    write(quad(2), folder.path());
+    const std::pair<std::vector<std::string>, const char*> wrong[] = {
+        {{"--keep-tangents"}, "--keep-tangents: with --keep-maps only the tangents go"},
+        {{"--bits", "8"}, "--bits: with --keep-maps only the tangents go"},
+        {{"--to-frame", "mikktspace"},
+         "--to-frame: expected a frame that reads no tangents, since --keep-maps drops them; found mikktspace"},
+    };
+    for (const auto& [words, message] : wrong) {
+        std::vector<std::string> all{"convert", "quad.gltf", "--keep-maps", "-o", "out.glb"};
+        all.insert(all.end(), words.begin(), words.end());
+        const ToolRun run = runTool(all, folder.path());
+        EXPECT_EQ(run.code, 1);
+        EXPECT_NE(run.err.find(message), std::string::npos) << run.err;
+    }
+    // What stays off is said: the quad is stretched 2:1, which cotangent follows.
+    const json r = convertJson(folder.path(), {"quad.gltf", "--keep-maps", "--to-frame", "cotangent", "-o", "out.glb"});
+    EXPECT_NE(r["notes"].dump().find("as it is, read with cotangent, it is off by"), std::string::npos) << r["notes"];
 }
 
 TEST(ConvertCommand, badInputGetsOneClearLineAndLeavesNothing)

@@ -1,6 +1,7 @@
 // Maps for another frame, on patches where the new texel is known by hand.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include <glm/geometric.hpp>

@@ -9,6 +9,12 @@ if(NOT CMAKE_CXX_FLAGS MATCHES "fsanitize")
   add_test(NAME SmallestHouse.buildsInstallsAndWorks
     COMMAND ${PROJECT_SOURCE_DIR}/scripts/try-smallest ${PROJECT_BINARY_DIR}/smallest ${CMAKE_CXX_COMPILER})
   set_tests_properties(SmallestHouse.buildsInstallsAndWorks PROPERTIES TIMEOUT 300 COST 100 PROCESSORS 2)
+  add_test(NAME Consumer.keepsItsCacheItsVectorsAndItsInstall
+    COMMAND ${PROJECT_SOURCE_DIR}/scripts/try-consumer ${PROJECT_BINARY_DIR}/consumer ${CMAKE_CXX_COMPILER})
+  set_tests_properties(Consumer.keepsItsCacheItsVectorsAndItsInstall PROPERTIES TIMEOUT 300 COST 50 PROCESSORS 2)
+  add_test(NAME Suite.failsWhereALibraryIsMissing
+    COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/suite_test.sh ${PROJECT_BINARY_DIR}/suite ${CMAKE_CXX_COMPILER})
+  set_tests_properties(Suite.failsWhereALibraryIsMissing PROPERTIES TIMEOUT 300)
 endif()
 
 # The portable text compiles unchanged in every language: joined, behind a few lines that declare

@@ -10,7 +10,7 @@ if(NOT failed)
   execute_process(COMMAND ${OUT}/empty RESULT_VARIABLE failed OUTPUT_QUIET ERROR_QUIET)
 endif()
 if(failed)
-  message("skipped: ${CXX} ${FLAGS} makes no program that runs; on Debian 12: lib32stdc++-12-dev libc6-dev-i386")
+  message("skipped: ${CXX} ${FLAGS} makes no program that runs; scripts/setup test installs its 32-bit libraries")
   return()
 endif()
 

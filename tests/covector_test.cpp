@@ -2,6 +2,7 @@
 // tests/core.cmake with covector_mixture.cpp.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <limits>
 
 #include "cotan/truth/patch.hpp"

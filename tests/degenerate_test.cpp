@@ -3,6 +3,7 @@
 // bits as the unguarded form on good input.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstring>
 #include <functional>
 #include <limits>

@@ -2,6 +2,7 @@
 // against what Cotan's own renderer draws of them.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 

@@ -1,4 +1,6 @@
 // Automatic exposure, by the picture that it makes.
+#include <algorithm>
+
 #include "cotan/draw/exposure.hpp"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,5 @@
 // `cotan figures`: what it writes, and numbers that are known without it.
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <set>

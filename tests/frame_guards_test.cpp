@@ -1,6 +1,7 @@
 // The guards of frame.h one by one, the frames from vertex attributes, and the table of frames.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>

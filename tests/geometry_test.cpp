@@ -1,6 +1,7 @@
 // Small geometry: boxes, cameras that show everything, normals from triangles.
 #include "cotan/scene/geometry.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>

@@ -1,5 +1,6 @@
 // Every way of storing numbers, read by the loader and by the editor. Expected values come from the
 // formulas of glTF 2.0, section 3.6.2, and of its extensions.
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <limits>

@@ -1,4 +1,5 @@
 // A vertex of its own for every triangle of a glTF model: what is drawn stays the same to the bit.
+#include <algorithm>
 #include <array>
 #include <map>
 #include <numeric>

@@ -1,4 +1,5 @@
 // Geometry compressed with Draco and meshoptimizer, made here by their own encoders, against the plain numbers.
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <random>
@@ -363,7 +364,11 @@ TEST(MeshoptGeometry, withFiltersIsWhatWasFiltered)
     std::vector<float> places = kSquare;
     for (float& x : places)
         x = x * 3.7f - 1.1f;
+#if MESHOPTIMIZER_VERSION >= 200 // 0.20
+    meshopt_encodeFilterExp(exponential.data(), 4, 12, 15, places.data(), meshopt_EncodeExpSharedVector);
+#else
     meshopt_encodeFilterExp(exponential.data(), 4, 12, 15, places.data());
+#endif
     packed = packedVertices(exponential, 3);
     packed.filter = "EXPONENTIAL";
     const auto moved = loadPacked(0, packed);

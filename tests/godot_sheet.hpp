@@ -1,6 +1,8 @@
 // The analytic sheet for Godot: its map and its mesh, with what each frame reads of it.
 #pragma once
 
+#include <algorithm>
+
 #include "cotan/frame.hpp"
 #include "cotan/tangents.hpp"
 #include "cotan/triangle.hpp"

@@ -1,6 +1,8 @@
 // Godot 3 draws what `cotan shader --lang godot` prints. A door: without godot3 and xvfb-run it is skipped.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include <fmt/format.h>
 
 #include "cotan/image/file.hpp"

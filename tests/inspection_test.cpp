@@ -1,6 +1,7 @@
 // A model in telling colours, and what is at one of its points.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <map>
 

@@ -2,6 +2,7 @@
 // converted .gltf has its pictures beside it.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <sstream>

@@ -3,6 +3,7 @@
 // arrives.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 

@@ -1,4 +1,6 @@
 // Lighting in tangent space against lighting in the world: where they must agree, and where not.
+#include <algorithm>
+
 #include "reference_scene.hpp"
 
 #include "cotan/surface/vertex_frames.hpp"

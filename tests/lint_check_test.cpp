@@ -68,6 +68,23 @@ TEST(LintCheck, degreesAreThoseOf95PercentWithTheFrameThatIsAskedFor)
     EXPECT_EQ(over.failures[0].value, 3);
     EXPECT_EQ(over.failures[0].limit, 2.99);
     EXPECT_EQ(over.failures[0].text, "door: 95 % of the error of reading with orthonormal 3 degrees, limit 2.99");
+    EXPECT_EQ(over.failures[0].mesh, "door");
+    EXPECT_FALSE(over.failures[0].percent);
+}
+
+// The mean of a model may be far under a limit that one primitive exceeds.
+TEST(LintCheck, theSentenceSaysThatEachPrimitiveCountsAndWhatTheMeansAre)
+{
+    LintReport report = reportOf(sound());
+    PrimitiveLint wall = sound();
+    wall.mesh = "wall";
+    wall.uv.area = 9;
+    wall.readings = {{"orthonormal", {100, 0.25, 0.5, 1}}};
+    report.primitives.push_back(wall);
+    const LintCheck check = checkLimits(report, {.degrees = 1});
+    ASSERT_EQ(kindsOf(check), Kinds{"reading"});
+    EXPECT_EQ(check.failures[0].beside,
+              "each primitive is held to it by itself; the mean of this one is 1.5, of the model 0.375");
 }
 
 TEST(LintCheck, areasAreHeldAgainstTheLimitInPercent)

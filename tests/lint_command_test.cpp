@@ -167,7 +167,13 @@ TEST(LintCommand, theReportOfACheckSaysWhatFailedAndByHowMuch)
                     {"limit_area", nullptr},
                     {"frame", "orthonormal"},
                     {"failures", json::array()}}));
-    const json failed = checked({"--limit", "1", "--limit-area", "3", "--frame", "cotangent"}, 5)["check"];
+    const json report = checked({"--limit", "1", "--limit-area", "3", "--frame", "cotangent"}, 5);
+    const json failed = report["check"], over = report["over_limit"];
+    ASSERT_EQ(over.size(), 1u) << over;
+    EXPECT_EQ(over[0]["mesh"], "quad");
+    EXPECT_GT(over[0]["degrees"].get<double>(), 1);
+    EXPECT_EQ(over[0]["limit"], 1.0);
+    EXPECT_TRUE(over[0]["percent"].is_null() && over[0]["map"].is_null()) << over;
     EXPECT_FALSE(failed["passed"].get<bool>());
     EXPECT_EQ(failed["limit_area"], 3.0);
     ASSERT_EQ(failed["failures"].size(), 1u) << failed; // twice as wide as high: cotangent is off, the uv are sound

@@ -1,6 +1,7 @@
 // What lint measures, on shapes where the answer is known by hand.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include <glm/geometric.hpp>

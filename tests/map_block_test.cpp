@@ -1,6 +1,7 @@
 // BC5 and BC4, read back by the definition of their blocks.
 #include "cotan/maps/block.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>

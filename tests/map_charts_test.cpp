@@ -1,6 +1,7 @@
 // Maps of charts: which way green points on islands, whatever lies between them.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <limits>
 #include <tuple>

@@ -1,6 +1,7 @@
 // What a map says about itself, on maps whose truth is known by how they were made.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 

@@ -1,6 +1,8 @@
 // Whether a map fits another frame: judged at places on the surface, wherever they lie between texels.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "judgement_cases.hpp"
 
 namespace cotan {

@@ -1,6 +1,7 @@
 // Every kernel against its formula, every border against a picture padded by hand, and the way back.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 
 #include "cotan/maps/compare.hpp"

@@ -1,6 +1,7 @@
 // Blends, mips and conversions on maps small enough to work out by hand; x and y never alike.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <limits>
 
 #include "cotan/maps/blend.hpp"

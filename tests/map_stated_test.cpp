@@ -1,6 +1,8 @@
 // A map's file says what it stores, and is believed; what contradicts it is named.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include <nlohmann/json.hpp>
 
 #include "cotan/image/file.hpp"

@@ -1,6 +1,7 @@
 // The GPU and the reference renderer draw the same normals.
 #include "models.hpp"
 
+#include <algorithm>
 #include <iostream>
 
 #include "cotan/frame.hpp"

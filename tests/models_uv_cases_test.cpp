@@ -2,6 +2,7 @@
 // gradients of uv over the plane of each grid, scaled together, applied to the texel.
 #include "models.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include <glm/matrix.hpp>

@@ -2,6 +2,7 @@
 // there for good.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 

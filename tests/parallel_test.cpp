@@ -2,6 +2,7 @@
 // the search for equal keys that is spread over them.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <atomic>
 #include <random>

@@ -18,8 +18,9 @@ TEST(PictureWords, sizesReachFromOneTo16384OnEachSide)
 {
     EXPECT_EQ(*parseSize("1x16384"), std::pair(1, 16384));
     EXPECT_EQ(*parseSize("16384x1"), std::pair(16384, 1));
-    for (const char* wrong :
-         {"0x5", "5x0", "16385x5", "5x16385", "-1x5", "5", "5x", "x5", "5x5x5", "5.5x5", " 5x5", "99999999999x5"})
+    EXPECT_EQ(*parseSize("512"), std::pair(512, 512));
+    for (const char* wrong : {"0x5", "5x0", "16385x5", "5x16385", "-1x5", "0", "16385", "", "5x", "x5", "5x5x5",
+                              "5.5x5", " 5x5", "99999999999x5"})
         EXPECT_FALSE(parseSize(wrong)) << wrong;
 }
 

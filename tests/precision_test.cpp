@@ -2,6 +2,7 @@
 // the origin, against exact arithmetic on the same stored mesh.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "cotan/truth/precision.hpp"

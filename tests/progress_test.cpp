@@ -1,6 +1,7 @@
 // The line that says how far a long command is, on a terminal and off it.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <thread>
 

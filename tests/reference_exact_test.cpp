@@ -1,5 +1,6 @@
 // The reference renderer against the mathematics, with x different from y everywhere and both sides of
 // each threshold.
+#include <algorithm>
 #include <array>
 #include <set>
 

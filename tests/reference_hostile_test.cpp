@@ -1,4 +1,5 @@
 // Input that no exporter should write: the picture must be finite all the same.
+#include <algorithm>
 #include <limits>
 
 #include "reference_scene.hpp"

@@ -1,6 +1,7 @@
 // Small scenes by hand for the tests of the reference renderer, and their analytic answers.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <vector>

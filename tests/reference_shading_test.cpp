@@ -1,4 +1,6 @@
 // Materials, light and shadow of the reference renderer.
+#include <algorithm>
+
 #include "reference_scene.hpp"
 
 using namespace cotan;

@@ -1,4 +1,6 @@
 // Texture reads of the reference renderer, through unlit materials.
+#include <algorithm>
+
 #include "reference_scene.hpp"
 
 using namespace cotan;

@@ -1,4 +1,6 @@
 // Normals and frames as the GPU makes them, against analytic answers.
+#include <algorithm>
+
 #include "render_scene.hpp"
 
 namespace cotan {

@@ -1,4 +1,5 @@
 // Readers in a child process: what may go wrong there, and what is left afterwards. sandbox_child.cpp plays the child.
+#include <algorithm>
 #include <chrono>
 #include <csignal>
 #include <cstdlib>

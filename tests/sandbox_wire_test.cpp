@@ -1,4 +1,5 @@
 // Bytes of another process that are not to be trusted.
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <limits>

@@ -11,6 +11,7 @@
 #include "cotan/lint/lint.hpp"
 #include "cotan/scene/check.hpp"
 #include "cotan/scene/geometry.hpp"
+#include "cotan/scene/view_check.hpp"
 #include "cotan/shapes/shapes.hpp"
 
 namespace cotan {
@@ -83,10 +84,11 @@ const Fault kBroken[] = {
     {[](Scene& s) { s.instances[0].mesh = -1; }, "instance 0: expected a mesh below 1, found -1"},
 };
 
-template<class T> void expectRefused(const Result<T>& result, const std::string& line)
+template<class T>
+void expectRefused(const Result<T>& result, const std::string& line, ErrorKind kind = ErrorKind::input)
 {
     ASSERT_FALSE(result) << line;
-    EXPECT_EQ(result.error().kind, ErrorKind::input);
+    EXPECT_EQ(result.error().kind, kind);
     EXPECT_TRUE(result.error().message.starts_with(line)) << result.error().message;
 }
 
@@ -136,6 +138,33 @@ TEST(SceneCheck, numbersThatAreNotFiniteAreDrawnAndLintedButNotBaked)
         EXPECT_EQ(lintScene(scene).primitives.size(), 1u);
         expectRefused(checkScene(scene, "mine"), "mine: mesh 0: position 4: expected finite numbers");
         expectRefused(bakeModel(scene, {.scenes = {soundScene()}, .maps = {}}, smallBake()), "low: mesh 0: position 4");
+    }
+}
+
+TEST(SceneCheck, bothRenderersRefuseAViewThatShowsNothing)
+{
+    const Scene scene = soundScene();
+    const float bad = std::numeric_limits<float>::quiet_NaN();
+    const std::pair<void (*)(View&, float), std::string> wrong[] = {
+        {[](View& v, float) { v.width = 0; }, "view: expected a width and a height from 1 on; found 0x16"},
+        {[](View& v, float) { v.frame = Frame(99); }, "view.frame: expected 0 to " + std::to_string(kFrameCount - 1) + "; found 99"},
+        {[](View& v, float) { v.samples = 3; }, "view.samples: expected 1, 4 or 16; found 3"},
+        {[](View& v, float n) { v.exposure = n; }, "view.exposure: expected a finite number; found nan"},
+        {[](View& v, float n) { v.camera.eye.y = n; }, "view.camera: expected finite numbers"},
+        {[](View& v, float) { v.camera.target = v.camera.eye; },
+         "view.camera: the eye and the target are the same point"},
+        {[](View& v, float) { v.camera.up = v.camera.target - v.camera.eye; },
+         "view.camera: expected a direction up across the line of sight; found one along it, or zero"},
+        {[](View& v, float) { v.camera.verticalFieldOfView = 0; },
+         "view.camera: expected a verticalFieldOfView over 0 and below pi; found 0.000000"},
+    };
+    EXPECT_TRUE(checkView(smallView(scene)));
+    for (const auto& [make, message] : wrong) {
+        View view = smallView(scene);
+        make(view, bad);
+        expectRefused(checkView(view), message, ErrorKind::usage);
+        for (const char* device : {"reference", "auto"})
+            expectRefused(drawView(scene, view, device), message, ErrorKind::usage);
     }
 }
 

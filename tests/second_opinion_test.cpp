@@ -2,6 +2,7 @@
 // pairs, and a third picture with four times their difference, are left in the build folder, to be looked at.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <map>
 #include <numbers>
 

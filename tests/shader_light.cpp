@@ -1,4 +1,5 @@
 // Lighting in every language: what is lit, and how far from the portable text in double a result is.
+#include <algorithm>
 #include <cmath>
 #include <limits>
 

@@ -1,6 +1,8 @@
 // Soft shadows on the model against rays to an area light.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "cotan/environment/environment.hpp"
 #include "cotan/ground/ground.hpp"
 #include "ground_scene.hpp"

@@ -10,7 +10,7 @@ failed = [case.get("name") for case in cases if case.find("failure") is not None
 for case in cases:
     text = case.findtext("system-out") or ""
     if case.find("skipped") is not None or "[  SKIPPED ]" in text:
-        found = re.search(r": Skipped\n(.+)", text)
+        found = re.search(r": Skipped\n(.+)", text) or re.search(r"^skipped: (.+)", text, re.MULTILINE)
         skipped[found.group(1).strip() if found else "no reason was given"].append(case.get("name"))
 seconds = sum(float(case.get("time") or 0) for case in cases)
 number = sum(len(names) for names in skipped.values())

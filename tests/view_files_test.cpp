@@ -1,6 +1,8 @@
 // What `cotan view` opens, and what it cannot.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "cotan/shapes/shapes.hpp"
 #include "quad_model.hpp"
 #include "view_window.hpp"
@@ -96,7 +98,7 @@ TEST(ViewWindow, itsHotSpotsAreThoseOfLintAndTheCameraGoesThere)
     ASSERT_FALSE(spots.empty());
     const std::string report = readWhole(folder / "r.txt");
     EXPECT_EQ(lineOf(report, "hot spots"), std::to_string(spots.size()));
-    EXPECT_EQ(lineOf(report, "hot spot"), spots[0]["text"]);
+    EXPECT_EQ(lineOf(report, "hot spot"), spots[0]["text"].get<std::string>());
     EXPECT_NE(run.out.find(spots[0]["camera"].get<std::string>()), std::string::npos) << run.out;
 }
 

@@ -9,9 +9,9 @@ if(TARGET cotan_viewer)
     cotan_test(view_window_test
       SOURCES view_animation_test.cpp view_display_test.cpp view_files_test.cpp view_random_test.cpp view_window_test.cpp
       LIBRARIES cotan_model cotan_image cotan_shapes fmt::fmt)
-    if(CotanWindow_BUS_LIBRARY AND CotanWindow_BUS_INCLUDE_DIR)
+    if(COTAN_BUS_LIBRARY AND COTAN_BUS_INCLUDE_DIR)
       target_sources(view_window_test PRIVATE view_portal_test.cpp)
-      target_link_libraries(view_window_test PRIVATE ${CotanWindow_BUS_LIBRARY})
+      target_link_libraries(view_window_test PRIVATE ${COTAN_BUS_LIBRARY})
     endif()
     target_compile_definitions(view_window_test PRIVATE COTAN_TOOL="$<TARGET_FILE:cotan>")
     add_dependencies(view_window_test cotan)

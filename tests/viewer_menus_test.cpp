@@ -38,6 +38,26 @@ TEST(ViewerMenus, everyEntryCanBeDoneAndNoKeyHasTwoMeanings)
         EXPECT_TRUE(keys.contains(key)) << key;
 }
 
+// With text of 200 % a line takes 40 pixels of the 720, and the bar one.
+TEST(ViewerMenus, everyMenuAndSubmenuFitsASmallWindowWithLargeText)
+{
+    State state = withModel();
+    for (int i = 0; i < 12; ++i)
+        state.recent.push_back(fmt::format("/models/{}.glb", i));
+    std::map<std::string, std::size_t> lines;
+    std::string last;
+    for (const Entry& entry : entriesOf(state)) {
+        const std::string place = entry.menu + "/" + entry.submenu;
+        if (place != last && !entry.submenu.empty())
+            ++lines[entry.menu + "/"]; // its title
+        last = place;
+        ++lines[place];
+    }
+    EXPECT_GT(lines.size(), 12u);
+    for (const auto& [place, count] : lines)
+        EXPECT_LE(count, kMostLines) << place;
+}
+
 TEST(ViewerMenus, theSheetHasEveryKeyAndSaysWhatIsOn)
 {
     State state = withModel();

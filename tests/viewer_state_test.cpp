@@ -297,7 +297,7 @@ TEST(ViewerFiles, aChangeIsToldOnceAndNotBeforeItRests)
     const fs::path file = folder / "a.glb";
     std::ofstream(file) << "one";
     Watch watch;
-    watch.on(file);
+    watch.on({file});
     EXPECT_FALSE(watch.changed(0));
     EXPECT_FALSE(watch.changed(1));
     std::ofstream(file) << "longer";
@@ -310,6 +310,28 @@ TEST(ViewerFiles, aChangeIsToldOnceAndNotBeforeItRests)
     std::ofstream(file) << "back again";
     EXPECT_FALSE(watch.changed(7));
     EXPECT_TRUE(watch.changed(8));
+}
+
+TEST(ViewerFiles, aModelsOwnPicturesAreWatchedAlsoWhereTheyAreReplacedByRenaming)
+{
+    test::TemporaryFolder folder;
+    std::ofstream(folder / "a.gltf") << R"({"images": [{"uri": "a%20map.png"}, {"uri": "data:image/png;base64,AA"}],
+                                            "buffers": [{"uri": "a.bin"}, {"uri": "gone.bin"}]})";
+    for (const char* name : {"a map.png", "a.bin", "b.obj", "b.mtl", "b.png"})
+        std::ofstream(folder / name) << "one";
+    const std::vector<fs::path> files = filesOf(folder / "a.gltf", {});
+    EXPECT_EQ(files, (std::vector{folder / "a.gltf", folder / "a.bin", folder / "a map.png"}));
+    EXPECT_EQ(filesOf(folder / "b.obj", {"b.png", "gone.png"}),
+              (std::vector{folder / "b.obj", folder / "b.png", folder / "b.mtl"}));
+    Watch watch;
+    watch.on(files);
+    EXPECT_FALSE(watch.changed(0));
+    std::ofstream(folder / "a map.png.part") << "another";
+    fs::rename(folder / "a map.png.part", folder / "a map.png");
+    EXPECT_FALSE(watch.changed(1));
+    watch.on(files); // the model was read again meanwhile: the change is not forgotten
+    EXPECT_TRUE(watch.changed(2));
+    EXPECT_FALSE(watch.changed(3));
 }
 
 } // namespace

@@ -5,6 +5,7 @@ add_test(NAME web_package COMMAND ${PROJECT_SOURCE_DIR}/scripts/npm-package ${PR
 set_tests_properties(web_package PROPERTIES FIXTURES_SETUP web SKIP_RETURN_CODE 3 TIMEOUT 1200)
 find_program(COTAN_NODE node)
 if(NOT COTAN_NODE)
+  cotan_without(Node.js "not found: install nodejs" "no tests of the npm package and of the page")
   return()
 endif()
 # cotan_web_test(FILE ARGUMENTS... CASES...): each case is a test by itself.

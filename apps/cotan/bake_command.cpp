@@ -1,5 +1,7 @@
 #include "commands.hpp"
 
+#include <cctype>
+
 #include <fmt/format.h>
 #include <sys/resource.h>
 
@@ -85,8 +87,12 @@ void explain(const BakeCommandOptions& o, const BakeJob& job, const BakeStatisti
              "or rays hit another part",
              s.negative, s.covered);
     if (s.twice > 0)
-        warn(o, "{} of {} covered texels are claimed by several triangles; the first in the file won", s.twice,
-             s.covered);
+        warn(o, "{} of {} covered texels are claimed by several triangles; the first in the file won{}", s.twice,
+             s.covered,
+             job.objects > 1 ? fmt::format("; the low mesh has {} objects: --per-object makes a map for each, --object "
+                                           "NAME one",
+                                           job.objects)
+                             : "");
     const bool perTriangle = !readsVertices(job.frame()) && job.frame() != Frame::orthonormal;
     if (job.setup.options.bake.kind == BakeKind::normal && perTriangle)
         warn(o,
@@ -130,6 +136,31 @@ Status writeBakedModel(const BakeCommandOptions& o, const BakeJob& job, const Im
     return Done{};
 }
 
+// What one map is written to.
+std::vector<PlannedOutput> filesOf(const BakeCommandOptions& o)
+{
+    std::vector<PlannedOutput> files = {{"-o", o.output}, {"--mask", o.mask}};
+    if (!o.verify.empty())
+        for (const PlannedOutput& picture : plannedIn("--verify", o.verify, picturesOf(kBakeNames, kBakeViews)))
+            files.push_back(picture);
+    return files;
+}
+
+// What goes with maps of single objects.
+Status checkObjects(const BakeCommandOptions& o)
+{
+    const char* const option = o.perObject ? "--per-object" : "--object";
+    if (!o.perObject && o.object.empty())
+        return Done{};
+    if (o.perObject && !o.object.empty())
+        return usageError("--per-object: makes a map for each object; expected it without --object; found both");
+    if (namedAsGltf(o.output))
+        return usageError(fmt::format("-o {}: expected a picture with {}; found a model", o.output.string(), option));
+    if (o.perObject && !o.cage.empty())
+        return usageError("--per-object: expected no --cage, which belongs to one object; --object NAME takes one");
+    return Done{};
+}
+
 // Hours may pass before anything is written: what would fail then fails now.
 Status checkOutputs(const BakeCommandOptions& o)
 {
@@ -139,15 +170,13 @@ Status checkOutputs(const BakeCommandOptions& o)
         return usageError("--verify: only maps of the kind normal can be drawn and compared");
     if (Status ok = checkModelOutput(o); !ok)
         return ok;
+    if (Status ok = checkObjects(o); !ok)
+        return ok;
     if (o.bits == 32 && !imageFormatHas(o.output, &ImageFormat::negative))
         return usageError(fmt::format("--bits 32: expected a map named {}; found '{}'",
                                       imageEndings(&ImageFormat::negative, ", ", " or "), o.output.string()));
-    std::vector<PlannedOutput> files = {{"-o", o.output}, {"--mask", o.mask}};
-    if (!o.verify.empty())
-        for (const PlannedOutput& picture : plannedIn("--verify", o.verify, picturesOf(kBakeNames, kBakeViews)))
-            files.push_back(picture);
     warnIfLossy(o, o.output);
-    return planOutputs(o, files);
+    return planOutputs(o, o.perObject ? std::vector<PlannedOutput>() : filesOf(o));
 }
 
 // Who reads a map for that frame, and how.
@@ -162,10 +191,9 @@ std::string readersOf(Frame frame)
                        name(frame));
 }
 
-Status run(const BakeCommandOptions& o)
+// Makes one map, and describes it.
+Result<Json> bakeOne(const BakeCommandOptions& o)
 {
-    if (Status ok = checkOutputs(o); !ok)
-        return ok;
     Stopwatch watch;
     const auto job = withProgress(o, 0, "loading the meshes", [&](const Progress&) { return loadBake(o); });
     if (!job)
@@ -181,18 +209,19 @@ Status run(const BakeCommandOptions& o)
     explain(o, *job, baked->statistics);
     if (!o.mask.empty())
         if (Status w = writeImage(o.mask, baked->mask); !w)
-            return w;
+            return w.error();
     watch.lap();
     if (Status w = namedAsGltf(o.output) ? writeBakedModel(o, *job, image) : writeImage(o.output, image); !w)
-        return w;
+        return w.error();
     const double writeSeconds = watch.lap();
     say(o, "map in {} ({}, {}, {} bit); peak memory {:.0f} MiB", o.output.string(), o.kind,
         o.kind == "normal" ? o.frame + ", " + o.convention : "world axes", o.bits, peakMegabytes());
     if (o.kind == "normal")
         say(o, readersOf(job->frame()));
-    Json report{{"command", "bake"},
-                {"low", o.low},
+    Json report{{"low", o.low},
                 {"high", o.high},
+                {"object", o.object.empty() ? Json(nullptr) : Json(o.object)},
+                {"output", o.output.string()},
                 {"frame", o.frame},
                 {"kind", o.kind},
                 {"size", {image.width, image.height}},
@@ -211,6 +240,69 @@ Status run(const BakeCommandOptions& o)
             return verified.error();
         report["verify"] = *verified;
     }
+    return report;
+}
+
+// An object's name as a part of a file's.
+std::string inFileName(const std::string& object)
+{
+    std::string name = object.empty() ? "unnamed" : object;
+    for (char& c : name)
+        if (const auto byte = static_cast<unsigned char>(c);
+            byte < 128 && !std::isalnum(byte) && c != '.' && c != '-' && c != '_')
+            c = '_';
+    return name;
+}
+
+// map.png of the object lid: map-lid.png. Empty stays empty.
+std::filesystem::path fileOf(const std::filesystem::path& file, const std::string& object)
+{
+    if (file.empty())
+        return {};
+    const std::string name = file.stem().string() + "-" + inFileName(object) + file.extension().string();
+    return std::filesystem::path(file).replace_filename(name);
+}
+
+// A map for each object.
+Result<Json> bakeEach(const BakeCommandOptions& o)
+{
+    const auto names = lowObjects(o);
+    if (!names)
+        return names.error();
+    std::vector<BakeCommandOptions> all;
+    std::vector<PlannedOutput> files;
+    for (const std::string& name : *names) {
+        BakeCommandOptions& one = all.emplace_back(o);
+        one.object = name;
+        one.output = fileOf(o.output, name);
+        one.mask = fileOf(o.mask, name).string();
+        if (!o.verify.empty())
+            one.verify = o.verify / inFileName(name);
+        for (PlannedOutput& file : filesOf(one))
+            files.push_back(std::move(file));
+    }
+    if (const auto planned = cotan::planOutputs(std::move(files)); !planned)
+        return planned.error();
+    Json objects = Json::array();
+    for (const BakeCommandOptions& one : all) {
+        say(o, "{}:", one.object);
+        auto report = bakeOne(one);
+        if (!report)
+            return report.error();
+        objects.push_back(std::move(*report));
+    }
+    return Json{{"objects", objects}};
+}
+
+Status run(const BakeCommandOptions& o)
+{
+    if (Status ok = checkOutputs(o); !ok)
+        return ok;
+    const auto baked = o.perObject ? bakeEach(o) : bakeOne(o);
+    if (!baked)
+        return baked.error();
+    Json report = {{"command", "bake"}};
+    report.update(*baked);
     return writeReport(o, report);
 }
 
@@ -225,7 +317,7 @@ void declare(Arguments& a, BakeCommandOptions& o)
     a.option("--kind", o.kind, "what to bake: normal, object-normal, height (model units) or ao")
         .from({"normal", "object-normal", "height", "ao"})
         .in("NAME");
-    a.option("--size", o.size, "width and height in texels").in("WxH");
+    a.option("--size", o.size, "width and height in texels; 512 is 512x512").in("WxH");
     a.option("--samples", o.samples, "samples per texel: 1, 4 or 16").from({1, 4, 16}).in("N");
     a.option(
          "--search", o.search,
@@ -246,6 +338,13 @@ void declare(Arguments& a, BakeCommandOptions& o)
         .in("FILE")
         .reads();
     a.flag("--match-by-name", o.matchByName, "bake each low mesh NAME_low from the high mesh NAME_high only");
+    addUpOption(a, o.up, "the files");
+    a.option("--high-up", o.highUp, "the same of the high mesh alone, where it is another: y or z")
+        .from({"y", "z"})
+        .in("NAME");
+    a.option("--object", o.object, "bake this object of the low mesh only: the name of its node, else of its mesh")
+        .in("TEXT");
+    a.flag("--per-object", o.perObject, "make a map for each object of the low mesh: -o map.png is map-NAME.png");
     a.option("--material", o.material, "number of the low mesh's material to bake; -1: all").within(-1, 100000).in("N");
     a.option("--udim", o.udim, "tile of the texture coordinates to bake").within(1001, 1999).in("N");
     addTangentsOption(a, o.tangents,

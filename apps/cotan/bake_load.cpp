@@ -5,13 +5,18 @@
 #include <string_view>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "cotan/convention_words.hpp"
+#include "cotan/files/extension.hpp"
 #include "cotan/image/convert.hpp"
 #include "cotan/image/file.hpp"
+#include "cotan/scene/bounds.hpp"
 #include "cotan/scene/meant_frame.hpp"
 #include "cotan/scene/normal_format.hpp"
+#include "cotan/scene/objects.hpp"
 #include "cotan/scene/stored_green.hpp"
+#include "cotan/scene/up.hpp"
 #include "gltf_open.hpp"
 #include "parse.hpp"
 
@@ -140,12 +145,21 @@ Result<BakeModelOptions> parseOptions(const BakeCommandOptions& o)
     return options;
 }
 
+std::string highUp(const BakeCommandOptions& o) { return o.highUp.empty() ? o.up : o.highUp; }
+
+Result<Scene> loadUp(const BakeCommandOptions& o, const std::string& file, const std::string& up, Pixels pixels)
+{
+    LoadLimits limits = limitsFor(o.memory, pixels);
+    limits.up = upFrom(up);
+    return loadSceneWithin(limits, file);
+}
+
 // The high meshes, and the images of --high-map where they count.
 Result<HighModel> loadHigh(const BakeCommandOptions& o, bool mapsCount)
 {
     HighModel high;
     for (const std::string& file : o.high) {
-        auto scene = loadSceneWithin(o.memory, file, o.highNormals == "map" ? Pixels::all : Pixels::none);
+        auto scene = loadUp(o, file, highUp(o), o.highNormals == "map" ? Pixels::all : Pixels::none);
         if (!scene)
             return scene.error();
         high.scenes.push_back(std::move(*scene));
@@ -173,6 +187,52 @@ std::optional<Frame> namedHighFrame(const HighModel& high)
     return std::nullopt;
 }
 
+bool mayHaveZUp(const std::string& file)
+{
+    const std::string ending = lowerExtension(file);
+    return ending == ".ply" || ending == ".stl";
+}
+
+// The options with which two sides would lie over one another; empty where no options are.
+std::string turnOptions(const BakeCommandOptions& o, LikelyTurn turn)
+{
+    std::string low = o.up, high = highUp(o);
+    const bool ofHigh =
+        turn == LikelyTurn::first || (turn == LikelyTurn::either && (mayHaveZUp(o.high.front()) || !mayHaveZUp(o.low)));
+    std::string &undone = ofHigh ? low : high, &done = ofHigh ? high : low;
+    if (undone == "z") // what was asked for may be what is wrong
+        undone = "y";
+    else if (done == "y")
+        done = "z";
+    else
+        return {};
+    return low == high ? "--up " + low
+        : low == "z"   ? "--up z --high-up y"
+        : o.up == "z"  ? "--up y --high-up z"
+                       : "--high-up z";
+}
+
+// What to say where the meshes do not lie over one another and would if one side were turned; empty where they do.
+std::string turnWarning(const BakeCommandOptions& o, std::initializer_list<const Scene*> low, const HighModel& high)
+{
+    const auto add = [](Bounds& box, const Scene& scene) {
+        const Bounds more = bounds(scene);
+        box = {glm::min(box.low, more.low), glm::max(box.high, more.high)};
+    };
+    Bounds lowBox = emptyBounds(), highBox = emptyBounds();
+    for (const Scene* scene : low)
+        add(lowBox, *scene);
+    for (const Scene& scene : high.scenes)
+        add(highBox, scene);
+    const LikelyTurn turn = likelyTurn(highBox, lowBox);
+    const std::string options = turn == LikelyTurn::none ? "" : turnOptions(o, turn);
+    return options.empty()
+        ? ""
+        : fmt::format("the low and the high mesh do not lie over one another, and would if one were turned by 90 "
+                      "degrees: it probably has z up; try {}",
+                      options);
+}
+
 // What was odd about the files, each line once also where both are one file.
 std::vector<std::string> warningsOf(const BakeCommandOptions& o, const Scene& low, const HighModel& high,
                                     bool mapsCount)
@@ -190,7 +250,27 @@ std::vector<std::string> warningsOf(const BakeCommandOptions& o, const Scene& lo
     return warnings;
 }
 
+Status checkObject(const BakeCommandOptions& o, const std::vector<std::string>& names)
+{
+    if (std::ranges::find(names, o.object) != names.end())
+        return Done{};
+    return inputError(fmt::format("--object: {} has no object '{}'; expected {}", o.low, o.object,
+                                  names.size() == 1 ? fmt::format("'{}'", names[0])
+                                                    : fmt::format("one of '{}'", fmt::join(names, "', '"))));
+}
+
 } // namespace
+
+Result<std::vector<std::string>> lowObjects(const BakeCommandOptions& o)
+{
+    const auto low = loadSceneWithin(o.memory, o.low, Pixels::none);
+    if (!low)
+        return low.error();
+    auto names = objectNames(*low);
+    if (names.empty())
+        return inputError(fmt::format("{}: expected objects with triangles; found none", o.low));
+    return names;
+}
 
 Error inWordsOfBake(const BakeCommandOptions& o, const Error& error)
 {
@@ -216,13 +296,22 @@ Result<BakeJob> loadBake(const BakeCommandOptions& o)
     if (const auto why = HighSurface::unavailable())
         return *why;
     const bool mapsCount = options->ownMaps && showsNormals(options->bake.kind);
-    auto low = loadSceneWithin(o.memory, o.low);
+    auto low = loadUp(o, o.low, o.up, Pixels::all);
     if (!low)
         return low.error();
     restoreDeclaredGreen(*low); // the new map takes the place of the old one, beside the tangents as they are stored
+    Scene others;
+    if (!o.object.empty()) {
+        if (Status known = checkObject(o, objectNames(*low)); !known)
+            return known.error();
+        SplitScene split = splitObject(std::move(*low), o.object);
+        *low = std::move(split.object);
+        others = std::move(split.others);
+        options->others = &others;
+    }
     Scene cage;
     if (!o.cage.empty()) {
-        auto scene = loadSceneWithin(kDefaultMemory, o.cage, Pixels::none);
+        auto scene = loadUp(o, o.cage, o.up, Pixels::none);
         if (!scene)
             return scene.error();
         cage = std::move(*scene);
@@ -234,11 +323,14 @@ Result<BakeJob> loadBake(const BakeCommandOptions& o)
     if (mapsCount && o.highFrame.empty())
         options->highFrame = namedHighFrame(*high).value_or(options->highFrame);
     std::vector<std::string> warnings = warningsOf(o, *low, *high, mapsCount);
+    if (std::string turn = turnWarning(o, {&*low, &others}, *high); !turn.empty())
+        warnings.push_back(std::move(turn));
     auto setup = prepareBake(*low, std::move(*high), *options);
     if (!setup)
         return inWordsOfBake(o, setup.error());
     warnings.insert(warnings.end(), setup->warnings.begin(), setup->warnings.end());
-    return BakeJob{std::move(*low), std::move(*setup), std::move(warnings)};
+    const std::size_t objects = objectNames(*low).size();
+    return BakeJob{std::move(*low), std::move(*setup), std::move(warnings), objects};
 }
 
 } // namespace cotan::app

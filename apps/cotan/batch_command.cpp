@@ -19,7 +19,8 @@ struct BatchOptions : CommonOptions {
     std::string jobs, shard, thumbnails = "pictures";
     std::vector<std::string> stores;
     int processes = 0, rows = 50000, memory = -1; // memory: below 0, the machine's share
-    double seconds = 3600;
+    int retries = 0;
+    double seconds = 3600, processorSeconds = 0;
     bool merge = false, again = false;
 };
 
@@ -60,6 +61,8 @@ RunOptions runOptions(const BatchOptions& o)
     run.processes = o.processes > 0 ? std::size_t(o.processes) : cores;
     run.threads = int(std::max<std::size_t>(1, (o.threads > 0 ? std::size_t(o.threads) : cores) / run.processes));
     run.seconds = o.seconds;
+    run.processorSeconds = o.processorSeconds;
+    run.retries = o.retries;
     run.megabytes = o.memory >= 0 ? std::size_t(o.memory) : megabytesHere() / run.processes;
     run.again = o.again;
     run.thumbnails = o.thumbnails == "none" ? Thumbnails::none
@@ -116,9 +119,14 @@ Status verdict(const JobList& list, const std::vector<JobResult>& all)
 {
     if (all.empty())
         return Done{};
-    const JobResult& worst = all[worstFirst(all).front()];
     const StateCounts counts = countsOf(all);
     const std::size_t good = counts[std::size_t(JobState::done)] + counts[std::size_t(JobState::limit)];
+    const std::vector<std::size_t> order = worstFirst(all);
+    // Of those that the sentence is about.
+    const JobResult& worst = all[*std::ranges::find_if(order, [&](std::size_t i) {
+        const JobState state = all[i].record.state;
+        return good == all.size() || (state != JobState::done && state != JobState::limit);
+    })];
     const std::string first = fmt::format("the worst is '{}': {}", list.jobs[worst.job].name, worst.record.reason);
     if (good < all.size())
         return inputError(fmt::format("{} of {} jobs are not done; {}", all.size() - good, all.size(), first));
@@ -189,7 +197,16 @@ void declare(Arguments& a, BatchOptions& o)
         .in("K/N");
     a.flag("--merge", o.merge, "run nothing; report what the stores hold");
     a.flag("--again", o.again, "run all jobs, also those whose results are kept");
-    a.option("--limit-seconds", o.seconds, "time that a job may take").above0().in("S");
+    a.option("--limit-time,--limit-seconds", o.seconds, "time on the clock that a job may take").above0().in("S");
+    a.option("--limit-processor-time", o.processorSeconds,
+             "processor time that the process of a job may take, its threads together, which does not depend on what "
+             "else the machine does; whole seconds; 0: no limit")
+        .within(0.0, 1e6)
+        .in("S");
+    a.option("--retries", o.retries,
+             "how often a job runs again that was ended by a limit or a signal, or lacked something here")
+        .within(0, 100)
+        .in("N");
     a.option("--limit-memory", o.memory,
              "memory that a process of a job may take, in MiB; 0: no limit; default: the machine's, divided by --jobs")
         .within(0, 1 << 24)
@@ -215,7 +232,7 @@ void addBatchCommand(Arguments& tool)
     declare(command, *options);
     addExamples(command,
                 {"cotan batch jobs.jsonl --jobs 2 -o report.html",
-                 "cotan batch jobs.jsonl --shard 3/8 --store results --limit-seconds 600",
+                 "cotan batch jobs.jsonl --shard 3/8 --store results --limit-time 600",
                  "cotan batch jobs.jsonl --merge --store results -o report.html"});
     command.does([options, &tool] { return run(tool, *options); });
 }

@@ -10,6 +10,7 @@
 #include "cotan/files/output.hpp"
 #include "cotan/image/format_table.hpp"
 #include "cotan/parallel/loops.hpp"
+#include "cotan/report/report_format.hpp"
 #include "cotan/terminal/progress_line.hpp"
 
 namespace cotan::app {
@@ -75,6 +76,8 @@ Status flushOutput()
 {
     if (printErrno == 0 && std::fflush(stdout) != 0)
         printErrno = errno;
+    if (printErrno == EPIPE) // the reader, such as `head`, has what it wanted
+        return Done{};
     if (printErrno != 0)
         return outputError("standard output: cannot write: " + reasonOf(printErrno));
     return Done{};
@@ -84,7 +87,7 @@ Status writeReport(const CommonOptions& options, const Json& report)
 {
     if (options.json.empty())
         return Done{};
-    const std::string text = toText(report);
+    const std::string text = toText(versioned(report));
     if (options.json == "-") {
         print(text);
         return flushOutput();

@@ -83,10 +83,12 @@ Status planOutputs(const CommonOptions& options, std::vector<PlannedOutput> file
 // Prints on standard output. It does not fail: the first error is kept for flushOutput.
 void print(const std::string& text);
 
-// Whether all that was printed has arrived. Errors: ErrorKind::output.
+// Whether all that was printed has arrived, or its reader has closed the pipe and wants no more. Errors:
+// ErrorKind::output.
 Status flushOutput();
 
-// Writes the report where --json says; nothing if it was not asked for.
+// Writes the report where --json says, with its format and version (docs/json.md); nothing if it was not asked for. It
+// has the member "command".
 Status writeReport(const CommonOptions& options, const Json& report);
 
 // Prints a line on standard output unless --quiet was given or the report goes there.

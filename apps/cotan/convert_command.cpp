@@ -26,7 +26,7 @@ struct ConvertCommandOptions : CommonOptions {
     std::string model;
     std::string from, to; // from: empty for the frame that the file names, or mikktspace
     std::string tangents = "stored";
-    bool keepTangents = false;
+    bool keepTangents = false, keepMaps = false;
     std::string provoking; // empty: vertices stay
     int memory = kDefaultMemory;
     int bits = 0; // 0: as the old map
@@ -51,7 +51,8 @@ Result<Frame> frameFor(const char* option, const std::string& text)
 Status checkVerticesOnly(const ConvertCommandOptions& o)
 {
     if (o.provoking.empty())
-        return usageError("convert: expected --to-frame FRAME or --provoking first or last; found neither");
+        return usageError("convert: expected --to-frame FRAME or --provoking first or last; or "
+                          "--keep-maps; found none");
     const ConvertCommandOptions unset;
     for (const auto& [option, given] : {std::pair{"--from-frame", o.from != unset.from},
                                         {"--tangents", o.tangents != unset.tangents},
@@ -67,15 +68,22 @@ Status checkVerticesOnly(const ConvertCommandOptions& o)
 // The frames of the maps; none where the maps stay.
 Result<std::optional<FramePair>> checkUsage(const ConvertCommandOptions& o)
 {
-    if (o.to.empty())
+    if (o.keepMaps && (o.keepTangents || o.bits != 0))
+        return usageError(fmt::format("{}: with --keep-maps only the tangents go",
+                                      o.keepTangents ? "--keep-tangents" : "--bits"));
+    if (o.to.empty() && !o.keepMaps)
         if (Status alone = checkVerticesOnly(o); !alone)
             return alone.error();
     const auto from = frameFor("--from-frame", o.from.empty() ? "mikktspace" : o.from);
     if (!from)
         return from.error();
-    const auto to = o.to.empty() ? *from : frameFor("--to-frame", o.to);
+    const auto to = !o.to.empty() ? frameFor("--to-frame", o.to) : o.keepMaps ? Frame::orthonormal : *from;
     if (!to)
         return to.error();
+    if (o.keepMaps && readsTangents(*to))
+        return usageError(
+            fmt::format("--to-frame: expected a frame that reads no tangents, since --keep-maps drops them; found {}",
+                        name(*to)));
     if (o.output.empty())
         return usageError("convert: expected -o FILE; found none");
     if (Status names = checkGltfNames(o.model, o.output); !names)
@@ -90,7 +98,7 @@ Result<std::optional<FramePair>> checkUsage(const ConvertCommandOptions& o)
     std::error_code ignored;
     if (!o.verify.empty() && std::filesystem::equivalent(o.model, o.output, ignored))
         return usageError(fmt::format("--verify: compares with {}, which -o replaces; expected another -o", o.model));
-    if (o.to.empty())
+    if (o.to.empty() && !o.keepMaps)
         return std::optional<FramePair>();
     return std::optional(FramePair{*from, *to,
                                    o.tangents == "generated" ? TangentOrigin::generated : TangentOrigin::stored,
@@ -104,7 +112,7 @@ Result<ConvertModelReport> convert(const ConvertCommandOptions& o, const FramePa
     const auto mapDone = [&](const ConvertedMap& map) {
         if (std::exchange(first, false))
             say(o, "three figures are: mean / 95 % / maximum, by area of the surface");
-        for (const std::string& line : linesOf(map, o.to))
+        for (const std::string& line : linesOf(map, std::string(name(frames.to))))
             say(o, line);
     };
     auto done = withProgress(o, 1, "converting " + o.model, [&](Progress progress) {
@@ -112,6 +120,7 @@ Result<ConvertModelReport> convert(const ConvertCommandOptions& o, const FramePa
                             {.frames = frames,
                              .bits = o.bits,
                              .expansion = o.expansion == "biased" ? Expansion::biased : Expansion::exact,
+                             .keepMaps = o.keepMaps,
                              .keepTangents = o.keepTangents,
                              .threads = o.threads,
                              .memory = std::size_t(o.memory) << 20,
@@ -146,7 +155,7 @@ Status convertMaps(const ConvertCommandOptions& o, const FramePair& frames, Gltf
         return done.error();
     for (const ConvertedMap& map : done->maps)
         report["maps"].push_back(toJson(map));
-    for (const std::string& line : tangentsLines(*done, o.to))
+    for (const std::string& line : tangentsLines(*done, std::string(name(frames.to))))
         say(o, line);
     report["tangents"] = tangentsJson(*done);
     notes = done->notes;
@@ -187,7 +196,7 @@ Status run(const ConvertCommandOptions& o)
         if (*named && o.from.empty())
             (*frames)->from = **named;
         report.update(
-            {{"from", name((*frames)->from)}, {"to", o.to}, {"tangents_read", o.tangents}, {"unsigned", o.expansion}});
+            {{"from", name((*frames)->from)}, {"to", name((*frames)->to)}, {"tangents_read", o.tangents}, {"unsigned", o.expansion}});
     }
     report["output"] = o.output.string();
     report["maps"] = Json::array();
@@ -235,6 +244,9 @@ void declare(Arguments& a, ConvertCommandOptions& o)
     addTangentsOption(
         a, o.tangents,
         "for --from-frame mikktspace or vertex: stored (as in the file, generated where missing) or generated");
+    a.flag("--keep-maps", o.keepMaps,
+           "leave the maps byte for byte as they are, to be read with --to-frame (default then: orthonormal), and drop "
+           "the tangents only: the file never grows by maps");
     a.flag("--keep-tangents", o.keepTangents, "keep the tangents of the file");
     a.option("--bits", o.bits,
              "bits of the new maps, 8 or 16; writes all anew (default: bits of the old map; a map that fits stays)")
@@ -274,6 +286,7 @@ void addConvertCommand(Arguments& tool)
          "triangle",
          "the converted model, .glb or .gltf",
          {"cotan convert model.glb --to-frame smooth -o out.glb",
+          "cotan convert model.glb --keep-maps -o out.glb",
           "cotan convert model.glb --from-frame mikktspace --to-frame orthonormal -o out.glb --verify check",
           "cotan convert model.glb --provoking first -o out.glb"}},
         declare, run);

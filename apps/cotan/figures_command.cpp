@@ -73,7 +73,8 @@ Status run(const FiguresCommandOptions& o)
 
 void declare(Arguments& a, FiguresCommandOptions& o)
 {
-    a.option("--size", o.size, "width and height of a panel in pixels; square panels take the height").in("WxH");
+    a.option("--size", o.size, "width and height of a panel in pixels, 512 is 512x512; square panels take the height")
+        .in("WxH");
     const auto names = figures::figureNames();
     a.option("--only", o.only, fmt::format("figures to make, separated by commas: {}", fmt::join(names, ", ")))
         .in("NAMES")

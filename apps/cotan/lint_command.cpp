@@ -16,7 +16,7 @@ namespace cotan::app {
 namespace {
 
 struct LintCommandOptions : CommonOptions {
-    std::string model;
+    std::string model, up = "y";
     int memory = kDefaultMemory;
     bool details = false;
     OwnMaps maps;
@@ -36,8 +36,9 @@ std::string commandFor(const LintCommandOptions& o, const LintReport& report)
         return fmt::format("cotan render {} --frame orthonormal -o {}", quoted(o.model), quoted(stem + ".png"));
     if (report.mapsConverted == 0 && !report.dropsTangents)
         return {};
-    return fmt::format("cotan convert {} --from-frame mikktspace --to-frame {}{} -o {} --verify {}", quoted(o.model),
-                       to, report.distrustStored ? " --tangents generated" : "", quoted(stem + "-" + to + ".glb"),
+    return fmt::format("cotan convert {} --from-frame mikktspace --to-frame {}{}{} -o {} --verify {}", quoted(o.model),
+                       to, report.advice == Advice::readOrthonormal ? " --keep-maps" : "",
+                       report.distrustStored ? " --tangents generated" : "", quoted(stem + "-" + to + ".glb"),
                        quoted(stem + "-verify"));
 }
 
@@ -62,7 +63,9 @@ Status run(const LintCommandOptions& o)
     if (Status planned = planOutputs(o, {}); !planned)
         return planned;
     Stopwatch watch;
-    auto scene = loadTold(o, limitsFor(o.memory, Pixels::whereReadable), o.model);
+    LoadLimits limits = limitsFor(o.memory, Pixels::whereReadable);
+    limits.up = upFrom(o.up);
+    auto scene = loadTold(o, limits, o.model);
     if (!scene)
         return scene.error();
     if (Status applied = applyOwnMaps(o.maps, o.memory, *scene); !applied)
@@ -113,9 +116,7 @@ Status run(const LintCommandOptions& o)
                                   {"share", spot.share},
                                   {"camera", cameraWords(spot.camera)}});
     j["check"] = toJson(check);
-    j["over_limit"] = Json::array();
-    for (const LintFailure& failure : check.failures)
-        j["over_limit"].push_back(failure.text);
+    j["over_limit"] = overLimits(check);
     j["seconds"] = {{"load", loadSeconds}, {"lint", watch.lap()}};
     if (Status written = writeReport(o, j); !written)
         return written;
@@ -128,6 +129,7 @@ void declare(Arguments& a, LintCommandOptions& o)
 {
     a.find("--threads").unlisted(); // accepted by all commands, listed where it is used
     a.option("MODEL", o.model, "glTF, GLB, OBJ, PLY, STL, COLLADA, FBX or 3DS file").required().reads();
+    addUpOption(a, o.up);
     addMemoryOption(a, o.memory, ", and most that all triangles take besides the model");
     a.flag("--details", o.details,
            "print the figures of each primitive and map, too, and cameras that look at the worst places");
@@ -138,8 +140,8 @@ void declare(Arguments& a, LintCommandOptions& o)
         .in("D");
     a.option(
          "--limit", o.limits.degrees,
-         "a check: exit code 5 where the error with --frame exceeds this many degrees on more than 5 % of the area, "
-         "a map's green points the other way, or a normal map could not be judged")
+         "a check of each primitive by itself: exit code 5 where the error with --frame exceeds this many degrees on "
+         "more than 5 % of a primitive's area, a map's green points the other way, or a normal map could not be judged")
         .in("DEGREES")
         .withoutDefault();
     a.option("--limit-area", o.limits.area,

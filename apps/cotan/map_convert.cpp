@@ -14,7 +14,7 @@ struct MapConvertCommandOptions : MapOptions {
     std::string file, from, to;
     double strength = 1;
     bool normalise = false, dither = false;
-    std::string mesh, frame = "smooth", tangents = "stored", compress = "none";
+    std::string mesh, frame = "smooth", tangents = "stored", compress = "none", up = "y";
     int material = -1;
 };
 
@@ -25,6 +25,10 @@ Status run(const MapConvertCommandOptions& o)
         return conventions.error();
     const StatedConvention& from = conventions->first;
     const Convention& to = conventions->second.convention;
+    if (conventions->second.damage.any())
+        return usageError(fmt::format("--to: srgb, linearised, bgr and grb say how a broken map is stored; expected "
+                                      "others, found '{}'",
+                                      o.to));
     if (Status given = needOutput(o, "convert"); !given)
         return given;
     const bool blocks = o.compress != "none";
@@ -41,7 +45,7 @@ Status run(const MapConvertCommandOptions& o)
         if (!frame)
             return frame.error();
         options.mesh = {o.mesh, *frame, o.tangents == "stored" ? TangentOrigin::stored : TangentOrigin::generated,
-                        o.material};
+                        o.material, upFrom(o.up)};
     }
     const auto done =
         onFilesToMap(o, o.mesh.empty() ? o.file : "turning texels by the mesh", [&](const maps::FileOptions& files) {
@@ -78,9 +82,16 @@ void declare(Arguments& a, MapConvertCommandOptions& o)
 {
     addMemoryOption(a, o.memory);
     a.option("FILE", o.file, "the map").required().reads();
-    a.option("--from", o.from, "how the map is stored: " + conventionWords())
+    std::vector<std::string> words = conventionWordList();
+    std::string damages;
+    for (const std::string& word : damageWords()) {
+        words.push_back(word);
+        damages += ' ' + word;
+    }
+    a.option("--from", o.from,
+             "how the map is stored: " + conventionWords() + "; and of broken maps, which are mended:" + damages)
         .in("WORDS")
-        .offers(conventionWordList())
+        .offers(words)
         .required();
     a.option("--to", o.to, "how to store the result; the same words")
         .in("WORDS")
@@ -94,6 +105,7 @@ void declare(Arguments& a, MapConvertCommandOptions& o)
     addDither(a, o.dither);
     a.option("--mesh", o.mesh, "mesh of the map; needed to or from object space").in("FILE").reads();
     a.option("--frame", o.frame, "with --mesh: the frame that reads the tangent-space map").offers(frameWords());
+    addUpOption(a, o.up, "--mesh");
     a.option("--material", o.material, "with --mesh: only triangles of this material; -1: all").within(-1, 1 << 20);
     a.option("--tangents", o.tangents, "with --mesh, for the frames vertex and mikktspace: stored or generated")
         .from({"stored", "generated"});

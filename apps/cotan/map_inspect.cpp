@@ -1,7 +1,11 @@
 // `cotan map info` and `detect`: nothing is changed.
+#include <algorithm>
+#include <filesystem>
 #include <string>
+#include <system_error>
 #include <vector>
 
+#include "cotan/image/format_table.hpp"
 #include "cotan/map_files/inspect.hpp"
 #include "map_options.hpp"
 
@@ -9,42 +13,138 @@ namespace cotan::app {
 
 namespace {
 
+namespace fs = std::filesystem;
+
 struct InspectOptions : MapOptions {
-    std::string file;
+    std::vector<std::string> files; // or folders
 };
 
-// Says the lines, and writes the figures.
-Status tell(const InspectOptions& o, const std::vector<std::string>& lines, const char* command, const Json& figures)
+// What is said of one file.
+struct Looked {
+    std::vector<std::string> lines;
+    Json figures;
+    std::size_t brief; // how many of the lines are said of each of several files
+};
+
+using Look = Result<Looked> (*)(const InspectOptions& o, const std::string& file);
+
+// The pictures in a folder and those below it, in the order of their names.
+Result<std::vector<std::string>> picturesIn(const std::string& folder)
 {
-    for (const std::string& line : lines)
+    std::vector<std::string> files;
+    std::error_code error;
+    for (fs::recursive_directory_iterator at(folder, error), end; !error && at != end; at.increment(error))
+        if (std::error_code ignored; at->is_regular_file(ignored) && imageFormatHas(at->path(), &ImageFormat::reads))
+            files.push_back(at->path().string());
+    if (error)
+        return inputError(fmt::format("{}: cannot be read: {}", folder, error.message()));
+    if (files.empty())
+        return inputError(fmt::format("{}: expected a folder with pictures; found none", folder));
+    std::ranges::sort(files);
+    return files;
+}
+
+// All files that the words name.
+Result<std::vector<std::string>> filesOf(const InspectOptions& o)
+{
+    std::vector<std::string> all;
+    for (const std::string& name : o.files) {
+        if (std::error_code ignored; !fs::is_directory(name, ignored)) {
+            all.push_back(name);
+            continue;
+        }
+        const auto inside = picturesIn(name);
+        if (!inside)
+            return inside.error();
+        all.insert(all.end(), inside->begin(), inside->end());
+    }
+    return all;
+}
+
+Status runOne(const InspectOptions& o, const char* command, Look look)
+{
+    const auto looked = look(o, o.files.front());
+    if (!looked)
+        return looked.error();
+    for (const std::string& line : looked->lines)
         say(o, line);
-    Json report = {{"command", command}, {"file", o.file}};
-    report.update(figures);
+    Json report = {{"command", command}, {"file", o.files.front()}};
+    report.update(looked->figures);
     return writeReport(o, report);
 }
 
-Status runInfo(const InspectOptions& o)
+// One after the other; a file that cannot be read does not keep the others from it.
+Status runAll(const InspectOptions& o, const char* command, Look look)
 {
-    if (Status planned = planOutputs(o, {}); !planned)
-        return planned;
-    const auto found =
-        onFiles(o, o.file, [&](const maps::FileOptions& files) { return maps::surveyFile(o.file, files); });
-    return found ? tell(o, maps::linesOf(*found, o.file), "map info", maps::toJson(*found)) : found.error();
+    const auto files = filesOf(o);
+    if (!files)
+        return files.error();
+    std::vector<Error> errors;
+    Json all = Json::array();
+    for (const std::string& file : *files) {
+        const auto looked = look(o, file);
+        Json report = {{"file", file}};
+        if (looked) {
+            for (std::size_t i = 0; i < std::min(looked->brief, looked->lines.size()); ++i) {
+                const std::string& line = looked->lines[i];
+                say(o, line.starts_with(file) ? line : file + ": " + line);
+            }
+            report.update(looked->figures);
+        } else {
+            warn(o, looked.error().message);
+            errors.push_back(looked.error());
+            report["error"] = looked.error().message;
+        }
+        all.push_back(std::move(report));
+    }
+    if (Status written = writeReport(o, {{"command", command}, {"files", all}}); !written)
+        return written;
+    if (errors.empty())
+        return Done{};
+    return Error{errors.front().kind,
+                 fmt::format("{} of {} files cannot be judged; the first: {}", errors.size(), files->size(),
+                             errors.front().message)};
 }
 
-Status runDetect(const InspectOptions& o)
+Status run(const InspectOptions& o, const char* command, Look look)
 {
     if (Status planned = planOutputs(o, {}); !planned)
         return planned;
-    const auto found =
-        onFiles(o, o.file, [&](const maps::FileOptions& files) { return maps::greenOfFile(o.file, files); });
-    return found ? tell(o, maps::linesOf(*found), "map detect", maps::toJson(*found)) : found.error();
+    std::error_code ignored;
+    const bool one = o.files.size() == 1 && !fs::is_directory(o.files.front(), ignored);
+    return one ? runOne(o, command, look) : runAll(o, command, look);
 }
+
+Result<Looked> survey(const InspectOptions& o, const std::string& file)
+{
+    const auto found = onFiles(o, file, [&](const maps::FileOptions& files) { return maps::surveyFile(file, files); });
+    if (!found)
+        return found.error();
+    const auto lines = maps::linesOf(*found, file);
+    return Looked{lines, maps::toJson(*found), lines.size()};
+}
+
+Result<Looked> detect(const InspectOptions& o, const std::string& file)
+{
+    const auto found = onFiles(o, file, [&](const maps::FileOptions& files) { return maps::greenOfFile(file, files); });
+    if (!found)
+        return found.error();
+    const auto lines = maps::linesOf(*found, file);
+    // The verdict, and what is wrong.
+    const auto rest = std::ranges::find_if(lines.begin() + 1, lines.end(), [](const std::string& line) {
+        return !line.starts_with("wrong: ") && !line.starts_with("to mend it: ");
+    });
+    return Looked{lines, maps::toJson(*found), std::size_t(rest - lines.begin())};
+}
+
+Status runInfo(const InspectOptions& o) { return run(o, "map info", survey); }
+
+Status runDetect(const InspectOptions& o) { return run(o, "map detect", detect); }
 
 void declare(Arguments& a, InspectOptions& o)
 {
     addMemoryOption(a, o.memory);
-    a.option("FILE", o.file, "the map").required().reads();
+    a.option("FILE", o.files, "maps; of a folder all pictures in it and below").required().reads();
 }
 
 } // namespace
@@ -53,7 +153,7 @@ void addMapInfo(Arguments& map)
 {
     addCommand<InspectOptions>(map,
                                {"info",
-                                "properties of a map: lengths, tilt, centre, channels, and what is wrong",
+                                "properties of maps: lengths, tilt, centre, channels, and what is wrong",
                                 "",
                                 {"cotan map info rocks.png", "cotan map info rocks.png --json rocks.json"}},
                                declare, runInfo);
@@ -61,12 +161,13 @@ void addMapInfo(Arguments& map)
 
 void addMapDetect(Arguments& map)
 {
-    addCommand<InspectOptions>(map,
-                               {"detect",
-                                "which way green points, and how sure that is",
-                                "",
-                                {"cotan map detect rocks.png", "cotan map detect rocks.png --json rocks.json"}},
-                               declare, runDetect);
+    addCommand<InspectOptions>(
+        map,
+        {"detect",
+         "which way green points, and how sure that is",
+         "",
+         {"cotan map detect rocks.png", "cotan map detect rocks.png grain.png --json maps.json"}},
+        declare, runDetect);
 }
 
 } // namespace cotan::app

@@ -129,7 +129,7 @@ Status run(const ShaderCommandOptions& o)
     } else if (o.json != "-") {
         print(text->text);
     }
-    Json report;
+    Json report = {{"command", "shader"}};
     report["language"] = name(choice->language);
     report["frame"] = name(choice->frame);
     report["form"] = text->form == Form::fused ? "fused" : "total";

@@ -27,7 +27,11 @@ struct Entry {
     std::string menu, label, key, command; // an empty command: a line between entries
     bool on = false, usable = true;
     std::string standing; // of what is neither on nor off: its value, for the cheat sheet
+    std::string submenu;  // of the menu, where it stands with the entries beside it; empty: none
 };
+
+// Lines that a menu or submenu has at most: so many fit under each other in 720 pixels with text of 200 %.
+inline constexpr std::size_t kMostLines = 17;
 
 // In the order of the menus.
 std::vector<Entry> entriesOf(const State& state);

@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <array>
+#include <fstream>
 #include <string_view>
 #include <system_error>
-#include <vector>
+
+#include <nlohmann/json.hpp>
 
 #include "cotan/files/extension.hpp"
 #include "cotan/image/format_table.hpp"
@@ -28,6 +30,19 @@ int digit(char c)
         : c >= 'a' && c <= 'f'  ? c - 'a' + 10
         : c >= 'A' && c <= 'F'  ? c - 'A' + 10
                                 : -1;
+}
+
+std::string percentDecoded(const std::string& text)
+{
+    std::string decoded;
+    for (std::size_t i = 0; i < text.size(); ++i)
+        if (text[i] == '%' && i + 2 < text.size() && digit(text[i + 1]) >= 0 && digit(text[i + 2]) >= 0) {
+            decoded += char(16 * digit(text[i + 1]) + digit(text[i + 2]));
+            i += 2;
+        } else {
+            decoded += text[i];
+        }
+    return decoded;
 }
 
 } // namespace
@@ -75,16 +90,8 @@ std::string pathOf(std::string text)
     constexpr std::string_view kScheme = "file://";
     if (!text.starts_with(kScheme))
         return text;
-    std::string path;
     const std::size_t start = text.find('/', kScheme.size()); // past the name of the machine
-    for (std::size_t i = std::min(start, text.size()); i < text.size(); ++i)
-        if (text[i] == '%' && i + 2 < text.size() && digit(text[i + 1]) >= 0 && digit(text[i + 2]) >= 0) {
-            path += char(16 * digit(text[i + 1]) + digit(text[i + 2]));
-            i += 2;
-        } else {
-            path += text[i];
-        }
-    return path;
+    return percentDecoded(text.substr(std::min(start, text.size())));
 }
 
 std::optional<Watch::Look> Watch::lookAt(const fs::path& file)
@@ -94,27 +101,73 @@ std::optional<Watch::Look> Watch::lookAt(const fs::path& file)
     return error ? std::nullopt : std::optional(look);
 }
 
-void Watch::on(const fs::path& file)
+void Watch::on(const std::vector<fs::path>& files)
 {
-    file_ = file;
-    known_ = last_ = file.empty() ? std::nullopt : lookAt(file);
+    std::vector<File> next;
+    for (const fs::path& path : files) {
+        const auto before = std::ranges::find(files_, path, &File::path);
+        if (path.empty() || std::ranges::find(next, path, &File::path) != next.end())
+            continue;
+        if (before != files_.end()) {
+            next.push_back(*before);
+            continue;
+        }
+        const auto now = lookAt(path);
+        next.push_back({path, now, now});
+    }
+    files_ = std::move(next);
+}
+
+bool Watch::changed(File& file, double seconds)
+{
+    const auto now = lookAt(file.path);
+    if (now != file.last) {
+        file.last = now;
+        file.sinceLast = seconds;
+        return false;
+    }
+    if (!now || now == file.known || seconds - file.sinceLast < kRest)
+        return false;
+    file.known = now;
+    return true;
 }
 
 bool Watch::changed(double seconds)
 {
-    if (file_.empty() || (lookedAt_ >= 0 && seconds < lookedAt_ + kEvery))
+    if (files_.empty() || (lookedAt_ >= 0 && seconds < lookedAt_ + kEvery))
         return false;
     lookedAt_ = seconds;
-    const auto now = lookAt(file_);
-    if (now != last_) {
-        last_ = now;
-        sinceLast_ = seconds;
-        return false;
+    bool any = false;
+    for (File& file : files_)
+        any = changed(file, seconds) || any;
+    return any;
+}
+
+std::vector<fs::path> filesOf(const fs::path& model, const std::vector<std::string>& pictureNames)
+{
+    if (model.empty())
+        return {};
+    std::vector<fs::path> files{model};
+    const auto add = [&](const std::string& name) {
+        std::error_code ignored;
+        if (const fs::path file = model.parent_path() / name; !name.empty() && fs::is_regular_file(file, ignored))
+            files.push_back(file);
+    };
+    if (lowerExtension(model) != ".gltf") {
+        for (const std::string& name : pictureNames)
+            add(name);
+        add(model.stem().string() + ".mtl");
+        return files;
     }
-    if (!now || now == known_ || seconds - sinceLast_ < kRest)
-        return false;
-    known_ = now;
-    return true;
+    std::ifstream in(model);
+    const auto root = nlohmann::json::parse(in, nullptr, false);
+    for (const char* list : {"buffers", "images"})
+        if (root.is_object() && root.contains(list) && root[list].is_array())
+            for (const auto& entry : root[list])
+                if (entry.is_object() && entry.contains("uri") && entry["uri"].is_string())
+                    if (const auto uri = entry["uri"].get<std::string>(); !uri.starts_with("data:"))
+                        add(percentDecoded(uri));
+    return files;
 }
 
 } // namespace cotan::viewer

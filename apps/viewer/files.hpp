@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace cotan::viewer {
 
@@ -21,11 +22,12 @@ std::string neighbourOf(const std::filesystem::path& file, int step);
 // A file path as people paste it: without the spaces, quotes and file:// around it.
 std::string pathOf(std::string text);
 
-// Tells when a file has changed and then rested for a moment, so that half of it is not read.
+// Tells when one of some files has changed and then rested for a moment, so that half of it is not read.
 class Watch {
 public:
-    void on(const std::filesystem::path& file);
-    // seconds: of any clock that goes on.
+    // Files that were watched before go on being watched from what was seen of them last.
+    void on(const std::vector<std::filesystem::path>& files);
+    // Whether any has. seconds: of any clock that goes on.
     bool changed(double seconds);
 
 private:
@@ -34,11 +36,21 @@ private:
         std::uintmax_t bytes = 0;
         friend bool operator==(const Look&, const Look&) = default;
     };
+    struct File {
+        std::filesystem::path path;
+        std::optional<Look> known, last;
+        double sinceLast = 0;
+    };
     static std::optional<Look> lookAt(const std::filesystem::path& file);
+    static bool changed(File& file, double seconds);
 
-    std::filesystem::path file_;
-    std::optional<Look> known_, last_;
-    double lookedAt_ = -1, sinceLast_ = 0;
+    std::vector<File> files_;
+    double lookedAt_ = -1;
 };
+
+// The model and the files that it names: buffers and pictures of a .gltf; of others the pictures of these names, and the
+// materials, in its folder. Those that are not there are left out.
+std::vector<std::filesystem::path> filesOf(const std::filesystem::path& model,
+                                           const std::vector<std::string>& pictureNames);
 
 } // namespace cotan::viewer

@@ -15,6 +15,7 @@ struct MenuItem {
     std::string command;    // empty: a line between others
     bool on = false;        // has a tick
     bool usable = true;
+    std::string submenu{}; // items beside each other with the same one stand in it; empty: in the menu itself
 };
 
 struct Menu {

@@ -71,7 +71,7 @@ Loaded poseKept(const PictureOptions& wanted, std::uint64_t number, LastRead& ke
 // What could not be done is not asked for any longer.
 void giveUp(State& state, const Loaded& loaded)
 {
-    state.problem = loaded.error->message;
+    state.problem = state.loadProblem = loaded.error->message;
     state.playing = false;
     if (!loaded.posed)
         ++state.failedLoads;
@@ -112,6 +112,8 @@ void take(State& state, const Loaded& loaded)
     if (loaded.posed)
         return takePosed(state, loaded);
     ++state.loads;
+    if (state.problem == std::exchange(state.loadProblem, {})) // the file is good again
+        state.problem.clear();
     const bool other =
         !state.model || loaded.options.model != state.picture.model || loaded.options.shape != state.picture.shape;
     if (other && state.model)

@@ -19,12 +19,18 @@ class Entries {
 public:
     explicit Entries(const State& state) : state_(state) {}
 
-    void menu(const char* title) { menu_ = title; }
+    void menu(const char* title)
+    {
+        menu_ = title;
+        submenu_.clear();
+    }
+    // What is added next stands in a submenu; empty: no longer.
+    void submenu(const char* title) { submenu_ = title; }
     void add(std::string label, std::string key, std::string command, bool on = false, bool usable = true)
     {
-        all.push_back({menu_, std::move(label), std::move(key), std::move(command), on, usable, {}});
+        all.push_back({menu_, std::move(label), std::move(key), std::move(command), on, usable, {}, submenu_});
     }
-    void line() { all.push_back({menu_, {}, {}, {}, false, true, {}}); }
+    void line() { all.push_back({menu_, {}, {}, {}, false, true, {}, submenu_}); }
     void standing(std::string text) { all.back().standing = std::move(text); }
 
     // An entry for each value of an option.
@@ -45,8 +51,19 @@ public:
 
 private:
     const State& state_;
-    std::string menu_;
+    std::string menu_, submenu_;
 };
+
+// Lists of a file's or a person's own, as submenus of no more than fit: "Cameras", "Cameras 2" and so on.
+template<class Add> void addList(Entries& e, const std::string& title, std::size_t count, const Add& add)
+{
+    for (std::size_t i = 0; i < count; ++i) {
+        if (i % kMostLines == 0)
+            e.submenu((i == 0 ? title : fmt::format("{} {}", title, i / kMostLines + 1)).c_str());
+        add(i);
+    }
+    e.submenu("");
+}
 
 void addFileEntries(Entries& e, const State& s)
 {
@@ -56,10 +73,11 @@ void addFileEntries(Entries& e, const State& s)
     e.add("Reload", "f5", "reload", false, !s.picture.model.empty());
     e.add("Next in the folder", "pagedown", "next", false, !s.picture.model.empty());
     e.add("Previous in the folder", "pageup", "previous", false, !s.picture.model.empty());
-    e.line();
+    e.submenu("Shape of a map");
     for (const char* shape : {"plane", "sphere", "torus", "teapot"})
         e.add(fmt::format("Map on a {}", shape), "", fmt::format("set shape {}", shape), s.picture.shape == shape,
               s.picture.model.empty());
+    e.submenu("");
     e.line();
     e.add("Write the picture", "f12", "picture");
     e.add("Write the picture, twice as large", "shift+f12",
@@ -67,10 +85,9 @@ void addFileEntries(Entries& e, const State& s)
     e.add("Write the picture as EXR", "", "picture .exr");
     e.add("Copy the command that draws it", "ctrl+c", "copy command");
     e.add("Copy the camera", "ctrl+shift+c", "copy camera");
-    if (!s.recent.empty())
-        e.line();
-    for (const std::string& file : s.recent)
-        e.add(file, "", "open " + file, file == s.picture.model);
+    addList(e, "Recent files", s.recent.size(), [&](std::size_t i) {
+        e.add(s.recent[i], "", "open " + s.recent[i], s.recent[i] == s.picture.model);
+    });
     e.line();
     e.add("Quit", "ctrl+q", "quit");
 }
@@ -96,12 +113,10 @@ void addCameraEntries(Entries& e, const State& s)
                                               {"down", "Turn down", "orbit 0 -5"}})
         e.add(label, key, command);
     const std::size_t cameras = s.model ? s.model->scene.cameras.size() : 0;
-    if (cameras > 0)
-        e.line();
-    for (std::size_t i = 0; i < cameras; ++i) {
+    addList(e, "Cameras of the file", cameras, [&](std::size_t i) {
         const std::string& name = s.model->scene.cameras[i].name;
         e.add(fmt::format("{} of the file{}", i, name.empty() ? "" : ": " + name), "", fmt::format("camera {}", i));
-    }
+    });
 }
 
 void addFrameEntries(Entries& e, const State& s)
@@ -119,14 +134,17 @@ void addFrameEntries(Entries& e, const State& s)
         const Side& side = sideOf(s, second);
         const std::string before = second ? "second " : "";
         for (std::size_t i = 0; i < names.size(); ++i) {
+            if (i == kFirst.size())
+                e.submenu("More frames");
             const std::string key = i < 9 ? fmt::format("{}{}", second ? "shift+" : "", i + 1) : "";
             e.add(names[i], key, before + "frame " + names[i], side.frame == names[i]);
         }
+        e.submenu("");
         e.add("auto: what the maps mean", "", before + "frame auto", side.frame == kAutoFrame);
-        e.line();
+        e.submenu("Tangents");
         e.add("Tangents of the file", "", before + "tangents stored", side.tangents == "stored");
         e.add("Tangents generated", "", before + "tangents generated", side.tangents == "generated");
-        e.line();
+        e.submenu("Normal maps");
         e.add("Maps as the file says", "", before + "convention ", side.convention.empty());
         for (const auto& [label, words] : {std::pair("Green up (glTF, OpenGL)", "gltf"),
                                            {"Green down (DirectX)", "directx"},
@@ -155,8 +173,9 @@ void addShowEntries(Entries& e, const State& s)
 {
     e.menu("View");
     const std::vector<std::string>& names = showNames();
-    for (std::size_t i = 0; i < names.size(); ++i)
+    addList(e, "Show", names.size(), [&](std::size_t i) {
         e.add(names[i], i < 9 ? fmt::format("alt+{}", i + 1) : "", "show " + names[i], s.show == names[i]);
+    });
     const auto here = std::ranges::find(names, s.show) - names.begin();
     e.add("The next of these", "v", "show " + names[std::size_t(here + 1) % names.size()]);
     e.line();
@@ -172,6 +191,7 @@ void addShowEntries(Entries& e, const State& s)
     e.add("Menus and panels", "tab", "toggle interface", s.interfaceShown);
     e.add("Settings", "s", "toggle settings", s.settingsShown);
     e.add("Keys", "h", "toggle help", s.cheatSheet);
+    e.submenu("Look");
     e.add("Dark", "", "toggle look", s.dark);
     for (const auto& [label, value] : {std::pair("Text as the screen asks for", 0.0f),
                                        {"Text of 100 %", 1.0f},
@@ -183,19 +203,21 @@ void addShowEntries(Entries& e, const State& s)
 void addLightEntries(Entries& e, const State& s)
 {
     e.menu("Light");
+    e.submenu("Surroundings");
     for (const std::string& name : environmentNames())
         e.add(name, "", "set environment " + name, s.picture.environment == name);
     e.add("No surroundings", "", "set environment none", s.picture.environment == "none");
     const bool file = std::filesystem::path(s.picture.environment).has_extension();
     if (file)
         e.add(fileName(s.picture.environment), "", "set environment " + s.picture.environment, true);
-    e.line();
+    e.submenu("");
     e.add("Turn left", "[", "turn-light -15");
     e.add("Turn right", "]", "turn-light 15");
     e.add("Pinned to the camera", "p", "toggle pin-light", s.lightPinned);
     e.line();
     e.flag("Shadows", "", "no-shadows", true);
     e.add("Ground", "", s.picture.ground == "on" ? "set ground off" : "set ground on", s.picture.ground == "on");
+    e.submenu("Background");
     e.choose("background",
              {{"Background as usual", ""},
               {"Paper", "paper"},
@@ -203,15 +225,17 @@ void addLightEntries(Entries& e, const State& s)
               {"Surroundings", "environment"},
               {"Gradient", "gradient"},
               {"No background", "none"}});
+    e.submenu("");
     e.line();
     e.add("Exposure by the picture", "e", "set exposure auto", s.picture.exposure == "auto");
     const float now = s.picture.exposure == "auto" ? s.metered : std::stof("0" + s.picture.exposure);
     e.add("Brighter", ".", fmt::format("set exposure {:.4g}", std::min((now > 0 ? now : 1) * 1.189207f, 1e6f)));
     e.add("Darker", ",", fmt::format("set exposure {:.4g}", std::max((now > 0 ? now : 1) / 1.189207f, 1e-6f)));
+    e.submenu("Tones and shading");
     e.choose("tone-mapping",
              {{"Neutral tones", "neutral"}, {"ACES", "aces"}, {"AgX", "agx"}, {"Cut off at 1", "none"}});
     e.choose("shading", {{"Physically based", "pbr"}, {"Blinn-Phong", "blinn-phong"}});
-    e.line();
+    e.submenu("Samples");
     const bool four = s.picture.samples == 4;
     e.add("Four samples a pixel", "a", four ? "set samples 1" : "set samples 4", four);
     const bool sixteen = s.picture.samples == 16;
@@ -225,11 +249,11 @@ void addAnimationEntries(Entries& e, const State& s)
     const std::size_t count = s.model ? s.model->animations.size() : 0;
     const GltfAnimation* const now = animationOf(s);
     e.add("The file's pose", "", "set animation ", s.picture.animation.empty());
-    for (std::size_t i = 0; i < count; ++i) {
+    addList(e, "Animations of the file", count, [&](std::size_t i) {
         const GltfAnimation& a = s.model->animations[i];
         e.add(fmt::format("{}: {}, {:.3g} s", i, a.name.empty() ? "without a name" : a.name, a.seconds), "",
               fmt::format("set animation {}", i), &a == now);
-    }
+    });
     e.line();
     e.add("Play", "space", "play", s.playing, count > 0);
     e.add("Over and over", "", "toggle loop", s.loops, count > 0);

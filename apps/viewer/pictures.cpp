@@ -58,9 +58,11 @@ void Pictures::receive(State& state, bool timed)
     state.device = drawn->device.empty() ? state.device : drawn->device;
     failed_ = !drawn->problem.empty();
     if (failed_) {
-        state.problem = drawn->problem;
+        state.problem = state.drawProblem = drawn->problem;
         goBack(state);
     } else if (drawn->picture) {
+        if (state.problem == std::exchange(state.drawProblem, {}))
+            state.problem.clear();
         good_ = {true, state.picture, state.a, state.b};
     }
     if (drawn->picture && drawn->picture != drawn_.picture) {

@@ -71,7 +71,7 @@ public:
     {
         state_.wishes.push_back({Wish::Kind::load, state_.picture.model, {}}); // read while the window opens
         loadWished(parts_);
-        parts_.watch.on(state_.picture.model);
+        watchShown(parts_);
         if (const Status opened = open(); !opened)
             return withoutWindow(opened);
         if (const Status recording = beginRecording(); !recording)
@@ -229,7 +229,6 @@ private:
             state_.loading.clear();
             state_.progress = -1;
         }
-        const std::string before = state_.picture.model;
         take(state_, loaded);
         if (loaded.error && options_.plays && !state_.model)
             refused_ = loaded.error;
@@ -237,8 +236,7 @@ private:
             app::warn(options_.common, loaded.error->message);
         if (!loaded.model || loaded.posed)
             return;
-        if (before != state_.picture.model)
-            parts_.watch.on(state_.picture.model);
+        watchShown(parts_);
         const std::string& file = state_.picture.model;
         parts_.window->setTitle(fmt::format("{} - cotan view", file.empty() ? std::string("cotan") : fileName(file)));
         for (const std::string& line : state_.model->scene.warnings)

@@ -118,6 +118,7 @@ struct State {
     double drawSeconds = 0;
     std::uint64_t pictures = 0; // drawn so far
     std::size_t loads = 0, failedLoads = 0;
+    std::string loadProblem, drawProblem; // what went wrong last, until it works again; `problem` may be one of them
 
     std::vector<Wish> wishes;
 };

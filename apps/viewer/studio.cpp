@@ -45,7 +45,10 @@ Frame frameOf(const Order& order, bool second, const Scene& scene)
 
 std::string lightKey(const PictureOptions& o)
 {
-    return fmt::format("{}|{}|{}", o.environment, o.environmentRotation, o.environmentIntensity);
+    std::error_code none; // of names that are no files
+    const auto written = std::filesystem::last_write_time(o.environment, none).time_since_epoch().count();
+    return fmt::format("{}|{}|{}|{}", o.environment, none ? 0 : written, o.environmentRotation,
+                       o.environmentIntensity);
 }
 
 // Compared, and not told by keys: a map's file may have changed meanwhile, and a model that is read again may not have.

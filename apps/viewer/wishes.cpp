@@ -132,6 +132,22 @@ void loadWished(Parts& parts)
     state.wishes = std::move(others);
 }
 
+void watchShown(Parts& parts)
+{
+    const State& s = parts.state;
+    std::vector<std::string> pictures;
+    if (s.model)
+        for (const Image& image : s.model->scene.images)
+            pictures.push_back(image.name);
+    std::vector<std::filesystem::path> files = filesOf(s.picture.model, pictures);
+    const OwnMaps& maps = s.picture.maps;
+    for (const std::string* file : {&maps.normal, &maps.baseColor, &maps.metallicRoughness, &maps.occlusion,
+                                    &s.a.normalMap, &s.b.normalMap, &s.picture.environment})
+        if (std::filesystem::path(*file).has_extension())
+            files.emplace_back(*file);
+    parts.watch.on(files);
+}
+
 Status fulfil(Parts& parts)
 {
     loadWished(parts);
@@ -145,7 +161,7 @@ Status fulfil(Parts& parts)
         parts.state.problem = chosen.error().message;
     else if (!chosen->empty())
         apply(parts.state, {0, EventKind::drop, 0, 0, *chosen});
-    if (parts.watch.changed(secondsNow()) && !parts.state.picture.model.empty())
+    if (parts.watch.changed(secondsNow()))
         parts.state.wishes.push_back({Wish::Kind::load, parts.state.picture.model, {}});
     return first;
 }

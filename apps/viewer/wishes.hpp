@@ -12,4 +12,7 @@ void loadWished(Parts& parts);
 // be done becomes state.problem. Errors: the first of those.
 Status fulfil(Parts& parts);
 
+// All files that are shown: the model with its own, maps and surroundings. Watches them.
+void watchShown(Parts& parts);
+
 } // namespace cotan::viewer

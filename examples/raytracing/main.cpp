@@ -8,7 +8,11 @@
 #include <limits>
 #include <vector>
 
+#if __has_include(<embree4/rtcore.h>)
+#include <embree4/rtcore.h>
+#else
 #include <embree3/rtcore.h>
+#endif
 
 #include "cotan.hpp"
 
@@ -102,9 +106,13 @@ int main(int count, char** words)
             r.ray.tfar = std::numeric_limits<float>::infinity();
             r.ray.mask = ~0u;
             r.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+#if RTC_VERSION_MAJOR >= 4
+            rtcIntersect1(scene, &r);
+#else
             RTCIntersectContext context;
             rtcInitIntersectContext(&context);
             rtcIntersect1(scene, &context, &r);
+#endif
             if (r.hit.geomID != RTC_INVALID_GEOMETRY_ID)
                 normals[row * kWidth + column] = shadingNormal(mesh, r);
         }

@@ -10,7 +10,7 @@ namespace cotan {
 
 // Radians, 0 to pi. Lengths do not count. From sine and cosine: the cosine alone cannot tell 0.02 degrees from
 // 0 in float. 0 where a vector is zero; NaN where one is not finite.
-template<class Real> Real angleBetween(const glm::vec<3, Real>& a, const glm::vec<3, Real>& b)
+template<class Real, glm::qualifier Q> Real angleBetween(const glm::vec<3, Real, Q>& a, const glm::vec<3, Real, Q>& b)
 {
     return std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b));
 }

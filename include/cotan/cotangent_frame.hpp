@@ -1,6 +1,8 @@
 // The typed frame: three covectors, and what may be done with them.
 #pragma once
 
+#include <type_traits>
+
 #include "cotan/covector.hpp"
 #include "cotan/frame.hpp"
 
@@ -8,7 +10,7 @@ namespace cotan {
 
 // Differences along any two directions: screen derivatives, triangle edges, a uv raster's steps.
 template<class Real> struct Differences {
-    using Uv = glm::vec<2, Real, glm::defaultp>;
+    using Uv = packed::vec<2, Real>;
     Vector3<Real> dpdx; // displacement of position
     Vector3<Real> dpdy;
     Uv duvdx{0, 0}; // change of texture coordinates along the same displacement
@@ -46,14 +48,15 @@ template<class Real> CotangentFrame<Real> makeFrame(Frame kind, Covector3<Real> 
 // The perturbed normal, unit, from a decoded texel m (components along +u, +v, outwards). The
 // texel is neither vector nor covector of world space: its numbers are coefficients.
 // Zero sums give n (cotan_apply).
-template<class Real> Covector3<Real> perturb(const CotangentFrame<Real>& f, glm::vec<3, Real, glm::defaultp> m)
+template<class Real>
+Covector3<Real> perturb(const CotangentFrame<Real>& f, std::type_identity_t<packed::vec<3, Real>> m)
 {
     return Covector3<Real>(cotan_apply(detail::toText(f), m));
 }
 
 // The inverse of perturb: the unit texel that this frame turns into `target`. Exact for frames that
 // are not orthonormal; a dependent frame gives (0,0,1). m.z <= 0: target below the horizon.
-template<class Real> glm::vec<3, Real, glm::defaultp> encode(const CotangentFrame<Real>& f, Covector3<Real> target)
+template<class Real> packed::vec<3, Real> encode(const CotangentFrame<Real>& f, Covector3<Real> target)
 {
     return cotan_encode(detail::toText(f), target.raw());
 }

@@ -13,17 +13,18 @@
 
 #include <cmath>
 #include <optional>
+#include <type_traits>
 
 #include <glm/geometric.hpp>
-#include <glm/mat3x3.hpp>
 #include <glm/matrix.hpp>
-#include <glm/vec3.hpp>
+
+#include "cotan/packed.hpp"
 
 namespace cotan {
 
 // Three components of one kind. Arithmetic stays within the kind.
 template<class Real, class Kind> struct Triple {
-    using Raw = glm::vec<3, Real, glm::defaultp>;
+    using Raw = packed::vec<3, Real>;
 
     Real x = 0;
     Real y = 0;
@@ -101,7 +102,7 @@ template<class Real> constexpr Vector3<Real> raise(Covector3<Real> c) { return {
 // the axes), with what covectors need beside it.
 template<class Real> class LinearMap {
 public:
-    using Matrix = glm::mat<3, 3, Real, glm::defaultp>;
+    using Matrix = packed::mat<3, Real>;
 
     explicit LinearMap(const Matrix& m)
         : matrix_(m), cofactor_(glm::cross(m[1], m[2]), glm::cross(m[2], m[0]), glm::cross(m[0], m[1])),
@@ -158,18 +159,19 @@ enum class NormalTransform { undoScale, rotationOnly, inverseTranspose };
 // from M's columns: S their lengths (negative in x if M mirrors), R the columns divided by them.
 // Degenerate: a column of length zero, or a result of length zero, gives `n` normalised.
 template<class Real>
-Covector3<Real> transformNormal(NormalTransform way, const glm::mat<3, 3, Real, glm::defaultp>& m, Covector3<Real> n)
+Covector3<Real> transformNormal(NormalTransform way, const std::type_identity_t<packed::mat<3, Real>>& m,
+                                Covector3<Real> n)
 {
     const Covector3<Real> fallback = normalizeOr(n, Covector3<Real>{0, 0, 1});
     if (way == NormalTransform::inverseTranspose)
         return normalizeOr(LinearMap<Real>(m)(n), fallback);
 
-    glm::vec<3, Real, glm::defaultp> scale(glm::length(m[0]), glm::length(m[1]), glm::length(m[2]));
+    packed::vec<3, Real> scale(glm::length(m[0]), glm::length(m[1]), glm::length(m[2]));
     if (glm::determinant(m) < 0)
         scale.x = -scale.x;
     if (scale.x == 0 || scale.y == 0 || scale.z == 0)
         return fallback;
-    const glm::mat<3, 3, Real, glm::defaultp> rotation(m[0] / scale.x, m[1] / scale.y, m[2] / scale.z);
+    const packed::mat<3, Real> rotation(m[0] / scale.x, m[1] / scale.y, m[2] / scale.z);
     // A mirroring stays in the rotation-only way's sign of x: it is part of S, and S is dropped.
     const auto local = way == NormalTransform::undoScale ? n.raw() / scale : n.raw();
     return normalizeOr(Covector3<Real>(rotation * local), fallback);

@@ -9,9 +9,8 @@
 #include <cstdint>
 #include <glm/geometric.hpp>
 #include <glm/packing.hpp>
-#include <glm/vec2.hpp>
-#include <glm/vec3.hpp>
-#include <glm/vec4.hpp>
+
+#include "cotan/packed.hpp"
 
 #define COTAN_LANG_CPP
 
@@ -30,8 +29,8 @@ inline double cotan_inverse_power_of_two(double m)
 }
 
 // Two halfs in a word, the first in the low bits, rounded to the nearest.
-inline std::uint32_t cotan_pack_half(glm::vec2 v) { return glm::packHalf2x16(v); }
-inline glm::vec2 cotan_unpack_half(std::uint32_t word) { return glm::unpackHalf2x16(word); }
+inline std::uint32_t cotan_pack_half(packed::vec2 v) { return glm::packHalf2x16(v); }
+inline packed::vec2 cotan_unpack_half(std::uint32_t word) { return glm::unpackHalf2x16(word); }
 
 } // namespace cotan
 

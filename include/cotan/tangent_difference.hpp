@@ -5,8 +5,6 @@
 #include <span>
 #include <vector>
 
-#include <glm/vec4.hpp>
-
 #include "cotan/tangents.hpp"
 
 namespace cotan {
@@ -27,8 +25,8 @@ inline constexpr float kEqualTangents = 0.05f;
 
 // stored: one per vertex; generated: one per corner, as mikktspaceTangents gives them. Indices that point outside the
 // arrays are the caller's to avoid.
-TangentDifference tangentDifference(const MeshView& mesh, std::span<const glm::vec4> stored,
-                                    std::span<const glm::vec4> generated);
+TangentDifference tangentDifference(const MeshView& mesh, std::span<const packed::vec4> stored,
+                                    std::span<const packed::vec4> generated);
 
 // Adds the corners of another mesh.
 void append(TangentDifference& to, const TangentDifference& more);

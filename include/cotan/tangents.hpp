@@ -10,11 +10,8 @@
 #include <span>
 #include <vector>
 
-#include <glm/vec2.hpp>
-#include <glm/vec3.hpp>
-#include <glm/vec4.hpp>
-
 #include "cotan/frame.hpp"
+#include "cotan/packed.hpp"
 
 namespace cotan {
 
@@ -23,9 +20,9 @@ namespace cotan {
 // vertices. An array of another size or an index out of range makes every function here return an
 // empty result.
 struct MeshView {
-    std::span<const glm::vec3> positions;
-    std::span<const glm::vec3> normals;
-    std::span<const glm::vec2> texcoords;
+    std::span<const packed::vec3> positions;
+    std::span<const packed::vec3> normals;
+    std::span<const packed::vec2> texcoords;
     std::span<const std::uint32_t> indices;
 };
 
@@ -43,26 +40,26 @@ struct MeshView {
 // edge joins its triangles, where mikktspace.c leaves the edges of the last vertex unsorted (BuildNeighborsFast)
 // and so takes some for borders; corners at that vertex of few meshes differ.
 // threads: how many to use for large meshes, 0: all cores; the result does not depend on it.
-std::vector<glm::vec4> mikktspaceTangents(const MeshView& mesh, int threads = 0);
+std::vector<packed::vec4> mikktspaceTangents(const MeshView& mesh, int threads = 0);
 
 // The classic procedure: dP/du of every triangle from its edges, normalised, summed per vertex
 // without weights, made perpendicular to the normal. Mirrored and unmirrored charts are kept apart.
 // The result is laid out as for mikktspaceTangents.
 // Degenerate input: triangles without area in space or uv add nothing; their corners get the
 // tangent of the vertex. Where there is none: some unit vector perpendicular to the normal, w = +1.
-std::vector<glm::vec4> vertexTangents(const MeshView& mesh);
+std::vector<packed::vec4> vertexTangents(const MeshView& mesh);
 
 // The tangents that a frame reads, which readsTangents(frame): one of the two above. Empty for other frames.
-std::vector<glm::vec4> generateTangents(Frame frame, const MeshView& mesh, int threads = 0);
+std::vector<packed::vec4> generateTangents(Frame frame, const MeshView& mesh, int threads = 0);
 
 // A tangent as frames take it: w * cross(n, xyz) along increasing v. glTF's TANGENT, and what the functions above make,
 // has it against increasing v. Its own inverse.
-inline glm::vec4 tangentAlongV(glm::vec4 gltf) { return {gltf.x, gltf.y, gltf.z, -gltf.w}; }
+inline packed::vec4 tangentAlongV(packed::vec4 gltf) { return {gltf.x, gltf.y, gltf.z, -gltf.w}; }
 
 // Gradients of u and v, per length unit of position. Covectors: transform them like normals.
 struct Cotangents {
-    std::vector<glm::vec3> u; // one per vertex of the given arrays
-    std::vector<glm::vec3> v;
+    std::vector<packed::vec3> u; // one per vertex of the given arrays
+    std::vector<packed::vec3> v;
 };
 
 // Cotangents averaged at the vertices, for the frame `smooth`: the frame `gradient` of each
@@ -73,7 +70,8 @@ struct Cotangents {
 // vertices first (splitMirrored).
 // Degenerate input: triangles without area in space or uv add nothing; a vertex with no other
 // triangle gets zero, which the frame turns into the plain normal.
-Cotangents smoothCotangents(const MeshView& mesh);
+// threads: how many to use for large meshes, 0: all cores; the result does not depend on it.
+Cotangents smoothCotangents(const MeshView& mesh, int threads = 0);
 
 // For every vertex the first one that counts as the same. Arrays of other sizes, or an index out of range, give an
 // empty result.
@@ -90,7 +88,7 @@ struct VertexSplit {
 // corners: one per index; vertexCount: over all indices. Sizes that do not match or an index out
 // of range give an empty split.
 VertexSplit splitVertices(std::size_t vertexCount, std::span<const std::uint32_t> indices,
-                          std::span<const glm::vec4> corners);
+                          std::span<const packed::vec4> corners);
 
 // Copies the vertices that mirrored and unmirrored triangles share. Triangles without area in space
 // or uv go with the unmirrored ones where there are both.
@@ -113,6 +111,6 @@ struct SplitCotangents {
     VertexSplit split;
     Cotangents cotangents; // one per new vertex
 };
-SplitCotangents splitSmoothCotangents(const MeshView& mesh);
+SplitCotangents splitSmoothCotangents(const MeshView& mesh, int threads = 0);
 
 } // namespace cotan

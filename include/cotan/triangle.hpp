@@ -7,17 +7,14 @@
 #include <span>
 #include <vector>
 
-#include <glm/vec3.hpp>
-#include <glm/vec4.hpp>
-
 #include "cotan/tangents.hpp"
 
 namespace cotan {
 
 // U and V of one triangle: t = cross(n, u), b = cross(n, v).
 struct TriangleVectors {
-    glm::vec3 u;
-    glm::vec3 v;
+    packed::vec3 u;
+    packed::vec3 v;
 };
 
 // U and V of every triangle, in the order of the indices, in the space of the positions. texcoords as
@@ -38,13 +35,14 @@ Cotangents unitCotangents(const Cotangents& cotangents);
 // `smooth` in 8 bytes a vertex: four SNORM16, for cotan_unpack_smooth8. 0.003 degrees at most.
 // normals: unit, as many as cotangents, and exactly those that unpacking will see. Arrays of other sizes
 // give an empty result; so for the next two.
-std::vector<std::array<std::int16_t, 4>> packSmooth8(std::span<const glm::vec3> normals, const Cotangents& cotangents);
+std::vector<std::array<std::int16_t, 4>> packSmooth8(std::span<const packed::vec3> normals,
+                                                     const Cotangents& cotangents);
 
 // `smooth` in 4 bytes a vertex, for cotan_unpack_smooth4. 0.2 degrees at most, 0.02 in the mean.
-std::vector<std::uint32_t> packSmooth4(std::span<const glm::vec3> normals, const Cotangents& cotangents);
+std::vector<std::uint32_t> packSmooth4(std::span<const packed::vec3> normals, const Cotangents& cotangents);
 
 // Tangents with their sign in 2 bytes a vertex, for cotan_unpack_tangent2. w keeps its sign, whatever it
 // means. 0.0075 degrees at most.
-std::vector<std::uint16_t> packTangents2(std::span<const glm::vec3> normals, std::span<const glm::vec4> tangents);
+std::vector<std::uint16_t> packTangents2(std::span<const packed::vec3> normals, std::span<const packed::vec4> tangents);
 
 } // namespace cotan

@@ -58,9 +58,9 @@
 #define COTAN_FUNCTION inline
 using cotan_real = COTAN_CPP_REAL;
 using cotan_uint = std::uint32_t;
-using cotan_vec2 = glm::vec<2, cotan_real, glm::defaultp>;
-using cotan_vec3 = glm::vec<3, cotan_real, glm::defaultp>;
-using cotan_vec4 = glm::vec<4, cotan_real, glm::defaultp>;
+using cotan_vec2 = glm::vec<2, cotan_real, glm::packed_highp>;
+using cotan_vec3 = glm::vec<3, cotan_real, glm::packed_highp>;
+using cotan_vec4 = glm::vec<4, cotan_real, glm::packed_highp>;
 using glm::cross;
 using glm::dot;
 using glm::max;

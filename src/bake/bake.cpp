@@ -83,7 +83,7 @@ private:
         traced.samples = samples;
         pointsOf(low_, places, points_);
         baker_.aim(points_, places, probes);
-        std::size_t rays = baker_.find(probes, hits);
+        std::size_t rays = baker_.find(places, probes, hits);
         rays += baker_.valuesOf(points_, probes, hits, samples, values_);
         Lanes<int> further{};
         rays += baker_.somethingFurther(probes, hits, further);

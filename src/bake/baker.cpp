@@ -98,10 +98,10 @@ void Baker::aimFromStart(const LowPoints& points, const UvPlace& place, std::siz
         length * (starts.distances[v[0]] * b0 + starts.distances[v[1]] * place.b1 + starts.distances[v[2]] * place.b2);
     if (starts.crossed[place.triangle])
         probes.before[i] =
-            openDistance(*starts.tree, probes.point.at(i), probes.direction.at(i), starts.skip, probes.before[i]);
+            openDistance(*starts.tree, place.triangle, probes.point.at(i), probes.direction.at(i), starts.skip, probes.before[i]);
 }
 
-std::size_t Baker::find(const Probes& probes, Hits& hits) const
+std::size_t Baker::find(std::span<const UvPlace> places, const Probes& probes, Hits& hits) const
 {
     std::size_t rays = probes.count;
     if (options_.cage.empty() && options_.search == BakeSearch::nearest) {
@@ -110,7 +110,7 @@ std::size_t Baker::find(const Probes& probes, Hits& hits) const
     } else {
         high_.outermost(probes, options_.highNormals, hits);
         if (measured())
-            rays += findFromFurtherOut(probes, hits);
+            rays += findFromFurtherOut(places, probes, hits);
     }
     if (options_.highMaps && showsNormals(options_.kind))
         for (std::size_t i = 0; i < probes.count; ++i)
@@ -122,7 +122,7 @@ std::size_t Baker::find(const Probes& probes, Hits& hits) const
 }
 
 // Lanes that found nothing, or only what faces away, look again from as far out as surfaces count.
-std::size_t Baker::findFromFurtherOut(const Probes& probes, Hits& hits) const
+std::size_t Baker::findFromFurtherOut(std::span<const UvPlace> places, const Probes& probes, Hits& hits) const
 {
     Probes further;
     std::size_t rays = 0;
@@ -135,8 +135,8 @@ std::size_t Baker::findFromFurtherOut(const Probes& probes, Hits& hits) const
         }
         further.direction.set(i, probes.direction.at(i));
         further.before[i] = options_.starts->tree
-            ? openDistance(*options_.starts->tree, probes.point.at(i), probes.direction.at(i), options_.starts->skip,
-                           distance_)
+            ? openDistance(*options_.starts->tree, places[i].triangle, probes.point.at(i), probes.direction.at(i),
+                           options_.starts->skip, distance_)
             : distance_;
     }
     if (rays == 0)

@@ -19,7 +19,7 @@ public:
     void aim(const LowPoints& points, std::span<const UvPlace> places, Probes& probes) const;
     // The points of the high surface that belong to places of the low one. This and the next three return how many rays
     // that took.
-    std::size_t find(const Probes& probes, Hits& hits) const;
+    std::size_t find(std::span<const UvPlace> places, const Probes& probes, Hits& hits) const;
     // Where something lies nearer to the low surface than what was found, so that BakeSearch::nearest would take that.
     // 0 everywhere for other rules.
     std::size_t somethingNearer(const Probes& probes, const Hits& hits, Lanes<int>& nearer) const;
@@ -35,7 +35,7 @@ private:
     bool measured() const { return options_.cage.empty() && options_.search == BakeSearch::first; }
     void aimFromCage(const UvPlace& place, std::size_t i, Probes& probes) const;
     void aimFromStart(const LowPoints& points, const UvPlace& place, std::size_t i, Probes& probes) const;
-    std::size_t findFromFurtherOut(const Probes& probes, Hits& hits) const;
+    std::size_t findFromFurtherOut(std::span<const UvPlace> places, const Probes& probes, Hits& hits) const;
     float openness(glm::vec3 where, glm::vec3 face, glm::vec3 n, std::uint32_t pattern) const;
 
     const LowSurface& low_;

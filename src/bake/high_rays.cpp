@@ -23,9 +23,9 @@ glm::vec3 HighSurface::normalOf(const Hit& hit, HighNormals normals, glm::vec3 d
 
 Hit HighSurface::trace(const Ray& ray) const
 {
-    Asked context = asked(state_->fronts, nullptr, RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT);
+    RayQuery query(Coherence::incoherent);
     RTCRayHit r = toEmbree(ray);
-    rtcIntersect1(state_->scene, &context.context, &r);
+    intersect(state_->scene, query, r);
     if (r.hit.geomID == RTC_INVALID_GEOMETRY_ID)
         return {};
     const glm::vec3 face = glm::normalize(glm::vec3(r.hit.Ng_x, r.hit.Ng_y, r.hit.Ng_z));
@@ -108,17 +108,16 @@ void HighSurface::anyBetween(const Probes& probes, Lanes<int>& any) const
         farthest[i] = probes.before[i] + probes.reach[i];
     Packet packet(probes, probes.before, -1, farthest);
     Asked context = asked(state_->fronts, filterFor(probes));
-    rtcOccluded16(packet.valid.data(), state_->scene, &context.context, &packet.rays.ray);
+    occluded(packet.valid.data(), state_->scene, context.query, packet.rays.ray);
     for (std::size_t i = 0; i < kLanes; ++i)
         any[i] = packet.valid[i] != 0 && packet.rays.ray.tfar[i] < 0; // Embree's mark for an occluded ray
 }
 
 bool HighSurface::blocked(const Ray& ray) const
 {
-    RTCIntersectContext context;
-    rtcInitIntersectContext(&context);
+    RayQuery query(Coherence::incoherent);
     RTCRay r = toEmbree(ray).ray;
-    rtcOccluded1(state_->scene, &context, &r);
+    occluded(state_->scene, query, r);
     return r.tfar < 0;
 }
 

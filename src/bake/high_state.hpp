@@ -3,12 +3,11 @@
 
 #include <limits>
 
-#include <embree3/rtcore.h>
-
 #include <glm/geometric.hpp>
 
 #include "cotan/bake/high_surface.hpp"
 #include "curved_normals.hpp"
+#include "embree.hpp"
 
 namespace cotan {
 

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include <embree3/rtcore.h>
 #include <fmt/format.h>
 
 #include <glm/common.hpp>
@@ -78,7 +77,7 @@ Result<HighSurface> HighSurface::make(const std::vector<Scene>& scenes, int thre
         return unavailableError("Embree: no device");
     state->scene = rtcNewScene(state->device);
     // Robust: rays along edges find one of the two triangles. Filters: packets.hpp.
-    rtcSetSceneFlags(state->scene, RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION);
+    rtcSetSceneFlags(state->scene, RTC_SCENE_FLAG_ROBUST | kFiltersInQueries);
     for (Part& part : state->parts)
         state->attach(part);
     rtcCommitScene(state->scene);

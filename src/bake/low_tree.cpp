@@ -1,8 +1,8 @@
 #include "cotan/bake/low_tree.hpp"
 
 #include <algorithm>
+#include <cmath>
 
-#include <embree3/rtcore.h>
 #include <fmt/format.h>
 
 #include <glm/common.hpp>
@@ -18,6 +18,7 @@ struct LowTree::State {
     std::vector<glm::vec3> positions; // and one more, as Embree reads 16 bytes at every vertex
     std::vector<std::uint32_t> indices;
     std::vector<glm::vec3> faces;
+    std::vector<std::int64_t> shown;
 
     ~State()
     {
@@ -65,9 +66,11 @@ Coordinates nearestOn(glm::vec3 a, glm::vec3 b, glm::vec3 c, glm::vec3 p)
 
 } // namespace
 
-Result<LowTree> LowTree::make(std::vector<glm::vec3> positions, std::vector<std::uint32_t> indices, int threads)
+Result<LowTree> LowTree::make(std::vector<glm::vec3> positions, std::vector<std::uint32_t> indices,
+                              std::vector<std::int64_t> shown, int threads)
 {
     auto state = std::make_unique<State>();
+    state->shown = std::move(shown);
     state->positions = std::move(positions);
     state->indices = std::move(indices);
     for (std::size_t i = 0; i + 2 < state->indices.size(); i += 3) {
@@ -145,13 +148,24 @@ LowTree::Nearest LowTree::nearestOf(glm::vec3 to, float radius, const void* acce
 
 LowTree::Met LowTree::first(const Ray& ray) const
 {
-    RTCIntersectContext context;
-    rtcInitIntersectContext(&context);
+    RayQuery query(Coherence::incoherent);
     RTCRayHit r = toEmbree(ray);
-    rtcIntersect1(state_->scene, &context, &r);
+    intersect(state_->scene, query, r);
     if (r.hit.geomID == RTC_INVALID_GEOMETRY_ID)
         return {};
     return {true, r.hit.primID, r.hit.u, r.hit.v, r.ray.tfar};
+}
+
+LowTree::Met LowTree::firstBeside(std::uint32_t triangle, Ray ray) const
+{
+    const std::vector<std::int64_t>& shown = state_->shown;
+    Met met = first(ray);
+    while (met.found && met.distance < ray.farthest && !shown.empty() && shown[triangle] >= 0 && shown[met.triangle] >= 0
+           && shown[triangle] != shown[met.triangle]) {
+        ray.nearest = std::nextafter(met.distance, ray.farthest);
+        met = first(ray);
+    }
+    return met;
 }
 
 glm::vec3 LowTree::corner(std::uint32_t triangle, std::size_t i) const

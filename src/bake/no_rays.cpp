@@ -32,7 +32,7 @@ glm::vec3 HighSurface::high() const { return glm::vec3(0); }
 
 struct LowTree::State {};
 
-Result<LowTree> LowTree::make(std::vector<glm::vec3>, std::vector<std::uint32_t>, int)
+Result<LowTree> LowTree::make(std::vector<glm::vec3>, std::vector<std::uint32_t>, std::vector<std::int64_t>, int)
 {
     return *HighSurface::unavailable();
 }
@@ -45,6 +45,7 @@ LowTree::Nearest LowTree::nearestOf(glm::vec3, float, const void*, bool (*)(cons
     return {};
 }
 LowTree::Met LowTree::first(const Ray&) const { return {}; }
+LowTree::Met LowTree::firstBeside(std::uint32_t, Ray) const { return {}; }
 glm::vec3 LowTree::corner(std::uint32_t, std::size_t) const { return glm::vec3(0); }
 glm::vec3 LowTree::face(std::uint32_t) const { return glm::vec3(0); }
 std::size_t LowTree::triangleCount() const { return 0; }

@@ -5,11 +5,10 @@
 #include <bit>
 #include <cmath>
 
-#include <embree3/rtcore.h>
-
 #include <glm/geometric.hpp>
 
 #include "cotan/bake/high_surface.hpp"
+#include "embree.hpp"
 
 namespace cotan {
 
@@ -42,9 +41,9 @@ inline RTCRayHit toEmbree(const Ray& ray)
 
 // What the filters of a trace read.
 struct Asked {
-    RTCIntersectContext context; // first, as Embree hands it to filters
-    const float* fronts;         // of the instances: 1, or -1 where triangles are wound against their normals
-    glm::vec3 normal{0};         // for keepFacing: of the low surface
+    RayQuery query;      // first, as Embree hands it to filters
+    const float* fronts; // of the instances: 1, or -1 where triangles are wound against their normals
+    glm::vec3 normal{0}; // for keepFacing: of the low surface
 };
 
 // Rays carry the instance that they look for as their id.
@@ -86,14 +85,9 @@ inline void keepFacing(const RTCFilterFunctionNArguments* a)
 
 // A filter costs a call for each candidate; most scenes need none: null.
 inline Asked asked(const std::vector<float>& fronts, RTCFilterFunctionN filter,
-                   RTCIntersectContextFlags flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT)
+                   Coherence coherence = Coherence::coherent)
 {
-    Asked asked;
-    rtcInitIntersectContext(&asked.context);
-    asked.context.flags = flags;
-    asked.context.filter = filter;
-    asked.fronts = fronts.data();
-    return asked;
+    return {RayQuery(coherence, filter), fronts.data()};
 }
 
 inline RTCFilterFunctionN filterFor(const Probes& probes)
@@ -139,17 +133,17 @@ struct Packet {
     }
     bool found(std::size_t i) const { return rays.hit.geomID[i] != RTC_INVALID_GEOMETRY_ID; } // never where not valid
 
-    void trace(RTCScene scene, Asked context) { rtcIntersect16(valid.data(), scene, &context.context, &rays); }
+    void trace(RTCScene scene, Asked asked) { intersect(valid.data(), scene, asked.query, rays); }
 
     // One lane, by Embree's way for single rays. Keeps what the lane has where that finds nothing.
-    void traceAlone(std::size_t i, RTCScene scene, Asked context)
+    void traceAlone(std::size_t i, RTCScene scene, Asked asked)
     {
         const RTCRay16& r = rays.ray;
         RTCRayHit one{};
         one.ray = {r.org_x[i], r.org_y[i], r.org_z[i], 0,   r.dir_x[i], r.dir_y[i],
                    r.dir_z[i], 0,          length[i],  ~0u, r.id[i],    0};
         one.hit.geomID = one.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
-        rtcIntersect1(scene, &context.context, &one);
+        intersect(scene, asked.query, one);
         if (one.hit.geomID == RTC_INVALID_GEOMETRY_ID)
             return;
         rays.ray.tfar[i] = one.ray.tfar;

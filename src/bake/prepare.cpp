@@ -3,10 +3,12 @@
 #include <cmath>
 
 #include <fmt/format.h>
+#include <glm/geometric.hpp>
 
 #include "cotan/bake/bake_model.hpp"
 #include "cotan/covector.hpp"
 #include "cotan/scene/check.hpp"
+#include "cotan/scene/objects.hpp"
 #include "cotan/scene/put_picture.hpp"
 #include "cotan/scene/stored_green.hpp"
 
@@ -15,7 +17,8 @@ namespace cotan {
 namespace {
 
 constexpr int kLargestSide = 65535; // texels: the number of a texel has 32 bits
-constexpr float kFarthest = 1e17f;  // model units: Embree ends the program for rays that start beyond 1.8e18
+constexpr int kMostOcclusionRays = 1 << 16;
+constexpr float kFarthest = 1e17f; // model units: Embree ends the program for rays that start beyond 1.8e18
 
 Status checkRanges(const Scene& low, const HighModel& high, const BakeModelOptions& options)
 {
@@ -26,9 +29,19 @@ Status checkRanges(const Scene& low, const HighModel& high, const BakeModelOptio
     if (b.samples != 1 && b.samples != 2 && b.samples != 4)
         return usageError(
             fmt::format("options.bake: expected 1, 2 or 4 samples a texel and axis; found {}", b.samples));
-    if (!(b.maxDistance <= kFarthest))
-        return usageError(
-            fmt::format("options.maxDistance: expected at most {:g}; found {:g}", kFarthest, b.maxDistance));
+    if (!isFrame(int(b.frame)) || !isFrame(int(options.highFrame)))
+        return usageError(fmt::format("options.{}: expected 0 to {}; found {}",
+                                      isFrame(int(b.frame)) ? "highFrame" : "bake.frame", kFrameCount - 1,
+                                      int(isFrame(int(b.frame)) ? options.highFrame : b.frame)));
+    if (options.tiles.empty())
+        return usageError("options.tiles: expected one tile or more; found none");
+    if (b.occlusionRays < 1 || b.occlusionRays > kMostOcclusionRays)
+        return usageError(fmt::format("options.bake: expected 1 to {} rays for occlusion; found {}", kMostOcclusionRays,
+                                      b.occlusionRays));
+    if (!(b.maxDistance >= 0 && b.maxDistance <= kFarthest))
+        return usageError(fmt::format("options.maxDistance: expected 0 to {:g}; found {:g}", kFarthest, b.maxDistance));
+    if (!(b.cageReach >= 0 && b.cageReach <= kFarthest))
+        return usageError(fmt::format("options.cageReach: expected 0 to {:g}; found {:g}", kFarthest, b.cageReach));
     if (!(b.extrusion >= 0 && b.extrusion <= kFarthest))
         return usageError(fmt::format("options.extrusion: expected 0 to {:g}; found {:g}", kFarthest, b.extrusion));
     if (options.cage && (b.search == BakeSearch::nearest || b.extrusion > 0))
@@ -52,7 +65,10 @@ Status checkScenes(const Scene& low, const HighModel& high, const BakeModelOptio
     Status sound = checkScene(low, "low", rules);
     for (std::size_t i = 0; sound && i < high.scenes.size(); ++i)
         sound = checkScene(high.scenes[i], fmt::format("high.scenes[{}]", i), rules);
-    return sound && options.cage ? checkScene(*options.cage, "options.cage", rules) : sound;
+    for (const auto& [scene, what] : {std::pair(options.cage, "options.cage"), {options.others, "options.others"}})
+        if (sound && scene)
+            sound = checkScene(*scene, what, rules);
+    return sound;
 }
 
 // The cage's corner positions, brought to the vertices of the low surface.
@@ -82,6 +98,20 @@ Status checkPlaces(const std::vector<glm::vec3>& points, const char* what)
                 return inputError(
                     fmt::format("{}: expected positions up to {:g} from the origin; found {:g}", what, kFarthest, x));
     return Done{};
+}
+
+// A transform of zero, for one, leaves none.
+Status checkArea(const LowSurface& low)
+{
+    for (std::size_t i = 0; i < low.indices.size(); i += 3) {
+        const glm::dvec3 p(low.positions[low.indices[i]]);
+        if (glm::cross(glm::dvec3(low.positions[low.indices[i + 1]]) - p,
+                       glm::dvec3(low.positions[low.indices[i + 2]]) - p)
+            != glm::dvec3(0))
+            return Done{};
+    }
+    return inputError(
+        fmt::format("low: expected a triangle with an area; all {} have none as they are placed", low.triangleCount()));
 }
 
 // Makes the materials say what HighModel::maps and highFormat say.
@@ -116,25 +146,32 @@ Status readOwnMaps(HighModel& high, BakeSetup& setup)
     return Done{};
 }
 
-// The triangles of the other materials.
-LowRest restOf(const Scene& low, int material)
+// An instance's triangles, in the world.
+void add(LowRest& rest, const Scene& scene, const Instance& instance, std::uint32_t number)
+{
+    const Mesh& mesh = scene.meshes[std::size_t(instance.mesh)];
+    const auto base = std::uint32_t(rest.positions.size());
+    const glm::mat3 covectors = LinearMap<float>(glm::mat3(instance.toWorld)).planeMatrix();
+    for (std::size_t v = 0; v < mesh.vertexCount(); ++v) {
+        rest.positions.push_back(glm::vec3(instance.toWorld * glm::vec4(mesh.positions[v], 1)));
+        rest.normals.push_back(covectors * mesh.normals[v]);
+    }
+    for (const std::uint32_t v : mesh.indices)
+        rest.indices.push_back(base + v);
+    rest.triangleInstance.insert(rest.triangleInstance.end(), mesh.triangleCount(), number);
+}
+
+// The triangles of the other materials, and those of options.others. By name a mesh sees its own detail alone: then
+// those do not matter.
+LowRest restOf(const Scene& low, const BakeModelOptions& options)
 {
     LowRest rest;
-    for (std::size_t i = 0; i < low.instances.size() && material >= 0; ++i) {
-        const Instance& instance = low.instances[i];
-        const Mesh& mesh = low.meshes[std::size_t(instance.mesh)];
-        if (mesh.material == material)
-            continue;
-        const auto base = std::uint32_t(rest.positions.size());
-        const glm::mat3 covectors = LinearMap<float>(glm::mat3(instance.toWorld)).planeMatrix();
-        for (std::size_t v = 0; v < mesh.vertexCount(); ++v) {
-            rest.positions.push_back(glm::vec3(instance.toWorld * glm::vec4(mesh.positions[v], 1)));
-            rest.normals.push_back(covectors * mesh.normals[v]);
-        }
-        for (const std::uint32_t v : mesh.indices)
-            rest.indices.push_back(base + v);
-        rest.triangleInstance.insert(rest.triangleInstance.end(), mesh.triangleCount(), std::uint32_t(i));
-    }
+    for (std::size_t i = 0; i < low.instances.size() && options.material >= 0; ++i)
+        if (low.meshes[std::size_t(low.instances[i].mesh)].material != options.material)
+            add(rest, low, low.instances[i], std::uint32_t(i));
+    if (options.others && !options.matchByName)
+        for (const Instance& instance : options.others->instances)
+            add(rest, *options.others, instance, 0);
     return rest;
 }
 
@@ -162,7 +199,7 @@ Result<std::vector<std::int64_t>> matches(const Scene& low, const HighSurface& h
 {
     std::vector<std::int64_t> result;
     for (const Instance& instance : low.instances) {
-        const std::string& name = !instance.name.empty() ? instance.name : low.meshes[std::size_t(instance.mesh)].name;
+        const std::string& name = objectName(low, instance);
         const auto& names = high.names();
         const auto found =
             std::find_if(names.begin(), names.end(), [&](const std::string& n) { return stem(n) == stem(name); });
@@ -194,13 +231,14 @@ Result<BakeSetup> prepareBake(const Scene& low, HighModel high, const BakeModelO
     auto highSurface = HighSurface::make(high.scenes, options.bake.threads);
     if (!highSurface)
         return highSurface.error();
-    for (const Status& placed : {checkPlaces(lowSurface->positions, "low"), checkPlaces(cage, "options.cage"),
-                                 checkPlaces({highSurface->low(), highSurface->high()}, "high")})
+    for (const Status& placed :
+         {checkPlaces(lowSurface->positions, "low"), checkArea(*lowSurface), checkPlaces(cage, "options.cage"),
+          checkPlaces({highSurface->low(), highSurface->high()}, "high")})
         if (!placed)
             return placed.error();
     BakeSetup setup{std::move(*lowSurface), std::move(*highSurface), options, {}, hasStoredTangents(low, options)};
     BakeOptions& bake = setup.options.bake;
-    setup.options.cage = nullptr;
+    setup.options.cage = setup.options.others = nullptr;
     bake.cage = std::move(cage);
     bake.highMaps = nullptr;
     bake.matched.clear();
@@ -216,7 +254,7 @@ Result<BakeSetup> prepareBake(const Scene& low, HighModel high, const BakeModelO
         bake.matched = std::move(*matched);
     }
     bake.starts = nullptr;
-    if (Status ready = measureRayStarts(setup.low, setup.high, bake, restOf(low, options.material)); !ready)
+    if (Status ready = measureRayStarts(setup.low, setup.high, bake, restOf(low, options)); !ready)
         return ready.error();
     return setup;
 }

@@ -97,22 +97,23 @@ void findDirections(const LowSurface& low, const Groups& groups, RayStarts& star
 struct Body {
     std::shared_ptr<const LowTree> tree;
     std::vector<glm::vec3> outsides;      // of its triangles: unit, to the side of the vertices' normals
-    std::vector<std::uint32_t> instances; // of the same
+    std::vector<std::int64_t> shown;      // of the same: the instance of the high surface, -1 for all; empty for all
     float diagonal = 0, edge = 0;         // of the box; about that of a triangle
 };
 
-Result<Body> bodyOf(const LowSurface& low, const LowRest& rest, int threads)
+Result<Body> bodyOf(const LowSurface& low, const LowRest& rest, const RayStartOptions& options)
 {
     Body body;
     std::vector<glm::vec3> positions = low.positions, normals = low.normals;
     std::vector<std::uint32_t> indices = low.indices;
-    body.instances = low.triangleInstance;
+    std::vector<std::uint32_t> instances = low.triangleInstance;
     const auto base = std::uint32_t(positions.size());
     positions.insert(positions.end(), rest.positions.begin(), rest.positions.end());
     normals.insert(normals.end(), rest.normals.begin(), rest.normals.end());
     for (const std::uint32_t i : rest.indices)
         indices.push_back(base + i);
-    body.instances.insert(body.instances.end(), rest.triangleInstance.begin(), rest.triangleInstance.end());
+    instances.insert(instances.end(), rest.triangleInstance.begin(), rest.triangleInstance.end());
+    body.shown = shownBy(instances, options.matched);
     glm::vec3 from(1e30f), to(-1e30f);
     for (const std::uint32_t i : indices) {
         from = glm::min(from, positions[i]);
@@ -129,7 +130,7 @@ Result<Body> bodyOf(const LowSurface& low, const LowRest& rest, int threads)
         body.outsides.push_back(length > 0 ? n / (glm::dot(n, side) < 0 ? -length : length) : glm::vec3(0));
     }
     body.edge = float(1.5 * std::sqrt(area / double(body.outsides.size())));
-    auto tree = LowTree::make(std::move(positions), std::move(indices), threads);
+    auto tree = LowTree::make(std::move(positions), std::move(indices), body.shown, options.threads);
     if (!tree)
         return tree.error();
     body.tree = std::make_shared<const LowTree>(std::move(*tree));
@@ -211,10 +212,7 @@ public:
 private:
     bool sees(std::uint32_t triangle, std::uint32_t instance) const
     {
-        if (options_.matched.empty())
-            return true;
-        const std::int64_t only = options_.matched[body_.instances[triangle]];
-        return only < 0 || only == std::int64_t(instance);
+        return body_.shown.empty() || body_.shown[triangle] < 0 || body_.shown[triangle] == std::int64_t(instance);
     }
     glm::vec3 directionAt(std::uint32_t triangle, float b1, float b2) const
     {
@@ -254,7 +252,7 @@ private:
         const float lift = 1e-5f * body_.diagonal;
         if (!(glm::dot(way, way) > 0))
             return;
-        const float from = openDistance(*body_.tree, point, way, starts_.skip, starts_.limit);
+        const float from = openDistance(*body_.tree, triangle, point, way, starts_.skip, starts_.limit);
         float passed = 0;
         for (int layer = 0; layer < kMostLayers && passed < from; ++layer) {
             const Hit hit = high_.trace({point + way * (from - passed), -way, 0, from - passed});
@@ -340,7 +338,7 @@ bool isCrossed(const LowSurface& low, const RayStarts& starts, std::size_t trian
             const float wanted =
                 length * (starts.distances[v[0]] * b0 + starts.distances[v[1]] * b1 + starts.distances[v[2]] * b2);
             if (length > 0
-                && openDistance(*starts.tree, p[0] * b0 + p[1] * b1 + p[2] * b2, sum / length, starts.skip, wanted)
+                && openDistance(*starts.tree, std::uint32_t(triangle), p[0] * b0 + p[1] * b1 + p[2] * b2, sum / length, starts.skip, wanted)
                     < wanted)
                 return true;
         }
@@ -358,11 +356,22 @@ void findCrossed(const LowSurface& low, float diagonal, RayStarts& starts)
 
 } // namespace
 
-float openDistance(const LowTree& tree, glm::vec3 point, glm::vec3 direction, float skip, float wanted)
+std::vector<std::int64_t> shownBy(std::span<const std::uint32_t> triangleInstance,
+                                  std::span<const std::int64_t> matched)
+{
+    std::vector<std::int64_t> shown;
+    if (!matched.empty())
+        for (const std::uint32_t instance : triangleInstance)
+            shown.push_back(matched[instance]);
+    return shown;
+}
+
+float openDistance(const LowTree& tree, std::uint32_t triangle, glm::vec3 point, glm::vec3 direction, float skip,
+                   float wanted)
 {
     if (!(wanted > skip))
         return wanted;
-    const LowTree::Met met = tree.first({point, direction, skip, wanted});
+    const LowTree::Met met = tree.firstBeside(triangle, {point, direction, skip, wanted});
     if (!met.found)
         return wanted;
     return glm::dot(tree.face(met.triangle), direction) > 0 ? met.distance / 2 : met.distance;
@@ -374,7 +383,7 @@ Result<RayStarts> makeRayStarts(const LowSurface& low, const HighSurface& high, 
     RayStarts starts;
     const Groups groups = groupsOf(low);
     findDirections(low, groups, starts);
-    auto body = bodyOf(low, rest, options.threads);
+    auto body = bodyOf(low, rest, options);
     if (!body)
         return body.error();
     starts.skip = kSkip * body->diagonal;

@@ -68,7 +68,7 @@ public:
         const glm::vec3 at = probe.point.at(0), way = probe.direction.at(0);
         if (!(glm::dot(way, way) > 0))
             return {};
-        const float from = openDistance(tree_, at, way, 1e-4f * diagonal_, limit_);
+        const float from = openDistance(tree_, seen.triangle, at, way, 1e-4f * diagonal_, limit_);
         float passed = 0;
         for (int layer = 0; layer < kMostLayers; ++layer) {
             const float left = from + limit_ - passed;
@@ -79,7 +79,7 @@ public:
             const bool counts = probe.only[0] == Probes::kAny || probe.only[0] == hit.instance;
             if (counts && glm::dot(hit.front, way) > 0 && glm::dot(hit.front, probe.normal.at(0)) > kUpright
                 && sees(eye, start - way * hit.distance, hit.front))
-                return judge(probe, from - passed - hit.distance, normalOf(hit, way));
+                return judge(place, probe, from - passed - hit.distance, normalOf(hit, way));
             passed += hit.distance + 1e-5f * diagonal_;
         }
         return {};
@@ -94,10 +94,10 @@ private:
             && !high_.blocked({eye, way / distance, 0, distance - std::min(kApart * diagonal_, 0.5f * distance)});
     }
     // Whether the baker takes the surface that lies `off` in front.
-    Answer judge(const Probes& probe, float off, glm::vec3 normal) const
+    Answer judge(const UvPlace& place, const Probes& probe, float off, glm::vec3 normal) const
     {
         Hits hits;
-        baker_.find(probe, hits);
+        baker_.find({&place, 1}, probe, hits);
         return {true, !hits.found(0) || std::abs(hits.distance[0] - off) > kApart * diagonal_, normal};
     }
 
@@ -127,7 +127,8 @@ Result<SeenHigh> seeHigh(const LowSurface& low, const HighSurface& high, const B
         return ready.error();
     std::shared_ptr<const LowTree> tree = options.starts ? options.starts->tree : nullptr;
     if (!tree) {
-        auto made = LowTree::make(low.positions, low.indices, options.threads);
+        auto made = LowTree::make(low.positions, low.indices, shownBy(low.triangleInstance, options.matched),
+                                  options.threads);
         if (!made)
             return made.error();
         tree = std::make_shared<const LowTree>(std::move(*made));

@@ -7,6 +7,7 @@
 #include <new>
 
 #include <nlohmann/json.hpp>
+#include <sys/resource.h>
 #include <unistd.h>
 
 #include "cotan/files/account.hpp"
@@ -24,7 +25,7 @@ namespace {
 using nlohmann::ordered_json;
 
 constexpr const char* kJobWord = "run-for-batch"; // its first argument
-constexpr std::size_t kFixedWords = 5;
+constexpr std::size_t kFixedWords = 6;
 constexpr std::size_t kMostAnswerBytes = 256 << 20;
 
 // Files that the command names, each once, in order; from any thread.
@@ -85,8 +86,12 @@ std::size_t numberIn(const char* text)
 
 std::vector<std::string> toWords(const ChildRequest& request)
 {
-    std::vector<std::string> words = {kJobWord, request.work.string(), std::to_string(request.parent),
-                                      std::to_string(request.megabytes), std::to_string(int(request.thumbnails))};
+    std::vector<std::string> words = {kJobWord,
+                                      request.work.string(),
+                                      std::to_string(request.parent),
+                                      std::to_string(request.megabytes),
+                                      std::to_string(int(request.thumbnails)),
+                                      std::to_string(request.processorSeconds)};
     words.insert(words.end(), request.words.begin(), request.words.end());
     return words;
 }
@@ -103,11 +108,16 @@ int runJobProcess(int argc, const char* const* argv, const std::function<int(con
     request.parent = std::int64_t(numberIn(argv[3]));
     request.megabytes = numberIn(argv[4]);
     request.thumbnails = Thumbnails(numberIn(argv[5]));
+    request.processorSeconds = numberIn(argv[6]);
     request.words = {argv + kFixedWords + 1, argv + argc};
     dieWith(request.parent, SIGTERM); // at which unfinished files are removed
     leaveNoCore();
     if (request.megabytes > 0)
         limitMemory(double(request.megabytes), double(request.megabytes));
+    if (rlimit limit{}; request.processorSeconds > 0 && ::getrlimit(RLIMIT_CPU, &limit) == 0) {
+        limit.rlim_cur = std::min<rlim_t>(request.processorSeconds, limit.rlim_max);
+        ::setrlimit(RLIMIT_CPU, &limit);
+    }
     std::set_new_handler([] { ::_exit(kNoMemoryCode); });
 
     Names inputs, outputs;

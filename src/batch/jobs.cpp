@@ -5,8 +5,10 @@
 #include <optional>
 #include <span>
 #include <string_view>
+#include <type_traits>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
 #include "cotan/files/bytes.hpp"
@@ -21,6 +23,9 @@ using nlohmann::json;
 
 constexpr std::size_t kMostBytes = std::size_t(4) << 30;
 constexpr std::size_t kMostNameBytes = 1000;
+constexpr double kMostMegabytes = 1 << 24;
+constexpr double kLeastSeconds = 0.001, kMostSeconds = 1e6;
+constexpr double kMostRetries = 100, kMostPriority = 1000000;
 
 // Lists and objects are named only: writing one out takes stack for each level that it is deep.
 Error expected(const std::string& member, const std::string& what, const json& found)
@@ -57,6 +62,61 @@ void addNew(std::vector<std::string>& all, const std::vector<std::string>& more)
             all.push_back(item);
 }
 
+constexpr std::string_view kMembers[] = {
+    "name",     "command", "inputs", "outputs", "limit-memory", "limit-time", "limit-processor-time",
+    "priority", "retries", "env"};
+
+// A member that is a number, where it is there.
+template<class Number>
+Status readNumber(const json& job, const char* member, double least, double most, std::optional<Number>& number)
+{
+    if (!job.contains(member))
+        return Done{};
+    const json& value = job[member];
+    const bool whole = std::is_integral_v<Number>;
+    const bool fits = (whole ? value.is_number_integer() : value.is_number()) && value.get<double>() >= least
+        && value.get<double>() <= most;
+    if (!fits)
+        return expected(member,
+                        fmt::format("{} from {:.12g} to {:.12g}", whole ? "a whole number" : "a number", least, most),
+                        value);
+    number = value.get<Number>();
+    return Done{};
+}
+
+Status readEnvironment(const json& job, std::map<std::string, std::string>& environment)
+{
+    if (!job.contains("env"))
+        return Done{};
+    const json& value = job["env"];
+    if (!value.is_object())
+        return expected("env", "an object of texts such as {\"NAME\": \"VALUE\"}", value);
+    for (const auto& [name, text] : value.items()) {
+        if (!text.is_string() || text.get<std::string>().find('\0') != std::string::npos)
+            return expected("env", "texts without the character 0 (numbers in quotes, too)", text);
+        if (name.empty() || name.find_first_of(std::string_view("=\0", 2)) != std::string::npos)
+            return expected("env", "names of variables", name);
+        environment[name] = text.get<std::string>();
+    }
+    return Done{};
+}
+
+Status readOptions(const json& job, JobOptions& options)
+{
+    std::optional<int> priority;
+    Status read = readNumber(job, "limit-memory", 0, kMostMegabytes, options.megabytes);
+    if (read)
+        read = readNumber(job, "limit-time", kLeastSeconds, kMostSeconds, options.seconds);
+    if (read)
+        read = readNumber(job, "limit-processor-time", 0, kMostSeconds, options.processorSeconds);
+    if (read)
+        read = readNumber(job, "retries", 0, kMostRetries, options.retries);
+    if (read)
+        read = readNumber(job, "priority", -kMostPriority, kMostPriority, priority);
+    options.priority = priority.value_or(0);
+    return read ? readEnvironment(job, options.environment) : read;
+}
+
 Result<Job> readJob(std::string_view line, const CheckWords& check)
 {
     const json parsed = json::parse(line, nullptr, /*allow_exceptions*/ false);
@@ -65,9 +125,9 @@ Result<Job> readJob(std::string_view line, const CheckWords& check)
     if (!parsed.is_object())
         return inputError("expected a JSON object; found another JSON value");
     for (const auto& [member, value] : parsed.items())
-        if (member != "name" && member != "command" && member != "inputs" && member != "outputs")
+        if (std::ranges::find(kMembers, member) == std::end(kMembers))
             return inputError(
-                fmt::format("expected name, command, inputs and outputs; found \"{}\"", printable(member, 60)));
+                fmt::format("expected {}; found \"{}\"", fmt::join(kMembers, ", "), printable(member, 60)));
     const auto command = texts(parsed, "command"), inputs = texts(parsed, "inputs"), outputs = texts(parsed, "outputs");
     for (const auto* list : {&command, &inputs, &outputs})
         if (!*list)
@@ -86,6 +146,8 @@ Result<Job> readJob(std::string_view line, const CheckWords& check)
     }
     if (Status good = check(job); !good)
         return inputError(good.error().message);
+    if (Status read = readOptions(parsed, job.options); !read)
+        return read.error();
     addNew(job.inputs, *inputs);
     addNew(job.outputs, *outputs);
     return job;
@@ -112,6 +174,15 @@ private:
 };
 
 } // namespace
+
+std::vector<std::string> Job::key() const
+{
+    std::vector<std::string> all;
+    for (const auto& [variable, value] : options.environment)
+        all.push_back(variable + "=" + value);
+    all.insert(all.end(), words.begin(), words.end());
+    return all;
+}
 
 Result<JobList> readJobs(const std::filesystem::path& file, const CheckWords& check)
 {

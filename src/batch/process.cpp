@@ -52,7 +52,8 @@ JobProcess::~JobProcess()
 }
 
 Result<JobProcess> JobProcess::start(const std::string& program, const std::filesystem::path& folder,
-                                     const ChildRequest& request, double limitSeconds)
+                                     const ChildRequest& request, const std::map<std::string, std::string>& environment,
+                                     double limitSeconds)
 {
     int pair[2];
     if (::pipe2(pair, O_CLOEXEC) != 0)
@@ -60,7 +61,7 @@ Result<JobProcess> JobProcess::start(const std::string& program, const std::file
     Descriptor ours(pair[0]), theirs(pair[1]);
     ::fcntl(ours.get(), F_SETFL, O_NONBLOCK);
     pid_t process = -1;
-    if (const int problem = spawn({program, toWords(request), -1, theirs.get(), folder}, process))
+    if (const int problem = spawn({program, toWords(request), -1, theirs.get(), folder, environment}, process))
         return unavailableError(fmt::format("cannot start a process: {}", std::strerror(problem)));
     return JobProcess(process, std::move(ours), limitSeconds);
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <chrono>
+#include <map>
 #include <optional>
 #include <string>
 
@@ -24,10 +25,11 @@ struct Ending {
 
 class JobProcess {
 public:
-    // Starts `program` in a folder; after `limitSeconds` on the wall it is asked to end, and two seconds later it is
-    // made to. Errors: ErrorKind::unavailable.
+    // Starts `program` in a folder, with these variables besides ours; after `limitSeconds` on the wall it is asked to
+    // end, and two seconds later it is made to. Errors: ErrorKind::unavailable.
     static Result<JobProcess> start(const std::string& program, const std::filesystem::path& folder,
-                                    const ChildRequest& request, double limitSeconds);
+                                    const ChildRequest& request, const std::map<std::string, std::string>& environment,
+                                    double limitSeconds);
 
     JobProcess(JobProcess&& other) noexcept;
     JobProcess& operator=(JobProcess&&) = delete;

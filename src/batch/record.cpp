@@ -12,7 +12,7 @@ namespace {
 using nlohmann::json;
 using nlohmann::ordered_json;
 
-constexpr int kFormat = 1;
+constexpr int kFormat = 2;
 
 constexpr std::array<std::string_view, 8> kStates = {"done",   "over limit", "not run",       "skipped",
                                                      "failed", "too slow",   "out of memory", "crashed"};
@@ -30,6 +30,10 @@ ordered_json toJson(const std::vector<FileState>& states)
         list.push_back(toJson(state));
     return list;
 }
+
+ordered_json orNull(const std::optional<int>& number) { return number ? ordered_json(*number) : ordered_json(nullptr); }
+
+std::optional<int> numberIn(const json& j) { return j.is_null() ? std::nullopt : std::optional(j.get<int>()); }
 
 std::vector<FileState> statesIn(const json& list)
 {
@@ -57,7 +61,9 @@ std::string toText(const JobRecord& r, const std::vector<std::string>& words, co
                       {"version", version},
                       {"words", words},
                       {"state", name(r.state)},
-                      {"code", r.code},
+                      {"code", orNull(r.code)},
+                      {"signal", orNull(r.signal)},
+                      {"runs", r.runs},
                       {"reason", r.reason},
                       {"said", r.said},
                       {"seconds", r.seconds},
@@ -82,7 +88,9 @@ std::optional<JobRecord> parseRecord(std::string_view text)
             return std::nullopt;
         JobRecord r;
         r.state = JobState(state - kStates.begin());
-        r.code = j.at("code");
+        r.code = numberIn(j.at("code"));
+        r.signal = numberIn(j.at("signal"));
+        r.runs = j.at("runs");
         r.reason = j.at("reason");
         r.said = j.at("said");
         r.seconds = j.at("seconds");

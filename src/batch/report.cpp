@@ -1,6 +1,7 @@
 #include "cotan/batch/report.hpp"
 
 #include <algorithm>
+#include <iterator>
 #include <numeric>
 #include <tuple>
 
@@ -19,13 +20,25 @@ std::string commandLine(const std::vector<std::string>& words)
     return line;
 }
 
+namespace {
+
+// What was measured and found bad before what was refused and says nothing of the model.
+int rankOf(JobState state)
+{
+    constexpr JobState kGoodFirst[] = {JobState::done,  JobState::notRun, JobState::skipped, JobState::failed,
+                                       JobState::limit, JobState::late,   JobState::memory,  JobState::crashed};
+    return int(std::ranges::find(kGoodFirst, state) - std::begin(kGoodFirst));
+}
+
+} // namespace
+
 std::vector<std::size_t> worstFirst(const std::vector<JobResult>& results)
 {
     std::vector<std::size_t> order(results.size());
     std::iota(order.begin(), order.end(), std::size_t(0));
     const auto badness = [&](std::size_t i) {
         const JobRecord& record = results[i].record;
-        return std::tuple(record.state, record.degrees ? record.degrees->mean : -1.0);
+        return std::tuple(rankOf(record.state), record.degrees ? record.degrees->mean : -1.0);
     };
     std::ranges::stable_sort(order, std::greater<>(), badness);
     return order;
@@ -73,7 +86,9 @@ Json batchJson(const JobList& list, const std::vector<JobResult>& results)
                     {"line", job.line},
                     {"command", job.words},
                     {"state", name(r.state)},
-                    {"code", r.code},
+                    {"code", r.code ? Json(*r.code) : Json(nullptr)},
+                    {"signal", r.signal ? Json(*r.signal) : Json(nullptr)},
+                    {"runs", r.runs},
                     {"reason", r.reason},
                     {"kept", results[i].kept},
                     {"degrees", nullptr},

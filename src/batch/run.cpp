@@ -1,10 +1,13 @@
 #include "cotan/batch/run.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <csignal>
 #include <cstring>
 #include <deque>
+#include <functional>
 #include <list>
+#include <map>
 #include <optional>
 #include <thread>
 
@@ -69,35 +72,53 @@ JobRecord skippedRecord(const std::string& failed)
     return record;
 }
 
-void judge(const Ending& ending, const RunOptions& options, JobRecord& record)
+// The limits of one job.
+struct Limits {
+    double seconds = 0, processorSeconds = 0;
+    std::size_t megabytes = 0;
+};
+
+Limits limitsOf(const RunOptions& all, const JobOptions& own)
+{
+    return {own.seconds.value_or(all.seconds), std::ceil(own.processorSeconds.value_or(all.processorSeconds)),
+            own.megabytes.value_or(all.megabytes)};
+}
+
+void judge(const Ending& ending, const Limits& limits, JobRecord& record)
 {
     const std::string words = lastWords(ending.said);
-    const auto is = [&](JobState state, int code, std::string reason) {
+    const auto is = [&](JobState state, std::string reason) {
         record.state = state;
-        record.code = code;
         record.reason = std::move(reason);
     };
     const int status = ending.status;
     const bool signalled = WIFSIGNALED(status);
     const int signal = signalled ? WTERMSIG(status) : 0, code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+    if (signalled)
+        record.signal = signal;
+    else
+        record.code = code;
     const bool noMemory = code == kNoMemoryCode || (signalled && ending.said.find("bad_alloc") != std::string::npos);
     if (ending.late)
-        return is(JobState::late, signal, fmt::format("took longer than {:.4g} s and was ended", options.seconds));
-    if (noMemory && options.megabytes > 0)
-        return is(JobState::memory, code, fmt::format("wanted more memory than {} MiB", options.megabytes));
+        return is(JobState::late, fmt::format("took longer than {:.4g} s and was ended", limits.seconds));
+    if (signal == SIGXCPU)
+        return is(JobState::late,
+                  fmt::format("took more than {:.4g} s of processor time and was ended", limits.processorSeconds));
+    if (noMemory && limits.megabytes > 0)
+        return is(JobState::memory, fmt::format("wanted more memory than {} MiB", limits.megabytes));
     if (noMemory)
-        return is(JobState::memory, code, "wanted more memory than there is");
+        return is(JobState::memory, "wanted more memory than there is");
     if (signal == SIGKILL)
         return is(
-            JobState::crashed, signal,
+            JobState::crashed,
             fmt::format("was killed (signal 9) with {:.0f} MiB in use, perhaps for want of memory", ending.megabytes));
     if (signalled)
-        return is(JobState::crashed, signal,
+        return is(JobState::crashed,
                   fmt::format("crashed (signal {}, {}) with {:.0f} MiB in use: {}", signal, ::strsignal(signal),
                               ending.megabytes, words));
     if (code == 0)
-        return is(JobState::done, 0, "");
-    is(code == int(ErrorKind::limit) ? JobState::limit : JobState::failed, code, words);
+        return is(JobState::done, "");
+    is(code == int(ErrorKind::limit) ? JobState::limit : JobState::failed, words);
 }
 
 // The run of a batch: one thread, which starts processes, waits for what they say, and keeps their results.
@@ -106,8 +127,8 @@ public:
     Run(const JobList& list, const Plan& plan, std::span<const std::size_t> chosen, Store& store,
         const RunOptions& options, const Progress& progress)
         : list_(list), chosen_(chosen), store_(store), options_(options), states_(list.folder),
-          results_(list.jobs.size()), waitsFor_(list.jobs.size()), waiting_(list.jobs.size()),
-          steps_(progress, chosen.size())
+          results_(list.jobs.size()), waitsFor_(list.jobs.size()), waiting_(list.jobs.size()), runs_(list.jobs.size()),
+          priorities_(prioritiesOf(list, plan)), steps_(progress, chosen.size())
     {
         for (std::size_t slot = std::max<std::size_t>(options.processes, 1); slot > 0; --slot)
             slots_.push_back(slot);
@@ -116,7 +137,7 @@ public:
             for (const std::size_t need : plan.needs[job])
                 waiting_[need].push_back(job);
             if (waitsFor_[job] == 0)
-                ready_.push_back(job);
+                addReady(job);
         }
     }
 
@@ -137,17 +158,50 @@ public:
     }
 
 private:
+    // Of each job the largest one of its own and of those that wait for it.
+    static std::vector<int> prioritiesOf(const JobList& list, const Plan& plan)
+    {
+        std::vector<int> priorities;
+        std::vector<std::size_t> raised;
+        for (const Job& job : list.jobs) {
+            raised.push_back(priorities.size());
+            priorities.push_back(job.options.priority);
+        }
+        while (!raised.empty()) {
+            const std::size_t job = raised.back();
+            raised.pop_back();
+            for (const std::size_t need : plan.needs[job])
+                if (priorities[need] < priorities[job]) {
+                    priorities[need] = priorities[job];
+                    raised.push_back(need);
+                }
+        }
+        return priorities;
+    }
+
+    void addReady(std::size_t job) { ready_[priorities_[job]].push_back(job); }
+
+    // The first of those with the largest priority.
+    std::size_t takeReady()
+    {
+        const auto most = ready_.begin();
+        const std::size_t job = most->second.front();
+        most->second.pop_front();
+        if (most->second.empty())
+            ready_.erase(most);
+        return job;
+    }
+
     // As many as there is room for.
     Status start()
     {
         std::deque<std::size_t> elsewhere; // run by other processes
         Status status = Done{};
         while (status && !slots_.empty() && !ready_.empty() && !steps_.stopped()) {
-            const std::size_t job = ready_.front();
-            ready_.pop_front();
+            const std::size_t job = takeReady();
             if (auto kept = keptOf(job)) {
                 finish(job, std::move(*kept), /*kept*/ true);
-            } else if (auto claim = store_.claim(list_.jobs[job].words)) {
+            } else if (auto claim = store_.claim(list_.jobs[job].key())) {
                 // It may have been finished elsewhere since.
                 if (auto done = keptOf(job))
                     finish(job, std::move(*done), true);
@@ -157,7 +211,8 @@ private:
                 elsewhere.push_back(job);
             }
         }
-        ready_.insert(ready_.end(), elsewhere.begin(), elsewhere.end());
+        for (const std::size_t job : elsewhere)
+            addReady(job);
         return status;
     }
 
@@ -165,7 +220,7 @@ private:
     {
         if (options_.again)
             return std::nullopt;
-        auto record = store_.find(list_.jobs[job].words);
+        auto record = store_.find(list_.jobs[job].key());
         const auto holds = [&](const FileState& state) { return states_.holds(state, record->at); };
         if (record && repeatable(*record) && std::ranges::all_of(record->inputs, holds)
             && std::ranges::all_of(record->outputs, holds))
@@ -189,7 +244,9 @@ private:
         for (const std::string& output : asked.outputs)
             fs::create_directories((list_.folder / output).parent_path(), ignored); // else the command says why
         request.parent = ::getpid();
-        request.megabytes = options_.megabytes;
+        const Limits limits = limitsOf(options_, asked.options);
+        request.megabytes = limits.megabytes;
+        request.processorSeconds = std::size_t(limits.processorSeconds);
         request.thumbnails = options_.thumbnails;
         request.words = asked.words;
         if (!asked.threads)
@@ -197,7 +254,9 @@ private:
         if (asked.json.empty())
             request.words.insert(request.words.end(), {"--json", (request.work / kReportName).string()});
         const std::int64_t began = nowNanoseconds();
-        auto process = JobProcess::start(options_.program, list_.folder, request, options_.seconds);
+        auto process =
+            JobProcess::start(options_.program, list_.folder, request, asked.options.environment, limits.seconds);
+        ++runs_[job];
         if (!process) {
             JobRecord record;
             record.state = JobState::failed;
@@ -236,14 +295,25 @@ private:
             }
             const std::size_t job = at->job;
             JobRecord record = recordOf(*at, number, *ending);
-            Status kept = store_.keep(list_.jobs[job].words, record);
             slots_.push_back(at->slot);
+            if (mayHelp(job, record)) {
+                running_.erase(at++);
+                addReady(job);
+                continue;
+            }
+            Status kept = store_.keep(list_.jobs[job].key(), record);
             running_.erase(at++); // with its claim
             finish(job, std::move(record), false);
             if (!kept)
                 return kept;
         }
         return Done{};
+    }
+
+    // Whether a job is to run once more.
+    bool mayHelp(std::size_t job, const JobRecord& record) const
+    {
+        return !repeatable(record) && runs_[job] <= list_.jobs[job].options.retries.value_or(options_.retries);
     }
 
     JobRecord recordOf(const Running& r, pid_t number, const Ending& ending)
@@ -254,7 +324,8 @@ private:
         record.seconds = ending.seconds;
         record.processorSeconds = ending.processorSeconds;
         record.megabytes = ending.megabytes;
-        judge(ending, options_, record);
+        record.runs = runs_[r.job];
+        judge(ending, limitsOf(options_, job.options), record);
         if (!WIFEXITED(ending.status) || record.state == JobState::memory)
             for (const std::string& output : job.outputs)
                 removeParts((list_.folder / output).parent_path(), number);
@@ -304,7 +375,7 @@ private:
         else
             for (const std::size_t next : waiting_[job])
                 if (--waitsFor_[next] == 0)
-                    ready_.push_back(next);
+                    addReady(next);
         while (!failed.empty()) { // and all that wait for those
             const std::size_t bad = failed.back();
             failed.pop_back();
@@ -326,8 +397,10 @@ private:
     std::vector<JobResult> results_;                // of all jobs, by number
     std::vector<std::size_t> waitsFor_;             // how many jobs it still waits for
     std::vector<std::vector<std::size_t>> waiting_; // jobs that wait for it
-    std::deque<std::size_t> ready_;
-    std::vector<std::size_t> slots_; // that are free
+    std::vector<int> runs_;                         // how often it has been started here
+    std::vector<int> priorities_;
+    std::map<int, std::deque<std::size_t>, std::greater<>> ready_; // by priority
+    std::vector<std::size_t> slots_;                               // that are free
     std::list<Running> running_;
     std::size_t finished_ = 0;
     CountedSteps steps_;
@@ -364,7 +437,7 @@ std::vector<JobResult> collect(const JobList& list, const Plan& plan, std::span<
         JobResult result{job, {}, /*kept*/ false};
         result.record.reason = "no store has a result of it with these inputs";
         for (const Store& store : stores) {
-            auto record = store.find(list.jobs[job].words);
+            auto record = store.find(list.jobs[job].key());
             const auto holds = [&](const FileState& state) { return states.holds(state, record->at); };
             if (record && record->at > result.record.at && std::ranges::all_of(record->inputs, holds)
                 && std::ranges::all_of(record->outputs, holds))

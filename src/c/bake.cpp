@@ -99,6 +99,28 @@ void checkMask(const cotan_picture& mask, const cotan_picture& map)
         fail(ErrorKind::usage, "options.mask: expected 8 bits and the size of the map");
 }
 
+// Errors of bakeModel begin with the field of its own structs.
+Error inOurWords(Error error)
+{
+    constexpr std::pair<std::string_view, std::string_view> kFields[] = {
+        {"options.bake: expected a width", "map: expected a width"},
+        {"options.bake: expected 1, 2 or 4 samples", "options.samples: expected 1, 2 or 4 samples"},
+        {"options.bake.frame:", "options.frame:"},
+        {"options.highFrame:", "options.high_frame:"},
+        {"options.maxDistance:", "options.max_distance:"},
+        {"options.cageReach:", "options.cage_reach:"},
+        {"options.matchByName:", "options.match_by_name:"},
+        {"options.tiles:", "options.tile:"},
+        {"high.maps:", "options.high_maps:"},
+    };
+    for (const auto& [theirs, ours] : kFields)
+        if (error.message.starts_with(theirs)) {
+            error.message.replace(0, theirs.size(), ours);
+            break;
+        }
+    return error;
+}
+
 // Bakes and gives what came of it.
 void bakeInto(const Scene& low, HighModel high, const cotan_bake_options* given, cotan_picture* map,
               cotan_bake_result* result, cotan_bytes** warnings)
@@ -111,7 +133,14 @@ void bakeInto(const Scene& low, HighModel high, const cotan_bake_options* given,
         checkMask(*o.mask, out);
     BakeModelOptions options = bakeOptionsOf(o, out);
     readHigh(o, options, high);
-    const BakedModel baked = valueOf(bakeModel(low, std::move(high), options, progressOf(o.progress, o.user)));
+    if (options.material >= int(low.materials.size()))
+        fail(ErrorKind::usage,
+             "options.material: expected 0 to " + std::to_string(low.materials.size()) + ", found "
+                 + std::to_string(o.material));
+    auto done = bakeModel(low, std::move(high), options, progressOf(o.progress, o.user));
+    if (!done)
+        throw Failure{inOurWords(done.error())};
+    const BakedModel baked = *std::move(done);
     giveText(joined(baked.warnings), warnings);
     put(baked.maps[0].image, out);
     if (o.mask)
@@ -148,7 +177,7 @@ cotan_status cotan_bake_models(const cotan_model* low, size_t high_count, const 
         require(high || high_count == 0, "high: expected models, found null");
         HighModel model;
         for (std::size_t i = 0; i < high_count; ++i)
-            model.scenes.push_back(sceneOf(high[i], "high[" + std::to_string(i) + "]"));
+            model.scenes.push_back(sceneOf(high[i], ("high[" + std::to_string(i) + "]").c_str()));
         bakeInto(simple, std::move(model), options, map, result, warnings);
     });
 }

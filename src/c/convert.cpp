@@ -147,7 +147,7 @@ cotan_status cotan_convert_gltf(const void* model, size_t model_size, const cota
         chooseFrom(o, document, convert);
         const ConvertModelReport report = valueOf(convertModel(document, convert));
         auto made = std::make_unique<cotan_bytes>(cotan_bytes{valueOf(glbBytes(std::move(document), convert.limits))});
-        giveText(convertJson(report), json);
+        giveText("cotan-convert-result", convertJson(report), json);
         *glb = made.release();
         if (result)
             fill(report, *result);
@@ -216,7 +216,7 @@ cotan_status cotan_convert_end(cotan_conversion* conversion, cotan_bytes** glb, 
                             [](const auto& p) { return p.given; }),
                 "conversion: expected the PNG files of all pictures");
         auto made = std::make_unique<cotan_bytes>(cotan_bytes{valueOf(glbBytes(conversion->document))});
-        giveText(convertJson(conversion->report), json);
+        giveText("cotan-convert-result", convertJson(conversion->report), json);
         *glb = made.release();
     });
 }

@@ -89,7 +89,7 @@ LintLimits limitsOf(const cotan_lint_options& o)
 void lintInto(const Scene& scene, const cotan_lint_options& o, cotan_lint_result* result, cotan_bytes** json)
 {
     const LintReport report = valueOf(lintScene(scene, {.distance = o.distance}, progressOf(o.progress, o.user)));
-    giveText(lintJson(report, scene, limitsOf(o)), json);
+    giveText("cotan-lint-result", lintJson(report, scene, limitsOf(o)), json);
     if (result)
         fill(report, *result);
 }

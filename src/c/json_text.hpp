@@ -2,14 +2,15 @@
 #pragma once
 
 #include "call.hpp"
-#include "cotan/report/json.hpp"
+#include "cotan/report/report_format.hpp"
 
 namespace cotan::c {
 
-inline void giveText(const Json& json, cotan_bytes** to)
+// format: of cotan/report/report_format.hpp.
+inline void giveText(std::string_view format, const Json& json, cotan_bytes** to)
 {
     if (to)
-        giveText(std::string_view(toText(json)), to);
+        giveText(std::string_view(toText(versioned(format, json))), to);
 }
 
 } // namespace cotan::c

@@ -1,6 +1,8 @@
 // Meshes of cotan.h, looked at before they are used.
 #pragma once
 
+#include <cmath>
+
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
@@ -24,10 +26,11 @@ inline void checkIndices(const std::string& name, std::size_t vertexCount, std::
                      + ", found " + std::to_string(indices[i]));
 }
 
-inline const cotan_mesh& checkedMesh(const cotan_mesh* given, const std::string& name, bool needsUv,
+inline const cotan_mesh& checkedMesh(const cotan_mesh* given, const char* called, bool needsUv,
                                      bool needsNormals = true)
 {
-    const cotan_mesh& m = checked(given, name.c_str());
+    const cotan_mesh& m = checked(given, called);
+    const std::string name = called;
     if (m.vertex_count != 0 && !(m.positions && (m.normals || !needsNormals) && (m.texcoords || !needsUv)))
         fail(ErrorKind::usage,
              name + ": expected positions" + (needsNormals ? ", normals" : "") + (needsUv ? " and texcoords" : "")
@@ -39,10 +42,22 @@ inline const cotan_mesh& checkedMesh(const cotan_mesh* given, const std::string&
 static_assert(sizeof(glm::vec2) == 2 * sizeof(float) && sizeof(glm::vec3) == 3 * sizeof(float)
               && sizeof(glm::vec4) == 4 * sizeof(float));
 
+inline void checkFinite(const std::string& name, const float* numbers, std::size_t each, std::size_t vertices)
+{
+    for (std::size_t i = 0; i < each * vertices; ++i)
+        if (!std::isfinite(numbers[i]))
+            fail(ErrorKind::input,
+                 name + '[' + std::to_string(i / each) + "]: expected finite numbers, found "
+                     + std::to_string(numbers[i]));
+}
+
 // A mesh with uv as the library takes it.
 inline MeshView viewOf(const cotan_mesh* given)
 {
     const cotan_mesh& m = checkedMesh(given, "mesh", /*needsUv*/ true);
+    checkFinite("mesh.positions", m.positions, 3, m.vertex_count);
+    checkFinite("mesh.normals", m.normals, 3, m.vertex_count);
+    checkFinite("mesh.texcoords", m.texcoords, 2, m.vertex_count);
     return {{reinterpret_cast<const glm::vec3*>(m.positions), m.vertex_count},
             {reinterpret_cast<const glm::vec3*>(m.normals), m.vertex_count},
             {reinterpret_cast<const glm::vec2*>(m.texcoords), m.vertex_count},

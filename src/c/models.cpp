@@ -19,7 +19,7 @@ cotan_status cotan_model_of_meshes(size_t count, const cotan_mesh* const* meshes
         for (std::size_t i = 0; i < count; ++i) {
             const bool named = names && names[i] && *names[i] != '\0';
             const std::string name = named ? names[i] : "meshes[" + std::to_string(i) + "]";
-            Mesh mesh = meshOf(checkedMesh(meshes[i], name, /*needsUv*/ false, /*needsNormals*/ false));
+            Mesh mesh = meshOf(checkedMesh(meshes[i], name.c_str(), /*needsUv*/ false, /*needsNormals*/ false));
             if (named)
                 mesh.name = name;
             if (mesh.normals.empty())

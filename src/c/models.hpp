@@ -39,10 +39,10 @@ inline Scene sceneOf(std::vector<Mesh> meshes, const std::string& name)
     return scene;
 }
 
-inline const Scene& sceneOf(const cotan_model* model, const std::string& name)
+inline const Scene& sceneOf(const cotan_model* model, const char* name)
 {
     if (!model)
-        fail(ErrorKind::usage, name + ": expected a model, found null");
+        fail(ErrorKind::usage, std::string(name) + ": expected a model, found null");
     return model->scene;
 }
 

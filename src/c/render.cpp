@@ -94,7 +94,7 @@ cotan_status cotan_render(const void* model, size_t model_size, const cotan_mode
         Json report;
         auto made = std::make_unique<cotan_image>();
         withThreads(o.threads, [&] { made->image = draw(wanted, o, report); });
-        giveText(report, json);
+        giveText("cotan-render-result", report, json);
         *image = made.release();
     });
 }

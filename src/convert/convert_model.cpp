@@ -59,7 +59,7 @@ public:
             report_.maps.push_back(std::move(*map));
         }
         for (const MapJob& job : *jobs)
-            for (const MapPlace& place : job.places)
+            for (const MapPlace& place : options_.keepMaps ? std::vector<MapPlace>{} : job.places)
                 nameFrame(document_, place.material, options_.frames.to);
         if (Status settled = settleTangents(); !settled)
             return settled;
@@ -144,7 +144,11 @@ private:
         done.bytesBefore = done.bytesAfter = bytes->size();
         // Where the old map serves as well as a rounded new one, it stays, byte for byte.
         done.figures.unconverted = errorAsItIs(*map, *uses);
-        done.kept = done.figures.unconverted.count == 0 || (options_.bits == 0 && fitsAsItIs(done.figures.unconverted));
+        done.kept = options_.keepMaps || done.figures.unconverted.count == 0
+            || (options_.bits == 0 && fitsAsItIs(done.figures.unconverted));
+        if (options_.keepMaps && done.figures.unconverted.mean > kSeen)
+            report_.notes.push_back(fmt::format("{}: as it is, read with {}, it is off by {:.1f} degrees on average",
+                                                job.name, name(options_.frames.to), done.figures.unconverted.mean));
         if (done.kept)
             return done;
         if (const double copies = copiesOf(job); !(copies <= kMostCopies))
@@ -242,6 +246,9 @@ Result<ConvertModelReport> convertModel(GltfDocument& document, const ConvertMod
     if (options.bits != 0 && options.bits != 8 && options.bits != 16)
         return usageError(
             fmt::format("convert: expected 8 or 16 bits, or 0 for those of the old maps; found {}", options.bits));
+    if (options.keepMaps && (options.keepTangents || readsTangents(options.frames.to)))
+        return usageError(fmt::format("convert: where maps stay tangents go; expected a frame that reads none, found {}",
+                                      options.keepTangents ? "keepTangents" : name(options.frames.to)));
     ModelConverter converter(document, options);
     if (Status done = converter.run(); !done)
         return done.error();

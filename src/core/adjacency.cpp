@@ -61,8 +61,12 @@ Adjacency makeAdjacency(const MeshView& mesh)
     if (!tangents::usable(mesh))
         return {};
     const tangents::CornerGroups found = tangents::groupCorners(mesh);
-    return adjacencyOf(mesh, found.slots, [&](std::uint32_t c) {
-        const Side side = found.sides[c];
+    const std::vector<Side> sides = tangents::cornerSides(mesh);
+    std::vector<std::size_t> slots;
+    for (std::size_t v = 0; v < mesh.positions.size(); ++v)
+        slots.push_back(tangents::slot(found.first[v], found.sides[v]));
+    return adjacencyOf(mesh, slots, [&](std::uint32_t c) {
+        const Side side = sides[c];
         return side == Side::none ? kNoSlot : tangents::slot(found.first[mesh.indices[c]], side);
     });
 }

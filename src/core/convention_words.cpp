@@ -29,14 +29,42 @@ constexpr Word kWords[] = {
      true},
 };
 
+struct DamageWord {
+    const char* name;
+    void (*apply)(Damage&);
+};
+
+constexpr DamageWord kDamageWords[] = {
+    {"srgb", [](Damage& d) { d.curve = Damage::Curve::srgb; }},
+    {"linearised", [](Damage& d) { d.curve = Damage::Curve::linearised; }},
+    {"bgr", [](Damage& d) { d.order = Damage::Order::bgr; }},
+    {"grb", [](Damage& d) { d.order = Damage::Order::grb; }},
+};
+
 bool applyWord(std::string_view text, StatedConvention& stated)
 {
     const auto word = std::ranges::find_if(kWords, [&](const Word& w) { return text == w.name; });
-    if (word == std::end(kWords))
-        return false;
+    if (word == std::end(kWords)) {
+        const auto damage = std::ranges::find_if(kDamageWords, [&](const DamageWord& w) { return text == w.name; });
+        if (damage == std::end(kDamageWords))
+            return false;
+        damage->apply(stated.damage);
+        return true;
+    }
     word->apply(stated.convention);
     stated.channels = stated.channels || word->channels;
     return true;
+}
+
+// For what is to be written, or read by a shader.
+Result<StatedConvention> undamaged(std::string_view text)
+{
+    auto stated = statedFromWords(text);
+    if (stated && stated->damage.any())
+        return usageError("srgb, linearised, bgr and grb say how a broken map is stored; expected a convention without "
+                          "them, found '"
+                          + std::string(text) + "'");
+    return stated;
 }
 
 Error unknownWord(std::string_view word)
@@ -70,15 +98,23 @@ std::vector<std::string> conventionWordList()
     return words;
 }
 
+std::vector<std::string> damageWords()
+{
+    std::vector<std::string> words;
+    for (const DamageWord& w : kDamageWords)
+        words.emplace_back(w.name);
+    return words;
+}
+
 Result<Convention> conventionFromWords(std::string_view text)
 {
-    const auto stated = statedFromWords(text);
+    const auto stated = undamaged(text);
     return stated ? Result<Convention>(stated->convention) : stated.error();
 }
 
 Result<Convention> sampledFromWords(std::string_view text)
 {
-    const auto stated = statedFromWords(text);
+    const auto stated = undamaged(text);
     if (!stated || stated->channels)
         return stated ? Result<Convention>(stated->convention) : stated.error();
     Convention convention = stated->convention;

@@ -36,50 +36,147 @@ static float openness(const Edges& e, glm::vec3 normal)
     return lengths > 0 ? float(std::abs(glm::dot(face, glm::dvec3(normal))) / lengths) : 1.0f;
 }
 
-std::vector<Side> cornerSides(const MeshView& mesh)
+std::vector<Side> cornerSides(const MeshView& mesh, std::size_t threads)
 {
     std::vector<Side> sides(mesh.indices.size());
-    for (std::size_t c = 0; c < sides.size(); ++c)
-        sides[c] = sideAt(edgesAt(mesh, c / 3, c % 3), mesh.normals[mesh.indices[c]]);
+    runParts(sides.size(), threads, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t c = begin; c != end; ++c)
+            sides[c] = sideAt(edgesAt(mesh, c / 3, c % 3), mesh.normals[mesh.indices[c]]);
+    });
     return sides;
 }
 
-// Adds the gradients of a corner's triangle; returns the weight that they got.
-static float addCorner(CotangentSums& sums, std::size_t at, const Edges& e, glm::vec3 n)
+namespace {
+
+// Lists of the vertices that are equal, and of the corners at each; both in rising order, ended by kNone.
+struct Chains {
+    LargeArray<std::uint32_t> equalVertex; // the next one; a list begins at its first vertex
+    LargeArray<std::uint32_t> firstCorner; // of each vertex
+    LargeArray<std::uint32_t> nextCorner;
+};
+
+Chains chainsOf(const MeshView& mesh, const LargeArray<std::uint32_t>& first)
 {
-    const f32::cotan_frame frame =
-        f32::cotan_frame_gradient(n, glm::vec3(e.dp1), glm::vec3(e.dp2), glm::vec2(e.duv1), glm::vec2(e.duv2));
-    const float weight = projectedAngle(glm::vec3(0), glm::vec3(e.dp1), glm::vec3(e.dp2), n);
+    const std::size_t count = mesh.positions.size();
+    Chains chains{makeLargeArray<std::uint32_t>(count), makeLargeArray<std::uint32_t>(count),
+                  makeLargeArray<std::uint32_t>(mesh.indices.size())};
+    std::fill_n(chains.equalVertex.get(), count, kNone);
+    for (std::size_t v = count; v-- > 0;)
+        if (first[v] != v) {
+            chains.equalVertex[v] = chains.equalVertex[first[v]];
+            chains.equalVertex[first[v]] = std::uint32_t(v);
+        }
+    std::fill_n(chains.firstCorner.get(), count, kNone);
+    for (std::size_t c = mesh.indices.size(); c-- > 0;) {
+        chains.nextCorner[c] = chains.firstCorner[mesh.indices[c]];
+        chains.firstCorner[mesh.indices[c]] = std::uint32_t(c);
+    }
+    return chains;
+}
+
+// Of the triangles on one side.
+struct Sum {
+    glm::vec3 u{0}, v{0};
+    float weight = 0;
+
+    bool isEmpty() const { return !(weight > 0); }
+};
+
+// Adds the gradients of a corner's triangle; returns the weight that they got.
+float addCorner(const Edges& e, glm::vec3 n, Sum& sum)
+{
+    const glm::vec3 dp1(e.dp1), dp2(e.dp2);
+    const f32::cotan_frame frame = f32::cotan_frame_gradient(n, dp1, dp2, glm::vec2(e.duv1), glm::vec2(e.duv2));
+    const float weight = projectedAngle(glm::vec3(0), dp1, dp2, n);
     if (!(weight > 0) || (isZero(frame.t) && isZero(frame.b)))
         return 0;
-    sums.u[at] += frame.t * weight;
-    sums.v[at] += frame.b * weight;
-    sums.weight[at] += weight;
+    sum.u += frame.t * weight;
+    sum.v += frame.b * weight;
+    sum.weight += weight;
     return weight;
 }
 
-CornerGroups groupCorners(const MeshView& mesh)
+// The averages of vertices that are equal.
+class Averaging {
+public:
+    Averaging(const MeshView& mesh, const Chains& chains, std::vector<Side>& sides, const Averages& averages)
+        : mesh_(mesh), chains_(chains), sides_(sides), averages_(averages)
+    {
+    }
+
+    void average(std::uint32_t first)
+    {
+        Sum sums[2]; // by side
+        for (std::uint32_t v = first; v != kNone; v = chains_.equalVertex[v])
+            sides_[v] = addVertex(v, sums);
+        const auto isEmpty = [&](std::size_t slot) { return sums[slot % 2].isEmpty(); };
+        for (std::uint32_t v = first; v != kNone; v = chains_.equalVertex[v]) {
+            sides_[v] = sideOrNearest(sides_[v], first, isEmpty);
+            store(sums[std::size_t(sides_[v])], v);
+            if (averages_.copies.empty() || averages_.copies[v] == kNone)
+                continue;
+            const Side other = averages_.keepers[v] == Side::mirrored ? Side::unmirrored : Side::mirrored;
+            const bool known = !sums[std::size_t(other)].isEmpty();
+            store(sums[std::size_t(sideOrNearest(known ? other : Side::none, first, isEmpty))], averages_.copies[v]);
+        }
+    }
+
+private:
+    void store(const Sum& sum, std::uint32_t vertex)
+    {
+        if (!averages_.cotangents)
+            return;
+        const float scale = sum.isEmpty() ? 0 : 1 / sum.weight;
+        averages_.cotangents->u[vertex] = sum.u * scale;
+        averages_.cotangents->v[vertex] = sum.v * scale;
+    }
+    // Returns the side whose average it takes.
+    Side addVertex(std::uint32_t vertex, Sum (&sums)[2])
+    {
+        const glm::vec3 n = mesh_.normals[vertex];
+        float weights[2] = {0, 0};
+        for (std::uint32_t c = chains_.firstCorner[vertex]; c != kNone; c = chains_.nextCorner[c]) {
+            const Edges e = edgesAt(mesh_, c / 3, c % 3);
+            if (const Side side = sideAt(e, n); side != Side::none)
+                weights[std::size_t(side)] += addCorner(e, n, sums[std::size_t(side)]);
+        }
+        if (weights[0] > 0 && weights[1] > 0)
+            return averages_.keepers.empty() ? largerSide(vertex, n) : averages_.keepers[vertex];
+        return weights[0] > 0 ? Side::unmirrored : weights[1] > 0 ? Side::mirrored : Side::none;
+    }
+    // Where triangles of both sides index a vertex: that of the larger sum of angle times openness.
+    Side largerSide(std::uint32_t vertex, glm::vec3 n) const
+    {
+        float shares[2] = {0, 0};
+        for (std::uint32_t c = chains_.firstCorner[vertex]; c != kNone; c = chains_.nextCorner[c]) {
+            const Edges e = edgesAt(mesh_, c / 3, c % 3);
+            Sum sum;
+            if (const Side side = sideAt(e, n); side != Side::none)
+                shares[std::size_t(side)] += addCorner(e, n, sum) * openness(e, n);
+        }
+        return shares[0] + shares[1] == 0 ? Side::none : shares[1] > shares[0] ? Side::mirrored : Side::unmirrored;
+    }
+
+    const MeshView& mesh_;
+    const Chains& chains_;
+    std::vector<Side>& sides_;
+    const Averages& averages_;
+};
+
+} // namespace
+
+CornerGroups groupCorners(const MeshView& mesh, std::size_t threads, const Averages& averages)
 {
     const std::size_t count = mesh.positions.size();
-    CornerGroups g{weld(mesh), std::vector<Side>(mesh.indices.size()), CotangentSums(2 * count),
-                   std::vector<std::size_t>(count)};
-    std::vector<float> share(2 * count, 0.0f); // angle times openness by vertex as given and side
-    for (std::size_t c = 0; c < mesh.indices.size(); ++c) {
-        const std::uint32_t vertex = mesh.indices[c];
-        const Edges e = edgesAt(mesh, c / 3, c % 3);
-        const Side side = g.sides[c] = sideAt(e, mesh.normals[vertex]);
-        if (side != Side::none)
-            share[slot(vertex, side)] += addCorner(g.sums, slot(g.first[vertex], side), e, mesh.normals[vertex])
-                * openness(e, mesh.normals[vertex]);
-    }
-    const auto isEmpty = [&](std::size_t at) { return g.sums.isEmpty(at); };
-    for (std::uint32_t vertex = 0; vertex < count; ++vertex) {
-        const float plain = share[slot(vertex, Side::unmirrored)];
-        const float mirrored = share[slot(vertex, Side::mirrored)];
-        const Side own = plain + mirrored == 0 ? Side::none : mirrored > plain ? Side::mirrored : Side::unmirrored;
-        g.slots[vertex] = slot(g.first[vertex], sideOrNearest(own, g.first[vertex], isEmpty));
-    }
-    return g;
+    CornerGroups groups{weld(mesh, threads), std::vector<Side>(count)};
+    const Chains chains = chainsOf(mesh, groups.first);
+    runParts(count, threads, [&](std::size_t begin, std::size_t end) {
+        Averaging averaging(mesh, chains, groups.sides, averages);
+        for (std::size_t v = begin; v != end; ++v)
+            if (groups.first[v] == v)
+                averaging.average(std::uint32_t(v));
+    });
+    return groups;
 }
 
 } // namespace cotan::tangents

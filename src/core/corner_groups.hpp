@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include <glm/vec2.hpp>
@@ -29,7 +30,7 @@ enum class Side : std::uint8_t { unmirrored = 0, mirrored = 1, none = 2 };
 
 // `none` where the triangle has no area in space, none in uv, or none seen along the normal.
 Side sideAt(const Edges& e, glm::vec3 normal);
-std::vector<Side> cornerSides(const MeshView& mesh);
+std::vector<Side> cornerSides(const MeshView& mesh, std::size_t threads = 1);
 
 inline std::size_t slot(std::uint32_t vertex, Side side) { return 2 * std::size_t(vertex) + std::size_t(side); }
 
@@ -42,23 +43,21 @@ Side sideOrNearest(Side side, std::uint32_t vertex, const auto& isEmpty)
                                                                                              : Side::unmirrored;
 }
 
-// Sums by slot: of a welded vertex, on one side.
-struct CotangentSums {
-    std::vector<glm::vec3> u, v;
-    std::vector<float> weight;
-
-    explicit CotangentSums(std::size_t n) : u(n, glm::vec3(0)), v(n, glm::vec3(0)), weight(n, 0.0f) {}
-    bool isEmpty(std::size_t at) const { return !(weight[at] > 0); }
-};
-
 struct CornerGroups {
     LargeArray<std::uint32_t> first; // per vertex the first that equals it
-    std::vector<Side> sides;         // per corner
-    CotangentSums sums;
-    std::vector<std::size_t> slots; // per vertex the slot that it takes its cotangents from
+    std::vector<Side> sides;         // per vertex: of which corners of the equal ones it takes the cotangents
 };
 
-// mesh: usable.
-CornerGroups groupCorners(const MeshView& mesh);
+// Where averages go.
+struct Averages {
+    Cotangents* cotangents = nullptr; // of all vertices, copies included; null: nowhere
+    // Where vertices that both sides index have a copy for one of them, per vertex: the side that keeps it, and the copy
+    // or kNone. Empty: such a vertex takes the side with more to say.
+    std::span<const Side> keepers;
+    std::span<const std::uint32_t> copies;
+};
+
+// mesh: usable. The result does not depend on the number of threads.
+CornerGroups groupCorners(const MeshView& mesh, std::size_t threads = 1, const Averages& averages = {});
 
 } // namespace cotan::tangents

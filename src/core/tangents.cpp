@@ -16,6 +16,8 @@ using tangents::edgesAt;
 using tangents::Side;
 using tangents::slot;
 
+constexpr std::size_t kLeastCorners = 100000; // of a thread
+
 // The unit direction of dP/du, or zero.
 glm::vec3 alongU(const Edges& e)
 {
@@ -50,21 +52,14 @@ std::vector<glm::vec4> vertexTangents(const MeshView& mesh)
     return out;
 }
 
-Cotangents smoothCotangents(const MeshView& mesh)
+Cotangents smoothCotangents(const MeshView& mesh, int threads)
 {
-    if (!tangents::usable(mesh))
+    const std::size_t all = threadsFor(mesh.indices.size(), kLeastCorners, threads);
+    if (!tangents::usable(mesh, all))
         return {};
-    const tangents::CornerGroups groups = tangents::groupCorners(mesh);
-    const tangents::CotangentSums& sums = groups.sums;
-    const std::size_t count = mesh.positions.size();
-    Cotangents out{std::vector<glm::vec3>(count), std::vector<glm::vec3>(count)};
-    for (std::size_t vertex = 0; vertex < count; ++vertex) {
-        const std::size_t at = groups.slots[vertex];
-        const float scale = sums.isEmpty(at) ? 0 : 1 / sums.weight[at];
-        out.u[vertex] = sums.u[at] * scale;
-        out.v[vertex] = sums.v[at] * scale;
-    }
-    return out;
+    Cotangents made{std::vector<glm::vec3>(mesh.positions.size()), std::vector<glm::vec3>(mesh.positions.size())};
+    tangents::groupCorners(mesh, all, {&made, {}, {}});
+    return made;
 }
 
 std::vector<std::uint32_t> firstEqualVertices(const MeshView& mesh)
@@ -102,37 +97,61 @@ VertexSplit splitVertices(std::size_t vertexCount, std::span<const std::uint32_t
     return split;
 }
 
-VertexSplit splitMirrored(const MeshView& mesh)
+namespace {
+
+// Which vertices mirrored and unmirrored triangles share.
+struct Shared {
+    std::vector<Side> sides;            // per corner; none has become one of the others
+    std::vector<Side> keepers;          // per vertex: the side that is met first and keeps it
+    std::vector<std::uint32_t> copies;  // per vertex, that of the other side, or kNone; empty: there are none
+    std::vector<std::uint32_t> sources; // of the copies
+};
+
+Shared sharedVertices(const MeshView& mesh, std::size_t threads)
 {
-    if (!tangents::usable(mesh))
-        return {};
     const std::size_t count = mesh.positions.size();
-    const std::vector<Side> sides = tangents::cornerSides(mesh);
+    Shared shared{tangents::cornerSides(mesh, threads), std::vector<Side>(count, Side::none), {}, {}};
     std::vector<bool> unmirrored(count);
-    for (std::size_t c = 0; c < sides.size(); ++c)
-        if (sides[c] == Side::unmirrored)
+    for (std::size_t c = 0; c < shared.sides.size(); ++c)
+        if (shared.sides[c] == Side::unmirrored)
             unmirrored[mesh.indices[c]] = true;
+    for (std::size_t c = 0; c < shared.sides.size(); ++c) {
+        const std::uint32_t vertex = mesh.indices[c];
+        Side& side = shared.sides[c];
+        if (side == Side::none)
+            side = unmirrored[vertex] ? Side::unmirrored : Side::mirrored;
+        Side& keeper = shared.keepers[vertex];
+        if (keeper == Side::none)
+            keeper = side;
+        if (keeper == side)
+            continue;
+        if (shared.copies.empty())
+            shared.copies.assign(count, tangents::kNone);
+        if (shared.copies[vertex] == tangents::kNone) {
+            shared.copies[vertex] = static_cast<std::uint32_t>(count + shared.sources.size());
+            shared.sources.push_back(vertex);
+        }
+    }
+    return shared;
+}
+
+VertexSplit splitOf(const MeshView& mesh, const Shared& shared)
+{
+    const std::size_t count = mesh.positions.size();
     VertexSplit split{std::vector<std::uint32_t>(count), {mesh.indices.begin(), mesh.indices.end()}};
     std::iota(split.sources.begin(), split.sources.end(), 0u);
-    std::vector<Side> owner(count, Side::none); // the side met first keeps the vertex
-    std::vector<std::uint32_t> copies;          // per vertex, that of the other side
-    for (std::size_t c = 0; c < sides.size(); ++c) {
-        const std::uint32_t vertex = mesh.indices[c];
-        const bool mirrored = sides[c] == Side::mirrored || (sides[c] == Side::none && !unmirrored[vertex]);
-        const Side side = mirrored ? Side::mirrored : Side::unmirrored;
-        if (owner[vertex] == Side::none)
-            owner[vertex] = side;
-        if (owner[vertex] == side)
-            continue;
-        if (copies.empty())
-            copies.assign(count, tangents::kNone);
-        if (copies[vertex] == tangents::kNone) {
-            copies[vertex] = static_cast<std::uint32_t>(split.sources.size());
-            split.sources.push_back(vertex);
-        }
-        split.indices[c] = copies[vertex];
-    }
+    split.sources.insert(split.sources.end(), shared.sources.begin(), shared.sources.end());
+    for (std::size_t c = 0; c < shared.sides.size() && !shared.copies.empty(); ++c)
+        if (const std::uint32_t vertex = mesh.indices[c]; shared.sides[c] != shared.keepers[vertex])
+            split.indices[c] = shared.copies[vertex];
     return split;
+}
+
+} // namespace
+
+VertexSplit splitMirrored(const MeshView& mesh)
+{
+    return tangents::usable(mesh) ? splitOf(mesh, sharedVertices(mesh, 1)) : VertexSplit{};
 }
 
 std::vector<glm::vec4> generateTangents(Frame frame, const MeshView& mesh, int threads)
@@ -142,17 +161,16 @@ std::vector<glm::vec4> generateTangents(Frame frame, const MeshView& mesh, int t
     return frame == Frame::vertex ? vertexTangents(mesh) : std::vector<glm::vec4>{};
 }
 
-SplitCotangents splitSmoothCotangents(const MeshView& mesh)
+SplitCotangents splitSmoothCotangents(const MeshView& mesh, int threads)
 {
-    SplitCotangents made{splitMirrored(mesh), {}};
-    if (made.split.sources.size() == mesh.positions.size()) { // none has both sides
-        made.cotangents = smoothCotangents(mesh);
-        return made;
-    }
-    const auto positions = gathered(mesh.positions, made.split);
-    const auto normals = gathered(mesh.normals, made.split);
-    const auto texcoords = gathered(mesh.texcoords, made.split);
-    made.cotangents = smoothCotangents({positions, normals, texcoords, made.split.indices});
+    const std::size_t all = threadsFor(mesh.indices.size(), kLeastCorners, threads);
+    if (!tangents::usable(mesh, all))
+        return {};
+    const Shared shared = sharedVertices(mesh, all);
+    const std::size_t count = mesh.positions.size() + shared.sources.size();
+    SplitCotangents made{{}, {std::vector<glm::vec3>(count), std::vector<glm::vec3>(count)}};
+    tangents::groupCorners(mesh, all, {&made.cotangents, shared.keepers, shared.copies});
+    made.split = splitOf(mesh, shared); // now that the memory of the groups is free
     return made;
 }
 

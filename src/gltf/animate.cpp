@@ -68,7 +68,7 @@ private:
         if (rotation)
             node.rotation = {v[0], v[1], v[2], v[3]};
         else
-            (path == "scale" ? node.scale : node.translation) = {v[0], v[1], v[2]};
+            (path == "scale" ? node.scale : node.translation) = glm::dvec3(v[0], v[1], v[2]);
     }
 
     std::size_t targetsOf(const gltf::Node& node) const

@@ -1,5 +1,6 @@
 #include "parse.hpp"
 
+#include <algorithm>
 #include <map>
 #include <string_view>
 #include <vector>
@@ -16,6 +17,8 @@ namespace {
 // that its object has already, so that an object of a million members would take hours.
 class Builder : public nlohmann::json_sax<Json> {
 public:
+    explicit Builder(std::string_view text) : text_(text) {}
+
     Json root;
 
     bool null() override { return put(nullptr); }
@@ -36,9 +39,19 @@ public:
         return true;
     }
 
-    bool parse_error(std::size_t, const std::string&, const nlohmann::detail::exception& problem) override
+    // position: of the last byte that was read, from 1. The parser's own sentences are for programmers.
+    bool parse_error(std::size_t position, const std::string& last, const nlohmann::detail::exception& problem) override
     {
-        failGltf("JSON: {}", problem.what());
+        const std::string_view before = text_.substr(0, std::min(std::max<std::size_t>(position, 1) - 1, text_.size()));
+        const auto line = 1 + std::count(before.begin(), before.end(), '\n');
+        const std::size_t column = before.size() - (before.find_last_of('\n') + 1) + 1; // npos + 1 is 0
+        constexpr int kNumberTooLarge = 406;
+        const bool ended = position > text_.size();
+        failGltf("JSON: line {}, column {}: expected {}; found {}", line, column,
+                 problem.id == kNumberTooLarge ? "a number that a double holds"
+                     : ended                   ? "more"
+                                               : "valid JSON",
+                 ended ? "the end of the file" : quotedTail(last));
     }
 
 private:
@@ -66,6 +79,17 @@ private:
             return members.back().second;
         }
     };
+
+    // The end of what was read, on one line.
+    static std::string quotedTail(std::string_view read)
+    {
+        constexpr std::size_t kMost = 24;
+        std::string tail(read.substr(read.size() - std::min(read.size(), kMost)));
+        for (char& c : tail)
+            if (c < ' ' || c > '~')
+                c = '?';
+        return "'" + tail + "'";
+    }
 
     // Where the next value goes: the root, a member, or the end of an array.
     Json& put(Json&& value)
@@ -100,6 +124,7 @@ private:
         return true;
     }
 
+    std::string_view text_;
     std::vector<Level> levels_; // the objects and arrays that are open
     Json* member_ = nullptr;    // of the innermost, named last
 };
@@ -108,8 +133,8 @@ private:
 
 gltf::Json parseGltfJson(std::span<const std::byte> text)
 {
-    Builder builder;
     const auto* const first = reinterpret_cast<const char*>(text.data());
+    Builder builder({first, text.size()});
     Json::sax_parse(first, first + text.size(), &builder);
     return std::move(builder.root);
 }

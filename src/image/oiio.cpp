@@ -269,7 +269,7 @@ Result<Image> readWithOiio(std::span<const std::byte> bytes, const std::string& 
 
 Status writeWithOiio(const std::filesystem::path& file, const Image& image, const std::string& name)
 {
-    const ImageFormat& format = outputFormat(name);
+    const ImageFormat format = outputFormat(name);
     const OIIO::TypeDesc type = typeToWrite(format, image.type);
     if (type == OIIO::TypeDesc::UINT8 && image.type != PixelType::unorm8)
         return writeWithOiio(file, toUnorm8(image), name);

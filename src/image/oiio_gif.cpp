@@ -1,5 +1,8 @@
 // Animated GIF by OpenImageIO: one subimage a picture.
+#include <array>
+#include <cmath>
 #include <exception>
+#include <fstream>
 #include <vector>
 
 #include <fmt/format.h>
@@ -10,11 +13,53 @@ namespace cotan::oiio {
 
 namespace {
 
+// Where in a whole GIF the delays of its pictures are: two bytes each, in hundredths of a second, the low one first.
+std::vector<std::streamoff> delaysOf(std::istream& gif)
+{
+    constexpr int kHead = 13, kImage = 9; // bytes: of the file, and of a picture behind its mark
+    const auto skipTable = [&](int flags) { gif.ignore((flags & 0x80) != 0 ? 3 << ((flags & 7) + 1) : 0); };
+    const auto skipBlocks = [&] {
+        for (int size = gif.get(); size > 0; size = gif.get())
+            gif.ignore(size);
+    };
+    std::vector<std::streamoff> delays;
+    std::array<char, kHead> head{};
+    gif.read(head.data(), kHead);
+    skipTable(head[10]);
+    for (int mark = gif.get(); mark == '!' || mark == ','; mark = gif.get()) {
+        if (mark == '!') {
+            if (gif.get() == 0xf9) // its block: size, flags, delay, transparent colour
+                delays.push_back(std::streamoff(gif.tellg()) + 2);
+        } else {
+            gif.read(head.data(), kImage);
+            skipTable(head[8]);
+            gif.ignore(1); // bits of a code
+        }
+        skipBlocks();
+    }
+    return delays;
+}
+
+// OpenImageIO 2.5 gives every picture a second, whatever FramesPerSecond says.
+bool setDelays(const std::filesystem::path& file, double rate)
+{
+    std::fstream gif(file, std::ios::in | std::ios::out | std::ios::binary);
+    const std::vector<std::streamoff> delays = delaysOf(gif);
+    gif.clear(); // that the end was reached
+    const auto delay = unsigned(std::lround(100 / rate));
+    for (const std::streamoff at : delays) {
+        gif.seekp(at);
+        gif.put(char(delay & 255)).put(char(delay >> 8));
+    }
+    gif.close();
+    return bool(gif);
+}
+
 class Gif : public AnimationWriter {
 public:
     Gif(std::filesystem::path file, const AnimationFormat& format, std::string name)
         : file_(std::move(file)), name_(std::move(name)), spec_(format.width, format.height, 4, OIIO::TypeDesc::UINT8),
-          left_(format.pictures)
+          rate_(format.rate), left_(format.pictures)
     {
         spec_.attribute("FramesPerSecond", float(format.rate));
     }
@@ -39,7 +84,12 @@ public:
         }
     }
 
-    Status finish() override { return output_ && output_->close() ? Status(Done{}) : failed(); }
+    Status finish() override
+    {
+        if (!output_ || !output_->close())
+            return failed();
+        return setDelays(file_, rate_) ? Status(Done{}) : outputError(name_ + ": cannot write the file");
+    }
 
 private:
     Status failed() const
@@ -50,6 +100,7 @@ private:
     std::filesystem::path file_;
     std::string name_;
     OIIO::ImageSpec spec_;
+    double rate_; // pictures a second
     std::size_t left_;
     std::unique_ptr<OIIO::ImageOutput> output_;
 };

@@ -169,7 +169,7 @@ Result<std::unique_ptr<RowReader>> openRows(const std::filesystem::path& file, s
 Result<std::unique_ptr<RowWriter>> createRows(const std::filesystem::path& file, const RowFormat& format, int threads,
                                               const std::string& name)
 {
-    const ImageFormat& stored = outputFormat(name);
+    const ImageFormat stored = outputFormat(name);
     try {
         auto output = OIIO::ImageOutput::create(std::string(stored.openImageIo));
         if (!output)

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "cotan/lint/map_fit.hpp"
+#include "cotan/maps/faults.hpp"
 #include "parts.hpp"
 
 namespace cotan {
@@ -125,13 +126,30 @@ std::string otherGreen(const LintReport& report)
     return listed(names);
 }
 
+// What is wrong with the maps as files, and how each is mended; empty if nothing.
+std::string brokenMaps(const LintReport& report)
+{
+    std::string text;
+    for (const GreenEvidence& g : report.maps) {
+        const std::vector<maps::Fault> faults = maps::faultsOf(g.verdict.statistics);
+        if (faults.empty())
+            continue;
+        text += text.empty() ? "" : " ";
+        text += g.name.empty() ? fmt::format("Image {}: ", g.image) : g.name + ": ";
+        for (const maps::Fault& fault : faults)
+            text += fault.text + "; ";
+        text += fmt::format("cotan map convert {} mends it.", maps::mendingOptions(faults));
+    }
+    return text;
+}
+
 constexpr double kMostly = 0.5;      // of the area reversed: the whole model is
 constexpr double kContradicts = 0.1; // of the area: the stored tangents are not what the uv say
 
 bool contradicts(const Stored& s) { return s.reversedW > kContradicts || s.turned > kContradicts; }
 
 // What is wrong with the model as it is.
-std::string defects(const LintReport& report)
+std::string defectsOfFrames(const LintReport& report)
 {
     const Stored s = storedShares(report);
     const std::string green = otherGreen(report);
@@ -156,6 +174,12 @@ std::string defects(const LintReport& report)
             "{}Green seems to point the other way in {} (cotan map convert --from directx --to gltf turns it).",
             text.empty() ? "" : " ", green);
     return text;
+}
+
+std::string defects(const LintReport& report)
+{
+    const std::string broken = brokenMaps(report), rest = defectsOfFrames(report);
+    return broken.empty() || rest.empty() ? broken + rest : broken + " " + rest;
 }
 
 const Spread& of(const FrameSpreads& spreads, Advice advice)
@@ -225,18 +249,18 @@ std::string seen(const LintReport& report, const Whole& orthonormal, const Whole
                        how, orthonormal.mean, cotangent.mean, worstReading(report, "orthonormal"));
 }
 
-// Counts what the command would do; dropTangents (cotan/convert/tangents.hpp) says which tangents go. Where the maps
-// are to be read as they are, `convert` may not touch them: where it would make one anew, there is no command.
+// Counts what the command would do; dropTangents (cotan/convert/tangents.hpp) says which tangents go. Maps that are to
+// be read as they are stay: with the frame orthonormal by --keep-maps, with one that the file names without a command.
 void foresee(LintReport& report)
 {
     for (const MapFit& fit : report.fits)
         ++(fitsAsItIs(of(fit, report.advice)) ? report.mapsKept : report.mapsConverted);
-    const bool untouched = report.advice == Advice::readNamed || report.advice == Advice::readOrthonormal;
-    if (untouched && (report.mapsConverted > 0 || report.advice == Advice::readNamed)) {
+    if (report.advice == Advice::readNamed || report.advice == Advice::readOrthonormal) {
         report.mapsConverted = 0;
         report.mapsKept = report.fits.size();
-        return;
     }
+    if (report.advice == Advice::readNamed)
+        return;
     for (const PrimitiveLint& p : report.primitives)
         report.dropsTangents =
             report.dropsTangents || (p.stored.present && !neededElsewhere(p, report.advice) && !p.unread);
@@ -252,6 +276,8 @@ std::string advised(const LintReport& report, const Whole& steps)
     const std::string tangents = report.dropsTangents ? " The command drops the tangents." : "";
     if (report.mapsConverted == 0 && report.dropsTangents)
         return fmt::format("Read the maps with the frame {} as they are; the command drops the tangents.", frame);
+    if (report.mapsConverted == 0 && (!brokenMaps(report).empty() || !otherGreen(report).empty()))
+        return fmt::format("Mend the maps; then they can be read with the frame {}.", frame);
     if (report.mapsConverted == 0)
         return fmt::format("Nothing has to be changed: read the maps with the frame {} as they are.", frame);
     if (report.mapsKept == 0)

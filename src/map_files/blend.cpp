@@ -38,7 +38,7 @@ Result<BlendedFile> blendFiles(const std::filesystem::path& base, const std::fil
     std::atomic<std::size_t> invalid = 0;
     const Status streamed = streamToFile(in, {}, out, {in.width, in.height, bits->type, false, bits->half, in.frame},
                                          files.threads, files.progress, [&](Image& strip, int firstRow) {
-                                             unswizzle(strip, opened->swizzle);
+                                             opened->put(strip);
                                              BlendSettings here = settings;
                                              here.firstRow = firstRow;
                                              std::size_t found = 0;

@@ -52,6 +52,7 @@ Result<Image> throughMesh(const Image& map, const RecodeSettings& s, const MeshO
 {
     LoadLimits limits;
     limits.pixels = Pixels::none;
+    limits.up = mesh.up;
     const auto scene = loadScene(mesh.file, limits);
     if (!scene)
         return scene.error();

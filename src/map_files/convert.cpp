@@ -70,15 +70,16 @@ std::string frameAfter(const std::string& said, const ConvertFileOptions& o)
 }
 
 // Streams a picture through.
-Status byRows(RowReader& in, const std::filesystem::path& out, Swizzle swizzle, const RecodeSettings& settings,
+Status byRows(const OpenMap& map, const std::filesystem::path& out, const RecodeSettings& settings,
               const FileOptions& files, ConvertedFile& done)
 {
+    RowReader& in = *map.rows;
     const bool alpha = in.alpha && settings.from.channels == Channels::xyz && settings.to.channels == Channels::xyz;
     std::atomic<std::size_t> invalid = 0, clamped = 0;
     const Status streamed =
         streamToFile(in, {}, out, {in.width, in.height, done.bits.type, alpha, done.bits.half, done.frame},
                      files.threads, files.progress, [&](Image& strip, int firstRow) {
-                         unswizzle(strip, swizzle);
+                         map.put(strip);
                          RecodeSettings here = settings;
                          here.firstRow = firstRow;
                          RecodeCounts found;
@@ -116,7 +117,7 @@ Result<ConvertedFile> convertFile(const std::filesystem::path& map, const std::f
                                   .dither = o.dither};
     ConvertedFile done{in.width, in.height, *bits, {}, 0, frameAfter(in.frame, o), opened->convention};
     if (!o.mesh && !isTextureFile(out)) {
-        const Status streamed = byRows(in, out, opened->swizzle, settings, files, done);
+        const Status streamed = byRows(*opened, out, settings, files, done);
         return streamed ? Result<ConvertedFile>(done) : streamed.error();
     }
     auto turned = o.mesh ? byMesh(map, *o.mesh, settings, files, done) : whole(map, settings, files, done);

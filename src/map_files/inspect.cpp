@@ -70,8 +70,8 @@ Result<ComparedFiles> compareFiles(const std::filesystem::path& fileA, const Sta
     }
     AngleHistogram angles;
     const auto work = [&](std::span<Image> strips, int) -> std::function<Status()> {
-        unswizzle(strips[0], a->swizzle);
-        unswizzle(strips[1], b->swizzle);
+        a->put(strips[0]);
+        b->put(strips[1]);
         auto degrees = anglesBetween(strips[0], a->convention, strips[1], b->convention);
         Image rows = picture ? heatMap(degrees, width, strips[0].height) : Image{};
         return [&, degrees = std::move(degrees), rows = std::move(rows)]() -> Status {

@@ -4,6 +4,8 @@
 #include <fmt/format.h>
 
 #include "cotan/map_files/inspect.hpp"
+#include "cotan/maps/faults.hpp"
+#include "cotan/terminal/command_words.hpp"
 
 namespace cotan::maps {
 
@@ -29,11 +31,18 @@ std::string centreText(const NormalStatistics& s)
     return "128 or 127.5: cannot be told from the lengths";
 }
 
-std::string transferText(Transfer t)
+std::string mendingCommand(const std::vector<Fault>& faults, const std::filesystem::path& file)
 {
-    return t == Transfer::srgb
-        ? "the values went through the sRGB curve, as if they were colours: lengths are right only after undoing it"
-        : "the sRGB curve was undone on values that never had it: flat is near 55 instead of 128";
+    return fmt::format("cotan map convert {} {} -o {}", quoted(file.string()), mendingOptions(faults),
+                       quoted(file.stem().string() + "-mended.png"));
+}
+
+Json faultsJson(const std::vector<Fault>& faults)
+{
+    Json list = Json::array();
+    for (const Fault& fault : faults)
+        list.push_back({{"kind", name(fault.kind)}, {"text", fault.text}});
+    return list;
 }
 
 // Whether any texel has a direction: else means and shares are of nothing.
@@ -78,8 +87,11 @@ std::vector<std::string> linesOf(const SurveyedFile& image, const std::string& f
                                              : "channels: two (x in alpha, y in green)");
     if (s.content == Content::tangentSpace || s.content == Content::objectSpace)
         line("centre: " + centreText(s));
-    if (s.transfer != Transfer::linear)
-        line("warning: " + transferText(s.transfer));
+    const std::vector<Fault> faults = faultsOf(s);
+    for (const Fault& fault : faults)
+        line("wrong: " + fault.text);
+    if (!faults.empty())
+        line("to mend it: " + mendingCommand(faults, file));
     if (s.content == Content::grey)
         return lines;
     line(fmt::format(
@@ -123,6 +135,9 @@ Json toJson(const SurveyedFile& image)
               {"highest", s.highest},
               {"mean_tilt_degrees", s.meanTilt},
               {"tilt_by_10_degrees", s.tilt}};
+    const std::vector<Fault> faults = faultsOf(s);
+    j["faults"] = faultsJson(faults);
+    j["mend"] = faults.empty() ? Json(nullptr) : Json(mendingOptions(faults));
     if (!image.frame.empty())
         j["frame"] = image.frame;
     if (!measured(s)) // figures of nothing
@@ -132,11 +147,16 @@ Json toJson(const SurveyedFile& image)
     return j;
 }
 
-std::vector<std::string> linesOf(const GreenOfFile& found)
+std::vector<std::string> linesOf(const GreenOfFile& found, const std::string& file)
 {
     const GreenVerdict& v = found.verdict;
     std::vector<std::string> lines;
     lines.push_back(verdictText(v));
+    const std::vector<Fault> faults = faultsOf(v.statistics, &v);
+    for (const Fault& fault : faults)
+        lines.push_back("wrong: " + fault.text);
+    if (!faults.empty())
+        lines.push_back("to mend it: " + mendingCommand(faults, file));
     if (v.sampled < 1)
         lines.push_back(fmt::format("judged by {} patches of 128 x 128 texels, spread evenly: {:.2g} % of the picture",
                                     found.patches, 100 * v.sampled));
@@ -154,7 +174,10 @@ std::vector<std::string> linesOf(const GreenOfFile& found)
 Json toJson(const GreenOfFile& found)
 {
     const GreenVerdict& v = found.verdict;
+    const std::vector<Fault> faults = faultsOf(v.statistics, &v);
     return {{"green", name(v.green)},
+            {"faults", faultsJson(faults)},
+            {"mend", faults.empty() ? Json(nullptr) : Json(mendingOptions(faults))},
             {"confidence", name(v.confidence)},
             {"exchanged", name(v.swapped)},
             {"reason", v.reason},

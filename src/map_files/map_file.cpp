@@ -78,6 +78,7 @@ Result<LoadedMap> readMap(const std::filesystem::path& file, const StatedConvent
         return convention.error();
     if (convention->channels != Channels::xyz)
         unswizzle(*image, swizzleOf(*image));
+    undo(stated.damage, *image);
     return LoadedMap{*std::move(image), *convention};
 }
 
@@ -102,7 +103,7 @@ Result<OpenMap> openMap(const std::filesystem::path& file, const StatedConventio
     const auto convention = conventionOf(stated, (*reader)->name, (*reader)->channels, option);
     if (!convention)
         return convention.error();
-    OpenMap map{*std::move(reader), *convention};
+    OpenMap map{*std::move(reader), *convention, Swizzle::rg, stated.damage};
     if (convention->channels == Channels::xyz || !map.rows->alpha)
         return map;
     ChannelRange range;

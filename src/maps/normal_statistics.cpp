@@ -8,6 +8,8 @@
 
 #include <glm/geometric.hpp>
 
+#include "srgb.hpp"
+
 namespace cotan::maps {
 
 bool outsideCharts(const glm::vec4& t)
@@ -33,11 +35,15 @@ struct Sums {
     std::array<double, 4> error2{}; // of lengths: exact, biased, decoded from sRGB, encoded to sRGB
     std::array<std::size_t, 4> counted{};
     std::size_t signedUnit = 0; // length within 0.1 of 1 as stored
+    std::array<std::size_t, 3> above{}; // the middle
+    std::size_t between = 0;            // not a step of 8 bits
     ChannelRange range;
 
     void repeat(std::size_t times)
     {
-        all *= times, allGrey *= times, finite *= times, grey *= times, strange *= times, signedUnit *= times;
+        all *= times, allGrey *= times, finite *= times, grey *= times, strange *= times, signedUnit *= times, between *= times;
+        for (std::size_t& a : above)
+            a *= times;
         for (std::size_t i = 0; i < 4; ++i)
             error2[i] *= double(times), counted[i] *= times;
     }
@@ -50,6 +56,9 @@ struct Sums {
         strange += o.strange;
         grey += o.grey;
         signedUnit += o.signedUnit;
+        between += o.between;
+        for (std::size_t i = 0; i < 3; ++i)
+            above[i] += o.above[i];
         for (std::size_t i = 0; i < 4; ++i) {
             lowest[i] = std::min(lowest[i], o.lowest[i]);
             highest[i] = std::max(highest[i], o.highest[i]);
@@ -58,9 +67,6 @@ struct Sums {
         }
     }
 };
-
-float fromSrgb(float c) { return c <= 0.04045f ? c / 12.92f : std::pow((c + 0.055f) / 1.055f, 2.4f); }
-float toSrgb(float c) { return c <= 0.0031308f ? c * 12.92f : 1.055f * std::pow(c, 1 / 2.4f) - 0.055f; }
 
 // A function of stored values through a table: exact for 8 bits, enough for a decision otherwise.
 struct Curve {
@@ -135,6 +141,10 @@ void addStoredValues(const Image& image, Sums& sums)
             s.highest[std::size_t(c)] = std::max(s.highest[std::size_t(c)], double(t[c]));
         }
         s.signedUnit += std::abs(glm::length(v) - 1) < 0.1f;
+        for (int c = 0; c < 3; ++c)
+            s.above[std::size_t(c)] += t[c] > 0.5f;
+        const glm::vec3 steps = v * 255.0f, off = glm::abs(steps - glm::round(steps));
+        s.between += std::max({off.x, off.y, off.z}) > 0.001f;
         const glm::vec3 readings[] = {exact, v * 2.0f - 1.0f,
                                       glm::vec3(decoded(v.x), decoded(v.y), decoded(v.z)) * 2.0f - 1.0f,
                                       glm::vec3(encoded(v.x), encoded(v.y), encoded(v.z)) * 2.0f - 1.0f};
@@ -294,6 +304,9 @@ void MapSurvey::State::afterFirst()
         s.lowest[c] = sums.lowest[c];
         s.highest[c] = sums.highest[c];
     }
+    s.eightBits = type == PixelType::unorm16 && sums.finite > 0 && sums.between == 0;
+    // z points outwards nearly everywhere, x to both sides.
+    s.redIsZ = share(sums.above[0], sums.finite) > 0.99 && share(sums.above[2], sums.finite) < 0.9;
     two = s.swizzle != Swizzle::rg || range[2] <= kConstant;
     constantAll = range[0] <= kConstant && range[1] <= kConstant && range[2] <= kConstant && range[3] <= kConstant;
     s.signedStored = type == PixelType::float32 && sums.finite

@@ -1,5 +1,11 @@
 #include "cotan/maps/stated.hpp"
 
+#include <utility>
+#include <vector>
+
+#include "cotan/maps/texels.hpp"
+#include "srgb.hpp"
+
 namespace cotan::maps {
 
 Result<Convention> conventionOf(const StatedConvention& stated, const std::string& file, int channels,
@@ -16,6 +22,29 @@ Result<Convention> conventionOf(const StatedConvention& stated, const std::strin
                                                                      : "xyz, which are three; leave the word out"));
     convention.channels = Channels::orthographic;
     return convention;
+}
+
+void undo(const Damage& damage, Image& image)
+{
+    if (!damage.any())
+        return;
+    forRowBands(image.height, [&](int first, int last) {
+        std::vector<glm::vec4> row(std::size_t(image.width));
+        for (int y = first; y < last; ++y) {
+            loadRow(image, y, row);
+            for (glm::vec4& t : row) {
+                if (damage.curve == Damage::Curve::srgb)
+                    t = {fromSrgb(t.x), fromSrgb(t.y), fromSrgb(t.z), t.w};
+                else if (damage.curve == Damage::Curve::linearised)
+                    t = {toSrgb(t.x), toSrgb(t.y), toSrgb(t.z), t.w};
+                if (damage.order == Damage::Order::bgr)
+                    std::swap(t.x, t.z);
+                else if (damage.order == Damage::Order::grb)
+                    std::swap(t.x, t.y);
+            }
+            storeRow(image, y, row);
+        }
+    });
 }
 
 } // namespace cotan::maps

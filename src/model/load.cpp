@@ -10,6 +10,7 @@
 #include "cotan/files/account.hpp"
 #include "cotan/files/bytes.hpp"
 #include "cotan/files/extension.hpp"
+#include "cotan/scene/up.hpp"
 #include "sandboxed.hpp"
 
 namespace cotan {
@@ -50,6 +51,8 @@ Result<Scene> loadScene(const fs::path& file, const LoadLimits& limits)
     // A model is read on without a texture that must not be read, with a warning; that is not enough here.
     if (const auto refused = refusal())
         return *refused;
+    if (scene && limits.up == Up::z)
+        turnZUp(*scene);
     return scene;
 }
 

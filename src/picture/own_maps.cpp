@@ -82,6 +82,7 @@ Status applyNormalMap(const OwnMaps& maps, int memory, Scene& scene)
         completeNormals(*image);
     if (convention->channels != Channels::xyz)
         maps::unswizzle(*image, maps::swizzleOf(*image));
+    maps::undo(stated->damage, *image);
     putNormalMap(scene, std::move(*image), inScene(*convention), maps.material);
     return Done{};
 }

@@ -18,6 +18,7 @@
 #include "cotan/picture/words.hpp"
 #include "cotan/scene/geometry.hpp"
 #include "cotan/scene/meant_frame.hpp"
+#include "cotan/scene/up.hpp"
 #include "cotan/shapes/shapes.hpp"
 #include "cotan/surface/vertex_frames.hpp"
 
@@ -35,12 +36,13 @@ LoadLimits limitsFor(int memory, Pixels pixels)
 
 Result<std::pair<int, int>> parseSize(const std::string& text)
 {
-    const std::size_t x = text.find('x');
+    const std::string_view all = text, first = all.substr(0, all.find('x'));
+    const std::string_view second = first.size() < all.size() ? all.substr(first.size() + 1) : first;
     int width = 0, height = 0;
-    if (x == std::string::npos || !parseNumber(std::string_view(text).substr(0, x), width)
-        || !parseNumber(std::string_view(text).substr(x + 1), height) || width < 1 || height < 1 || width > 16384
+    if (!parseNumber(first, width) || !parseNumber(second, height) || width < 1 || height < 1 || width > 16384
         || height > 16384)
-        return usageError(fmt::format("--size: expected WxH, each from 1 to 16384; found '{}'", text));
+        return usageError(
+            fmt::format("--size: expected WxH, or one number for both, each from 1 to 16384; found '{}'", text));
     return std::pair(width, height);
 }
 
@@ -96,6 +98,8 @@ Status checkModelOptions(const PictureOptions& options)
         return usageError("--shape: expected no model with it; found " + options.model);
     if (!options.variant.empty() && none)
         return usageError("--variant: expected a model; found the built-in scene");
+    if (options.up != "y" && none)
+        return usageError("--up: expected a model; found the built-in scene");
     if (options.animation.empty() ? options.time > 0 : none)
         return usageError(options.animation.empty() ? "--time: expected --animation with it; found none"
                                                     : "--animation: expected a model; found the built-in scene");
@@ -107,6 +111,7 @@ LoadLimits limitsOf(const PictureOptions& options)
     LoadLimits limits = limitsFor(options.memory);
     limits.pose = {options.animation, options.time};
     limits.variant = options.variant;
+    limits.up = upFrom(options.up);
     limits.readFile = options.readFile;
     limits.decode = options.decode;
     return limits;
@@ -121,6 +126,15 @@ Status addReach(AnimatedGltf& model, const PictureOptions& options, Scene& scene
         return points.error();
     scene.reach = std::move(*points);
     return Done{};
+}
+
+// What loadScene does besides, for a scene that was read without it.
+Status complete(AnimatedGltf& model, const PictureOptions& options, Scene& scene)
+{
+    Status moved = addReach(model, options, scene);
+    if (moved && options.up == "z")
+        turnZUp(scene);
+    return moved;
 }
 
 Result<Scene> checkedScene(Result<Scene> scene)
@@ -162,8 +176,8 @@ Result<MovingModel> openMovingModel(const PictureOptions& options)
     if (!scene)
         return scene.error();
     model.scene = std::move(*scene);
-    if (Status moved = addReach(**opened, options, model.scene); !moved)
-        return moved.error();
+    if (Status whole = complete(**opened, options, model.scene); !whole)
+        return whole.error();
     if (const auto refused = refusal())
         return *refused;
     if (!(*opened)->animations().empty())
@@ -175,8 +189,8 @@ Result<Scene> poseModel(AnimatedGltf& model, const PictureOptions& options, cons
 {
     auto scene = model.at({options.animation, options.time}, &images);
     if (scene)
-        if (Status moved = addReach(model, options, *scene); !moved)
-            return moved.error();
+        if (Status whole = complete(model, options, *scene); !whole)
+            return whole.error();
     return scene;
 }
 

@@ -40,6 +40,15 @@ void addMemoryOption(Arguments& a, int& memory, const std::string& also)
         .in("MIB");
 }
 
+void addUpOption(Arguments& a, std::string& up, const std::string& what)
+{
+    a.option("--up", up,
+             "which axis of " + what
+                 + " is up: y; or z, as in PLY and STL of Blender and CAD: it is turned by 90 degrees about x")
+        .from({"y", "z"})
+        .in("NAME");
+}
+
 void addTangentsOption(Arguments& a, std::string& tangents, const std::string& help)
 {
     a.option("--tangents", tangents, help).from({"stored", "generated"}).in("NAME");
@@ -165,6 +174,7 @@ void addPictureOptions(Arguments& a, PictureOptions& o)
     a.option("--shape", o.shape, "without MODEL: a shape to look at maps on: plane, sphere, torus or teapot")
         .from({"plane", "sphere", "torus", "teapot"})
         .in("NAME");
+    addUpOption(a, o.up);
     addMemoryOption(a, o.memory);
     addOwnMaps(a, o.maps);
     a.option("--variant", o.variant,
@@ -174,7 +184,7 @@ void addPictureOptions(Arguments& a, PictureOptions& o)
              "animation of a glTF model, by name or number; the pose of the file if left out")
         .in("NAME|N");
     a.option("--time", o.time, "moment of --animation, in seconds from its start").within(0.0, 1e6).in("S");
-    a.option("--size", o.size, "width and height in pixels").in("WxH");
+    a.option("--size", o.size, "width and height in pixels; 512 is 512x512").in("WxH");
     a.option(
          "--camera", o.camera,
          "front (filling the picture), fit (the whole box around the model), both with all of an --animation in it, "

@@ -13,6 +13,7 @@
 #include "cotan/scene/bounds.hpp"
 #include "cotan/scene/geometry.hpp"
 #include "cotan/scene/sample_places.hpp"
+#include "cotan/scene/view_check.hpp"
 #include "pixel.hpp"
 #include "setup.hpp"
 #include "tile.hpp"
@@ -162,25 +163,20 @@ Result<Image> draw(const Scene& scene, const View& view, const Progress& progres
     return picture;
 }
 
-std::optional<Error> checkView(const View& view)
+Status checkSize(const View& view)
 {
-    auto fits = [](int side) { return side >= 1 && side <= kLargestSide; };
-    if (!fits(view.width) || !fits(view.height))
+    if (view.width > kLargestSide || view.height > kLargestSide)
         return usageError("picture size: expected 1 to 16384 pixels a side, found " + std::to_string(view.width) + "x"
                           + std::to_string(view.height));
-    if (!isFrame(int(view.frame)))
-        return usageError("frame: expected 0 to " + std::to_string(kFrameCount - 1) + ", found "
-                          + std::to_string(int(view.frame)));
-    return std::nullopt;
+    return Done{};
 }
 
 } // namespace
 
 Result<Image> renderReference(const Scene& scene, const View& view, int threads, const Progress& progress)
 {
-    if (std::optional<Error> error = checkView(view))
-        return *error;
-    for (const Status& ok : {checkTrianglesDrawn(scene), checkVertexAttributes(scene, view.frame)})
+    for (const Status& ok :
+         {checkView(view), checkSize(view), checkTrianglesDrawn(scene), checkVertexAttributes(scene, view.frame)})
         if (!ok)
             return ok.error();
     try {

@@ -34,10 +34,15 @@ VKAPI_ATTR VkBool32 VKAPI_CALL collectMessage(VkDebugUtilsMessageSeverityFlagBit
 
 vk::DebugUtilsMessengerCreateInfoEXT messengerInfo(std::vector<std::string>& messages)
 {
-    using Severity = vk::DebugUtilsMessageSeverityFlagBitsEXT;
-    using Type = vk::DebugUtilsMessageTypeFlagBitsEXT;
-    return {
-        {}, Severity::eWarning | Severity::eError, Type::eValidation | Type::ePerformance, collectMessage, &messages};
+    // As C has it: of which type a callback is changed between versions of the C++ header.
+    VkDebugUtilsMessengerCreateInfoEXT info{};
+    info.sType = VK_STRUCTURE_TYPE_DEBUG_UTILS_MESSENGER_CREATE_INFO_EXT;
+    info.messageSeverity =
+        VK_DEBUG_UTILS_MESSAGE_SEVERITY_WARNING_BIT_EXT | VK_DEBUG_UTILS_MESSAGE_SEVERITY_ERROR_BIT_EXT;
+    info.messageType = VK_DEBUG_UTILS_MESSAGE_TYPE_VALIDATION_BIT_EXT | VK_DEBUG_UTILS_MESSAGE_TYPE_PERFORMANCE_BIT_EXT;
+    info.pfnUserCallback = collectMessage;
+    info.pUserData = &messages;
+    return info;
 }
 
 bool hasValidation(const vk::raii::Context& context)

@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "cotan/scene/sample_places.hpp"
+#include "cotan/scene/view_check.hpp"
 #include "draw.hpp"
 
 namespace cotan {
@@ -16,8 +17,10 @@ double now()
     return std::chrono::duration<double>(t).count();
 }
 
-Status checkView(const Device& device, const View& view)
+Status checkLimits(const Device& device, const View& view)
 {
+    if (Status sound = checkView(view); !sound)
+        return sound;
     if (view.lighting != Lighting::world)
         return unavailableError("lighting in tangent space: only the reference renderer does it "
                                 "(--device reference)");
@@ -27,8 +30,7 @@ Status checkView(const Device& device, const View& view)
                                             device.limits.maxImageDimension2D, device.limits.maxViewportDimensions[0],
                                             device.limits.maxViewportDimensions[1]});
     const std::string size = std::to_string(view.width) + "x" + std::to_string(view.height);
-    if (view.width < 1 || view.height < 1 || std::uint32_t(view.width) > largest
-        || std::uint32_t(view.height) > largest)
+    if (std::uint32_t(view.width) > largest || std::uint32_t(view.height) > largest)
         return usageError("size " + size + ": " + device.name + " draws 1 to " + std::to_string(largest)
                           + " pixels a side");
     vk::DeviceSize room = 0;
@@ -38,9 +40,6 @@ Status checkView(const Device& device, const View& view)
     if (needed > room / 10 * 9)
         return usageError("size " + size + " needs " + std::to_string(needed >> 20) + " MiB: " + device.name + " has "
                           + std::to_string(room >> 20));
-    if (!isFrame(int(view.frame)))
-        return usageError("frame " + std::to_string(int(view.frame)) + ": expected 0 to "
-                          + std::to_string(kFrameCount - 1));
     if (info(view.frame).source == FrameSource::triangle && !device.exact)
         return unavailableError("the frame " + std::string(name(view.frame))
                                 + " needs the features geometryShader and "
@@ -136,7 +135,7 @@ Result<Image> Drawer::drawOnce(GpuScene& scene, const View& view, std::optional<
 
 Result<Image> Drawer::draw(GpuScene& scene, const View& view, RenderTimings& timings)
 {
-    if (const Status ok = checkView(*device_, view); !ok)
+    if (const Status ok = checkLimits(*device_, view); !ok)
         return ok.error();
     if (const Status& ok = scene.withFrame[std::size_t(view.frame)]; !ok)
         return ok.error();

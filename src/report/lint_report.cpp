@@ -88,6 +88,9 @@ std::string greenLine(const LintReport& report)
                        right, wrong, report.maps.size() - right - wrong);
 }
 
+// With what is beside the value.
+std::string sentenceOf(const LintFailure& f) { return f.beside.empty() ? f.text : f.text + " (" + f.beside + ")"; }
+
 Json toJson(const PrimitiveLint& p)
 {
     Json j = {{"mesh", p.mesh},
@@ -179,13 +182,32 @@ std::vector<std::string> detailLines(const LintReport& report)
     return lines;
 }
 
+Json overLimits(const LintCheck& check)
+{
+    const auto text = [](const std::string& name) { return name.empty() ? Json(nullptr) : Json(name); };
+    const auto number = [](bool known, double value) { return known ? Json(value) : Json(nullptr); };
+    Json all = Json::array();
+    for (const LintFailure& f : check.failures) {
+        const bool measured = f.limit >= 0;
+        all.push_back({{"kind", f.kind},
+                       {"mesh", text(f.mesh)},
+                       {"material", text(f.material)},
+                       {"map", text(f.map)},
+                       {"degrees", number(measured && !f.percent, f.value)},
+                       {"percent", number(measured && f.percent, f.value)},
+                       {"limit", number(measured, f.limit)},
+                       {"text", f.text}});
+    }
+    return all;
+}
+
 std::vector<std::string> checkLines(const LintCheck& check, std::size_t most)
 {
     if (check.passed())
         return {"check: passed"};
     std::vector<std::string> lines;
     for (std::size_t i = 0; i < std::min(most, check.failures.size()); ++i)
-        lines.push_back("check: failed: " + check.failures[i].text);
+        lines.push_back("check: failed: " + sentenceOf(check.failures[i]));
     if (lines.size() < check.failures.size())
         lines.back() += fmt::format(" and {} more", check.failures.size() - lines.size());
     return lines;
@@ -195,7 +217,7 @@ std::string summaryOf(const LintCheck& check)
 {
     if (check.passed())
         return {};
-    const std::string& first = check.failures.front().text;
+    const std::string first = sentenceOf(check.failures.front());
     return check.failures.size() == 1 ? first : fmt::format("{} and {} more", first, check.failures.size() - 1);
 }
 

@@ -36,7 +36,20 @@ int spawn(const SpawnRequest& request, pid_t& process)
     for (std::string& text : texts)
         words.push_back(text.data());
     words.push_back(nullptr);
-    const int problem = ::posix_spawn(&process, request.program.c_str(), &files, &attributes, words.data(), environ);
+    std::vector<std::string> variables;
+    for (char** variable = environ; *variable; ++variable) {
+        const std::string text = *variable;
+        if (!request.environment.contains(text.substr(0, text.find('='))))
+            variables.push_back(text);
+    }
+    for (const auto& [name, value] : request.environment)
+        variables.push_back(name + "=" + value);
+    std::vector<char*> environment;
+    for (std::string& variable : variables)
+        environment.push_back(variable.data());
+    environment.push_back(nullptr);
+    const int problem =
+        ::posix_spawn(&process, request.program.c_str(), &files, &attributes, words.data(), environment.data());
     ::posix_spawnattr_destroy(&attributes);
     ::posix_spawn_file_actions_destroy(&files);
     return problem;

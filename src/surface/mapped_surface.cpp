@@ -8,7 +8,6 @@
 #include <glm/geometric.hpp>
 
 #include "cotan/scene/texture_uv.hpp"
-#include "cotan/tangents.hpp"
 
 namespace cotan {
 
@@ -43,11 +42,11 @@ glm::dvec3 movedCovector(const LinearMap<double>& m, glm::vec3 c)
 
 // The values of corners, once for the corners of a vertex that have the same bits. Further values of a vertex come
 // after the first values of all vertices.
-CornerValues<glm::vec4> gathered(std::size_t vertices, const std::vector<std::uint32_t>& indices,
-                                 const std::vector<glm::vec4>& corners)
+CornerTangents gathered(std::size_t vertices, const std::vector<std::uint32_t>& indices,
+                        const std::vector<glm::vec4>& corners)
 {
     constexpr std::uint32_t kNone = 0xffffffffu;
-    CornerValues<glm::vec4> result;
+    CornerTangents result;
     if (corners.size() != indices.size() || corners.empty())
         return result;
     const auto same = [](const glm::vec4& a, const glm::vec4& b) { return std::memcmp(&a, &b, sizeof a) == 0; };
@@ -72,31 +71,22 @@ CornerValues<glm::vec4> gathered(std::size_t vertices, const std::vector<std::ui
             }
             place = next[place];
         }
-        if (place == indices[c])
-            continue;
-        if (result.places.empty())
-            result.places = indices;
-        result.places[c] = place;
+        if (place != indices[c])
+            result.places.add(c, indices[c], place, vertices);
     }
+    values.shrink_to_fit();
     return result;
 }
 
 // Cotangents, mirrored and unmirrored triangles apart.
-CornerValues<std::array<glm::vec3, 2>> cotangentsOf(const MeshView& mesh)
+CornerCotangents cotangentsOf(const MeshView& mesh)
 {
-    CornerValues<std::array<glm::vec3, 2>> result;
     SplitCotangents made = splitSmoothCotangents(mesh);
-    result.values.reserve(made.cotangents.u.size());
-    for (std::size_t i = 0; i < made.cotangents.u.size(); ++i)
-        result.values.push_back({made.cotangents.u[i], made.cotangents.v[i]});
-    if (result.values.size() != mesh.positions.size()) // else none was split
-        result.places = std::move(made.split.indices);
+    CornerCotangents result{std::move(made.cotangents), {}};
+    for (std::size_t c = 0; c < made.split.indices.size(); ++c)
+        if (made.split.indices[c] != mesh.indices[c])
+            result.places.add(c, mesh.indices[c], made.split.indices[c], mesh.positions.size());
     return result;
-}
-
-template<class T> const T& valueAt(const SurfaceMesh& s, const CornerValues<T>& made, std::size_t corner)
-{
-    return made.values[made.places.empty() ? s.mesh->indices[corner] : made.places[corner]];
 }
 
 // The weighted sum over the corners of a triangle.
@@ -126,12 +116,13 @@ f64::cotan_frame frameOfVertices(const MappedSurface& s, Frame frame, TangentOri
     }
     if (s.shared->cotangents.empty())
         return evaluateCotangents(frame, n, glm::dvec3(0), glm::dvec3(0));
-    const auto along = [&](std::size_t k) {
+    const CornerCotangents& made = s.shared->cotangents;
+    const auto gradient = [&](const std::vector<glm::vec3>& values) {
         return blended(triangle, barycentric, [&](std::size_t corner) {
-            return movedCovector(s.linear, valueAt(*s.shared, s.shared->cotangents, corner)[k]);
+            return movedCovector(s.linear, values[made.places.of(corner, s.vertexOf(corner))]);
         });
     };
-    return evaluateCotangents(frame, n, along(0), along(1));
+    return evaluateCotangents(frame, n, gradient(made.values.u), gradient(made.values.v));
 }
 
 std::shared_ptr<SurfaceMesh> shareMesh(std::shared_ptr<const Mesh> mesh, const Texture& map, const FrameSet& wanted)
@@ -143,12 +134,12 @@ std::shared_ptr<SurfaceMesh> shareMesh(std::shared_ptr<const Mesh> mesh, const T
     if (shared->uv.empty() || m.indices.empty())
         return shared;
     const MeshView view{m.positions, m.normals, shared->uv, m.indices};
-    if (wanted[std::size_t(Frame::smooth)])
-        shared->cotangents = cotangentsOf(view);
-    for (const FrameInfo& f : frames())
+    for (const FrameInfo& f : frames()) // first what takes most memory while it is made
         if (wanted[std::size_t(f.frame)] && readsTangents(f.frame))
             shared->generated[std::size_t(f.frame)] =
                 gathered(m.vertexCount(), m.indices, generateTangents(f.frame, view));
+    if (wanted[std::size_t(Frame::smooth)])
+        shared->cotangents = cotangentsOf(view);
     return shared;
 }
 
@@ -172,6 +163,23 @@ std::shared_ptr<const Mesh> copied(const Mesh& mesh)
 
 } // namespace
 
+void CornerPlaces::add(std::size_t corner, std::uint32_t vertex, std::uint32_t place, std::size_t vertices)
+{
+    if (several_.empty())
+        several_.resize(vertices);
+    several_[vertex] = true;
+    elsewhere_.push_back({std::uint32_t(corner), place});
+}
+
+std::size_t CornerPlaces::of(std::size_t corner, std::uint32_t vertex) const
+{
+    if (several_.empty() || !several_[vertex])
+        return vertex;
+    const auto found = std::lower_bound(elsewhere_.begin(), elsewhere_.end(), corner,
+                                        [](const Elsewhere& e, std::size_t c) { return e.corner < c; });
+    return found != elsewhere_.end() && found->corner == corner ? found->place : vertex;
+}
+
 FrameSet frameSet(std::initializer_list<Frame> list)
 {
     FrameSet set;
@@ -192,7 +200,8 @@ glm::dvec4 MappedSurface::stored(std::size_t corner) const
 
 glm::dvec4 MappedSurface::generated(Frame frame, std::size_t corner) const
 {
-    return moved(linear, valueAt(*shared, shared->generated[std::size_t(frame)], corner));
+    const CornerTangents& made = shared->generated[std::size_t(frame)];
+    return moved(linear, made.values[made.places.of(corner, vertexOf(corner))]);
 }
 
 MappedSurface makeSurface(std::shared_ptr<const Mesh> mesh, const Texture& map, const glm::dmat3& linear,
@@ -215,7 +224,7 @@ SurfaceBytes surfaceBytes(std::size_t vertices, std::size_t triangles, const Fra
         bytes.making = std::max(bytes.making, perVertex * vertices + perTriangle * triangles);
     };
     if (wanted[std::size_t(Frame::smooth)])
-        add(2 * sizeof(glm::vec3), 100, 16);
+        add(2 * sizeof(glm::vec3), 18, 15);
     for (const FrameInfo& f : frames())
         if (wanted[std::size_t(f.frame)] && readsTangents(f.frame))
             add(sizeof(glm::vec4), 0, 80);

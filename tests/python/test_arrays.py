@@ -192,3 +192,14 @@ def test_results_print_in_a_line_and_meshes_compare_by_identity():
     assert repr(mesh) == "Mesh(name='panel', vertices=4, triangles=2)"
     assert mesh == mesh and mesh != square("panel") and {mesh: 1}[mesh] == 1
     assert len(repr(cotan.bake(mesh, slope(0), size=64))) < 300
+
+
+def test_rows_of_different_lengths_are_told_in_our_words():
+    ragged = [[0, 0, 0], [1, 2]]
+    for call in (
+        lambda: cotan.Mesh(ragged, [0, 1, 2]),
+        lambda: cotan.Mesh([[0, 0, 0]], ragged),
+        lambda: cotan.map_convert(ragged, "gltf", "gltf"),
+    ):
+        with pytest.raises(cotan.UsageError, match="found rows of different lengths$"):
+            call()

@@ -1,5 +1,8 @@
 """Maps as arrays against the command line on files, to the bit, and against mathematics."""
 
+import pathlib
+import pickle
+
 import numpy as np
 import pytest
 
@@ -131,3 +134,63 @@ def test_levels_halve_to_one_texel_and_keep_their_length():
     last = (levels[-1].map[0, 0, :3].astype(float) - 32768) / 32767
     assert abs(np.linalg.norm(last) - 1) < 1e-3 and last[2] > 0.99  # a relief that repeats has no tilt
     assert levels[-1].roughness[0, 0, 0] > levels[0].roughness[0, 0, 0]
+
+
+def test_half_stands_for_zero_in_floats_and_not_128_of_255():
+    flat = np.full((2, 2, 3), 128, np.uint8)
+    floats = cotan.map_convert(flat, "gltf", "gltf", bits=32)
+    assert (floats[..., :2] == 0.5).all()
+    divided = cotan.map_convert((flat / 255).astype(np.float32), "gltf", "gltf", bits=16)
+    assert (divided[..., :2] == 32896).all()  # 0.50196: a third of a degree
+
+
+@pytest.mark.parametrize("value", [np.nan, np.inf, -0.1, 1.5, 255.0])
+def test_floats_that_no_map_holds_are_refused_with_their_place(value, files):
+    _, base, _ = files
+    bad = np.full((4, 6, 3), 0.5, np.float32)
+    bad[2, 3, 1] = value
+    expected = "found (nan|inf) at row 2, column 3" if not np.isfinite(value) else "floats from 0 to 1 as gltf stores them"
+    for call in (
+        lambda: cotan.map_convert(bad, "gltf", "directx"),
+        lambda: cotan.map_to_height(bad),
+        lambda: cotan.map_mips(bad),
+        lambda: cotan.map_blend(bad, base),
+        lambda: cotan.map_blend(base, bad),
+    ):
+        with pytest.raises(cotan.InputError, match=expected):
+            call()
+    if not np.isfinite(value):
+        with pytest.raises(cotan.InputError, match="height: expected finite numbers"):
+            cotan.map_from_height(bad, 1.0)
+
+
+def test_floats_that_a_convention_holds_are_taken():
+    signed = np.zeros((4, 4, 3), np.float32)
+    signed[..., 0], signed[..., 2] = -0.6, 0.8
+    made = cotan.map_convert(signed, "gltf,signed", "gltf", bits=8)
+    assert (made[0, 0, :3] == (52, 128, 230)).all()
+    slopes = np.full((4, 4, 3), 2.5, np.float32)
+    cotan.map_convert(slopes, "unity,slope", "gltf", bits=8)
+
+
+def test_a_missing_file_is_pythons_error_too_and_so_is_what_cannot_be_written(tmp_path):
+    for call in (
+        lambda: cotan.read_picture(tmp_path / "gone.png"),
+        lambda: cotan.load(tmp_path / "gone.obj"),
+        lambda: cotan.convert(tmp_path / "gone.glb"),
+        lambda: cotan.detect(tmp_path / "gone.png"),
+    ):
+        with pytest.raises(FileNotFoundError, match="no such file") as caught:
+            call()
+        error = caught.value
+        assert isinstance(error, cotan.InputError) and isinstance(error, cotan.MissingFileError)
+        assert error.errno == 2 and pathlib.Path(error.filename).name.startswith("gone.")
+        again = pickle.loads(pickle.dumps(error))
+        assert str(again) == str(error) and again.file == error.file and again.errno == 2
+    (tmp_path / "text.png").write_text("no picture")
+    with pytest.raises(cotan.InputError) as broken:
+        cotan.read_picture(tmp_path / "text.png")
+    assert not isinstance(broken.value, OSError)
+    with pytest.raises(OSError, match="nowhere does not exist") as unwritten:
+        cotan.write_picture(tmp_path / "nowhere" / "a.png", normal_map())
+    assert isinstance(unwritten.value, cotan.OutputError) and str(unwritten.value) == unwritten.value.args[0]

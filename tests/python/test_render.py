@@ -93,7 +93,7 @@ def test_words_that_are_wrong_name_the_keyword():
         ({"samples": 3}, "samples"),
         ({"size": (0, 16)}, "size"),
         ({"size": (16, 16385)}, "size"),
-        ({"size": 16}, "size"),
+        ({"size": "16x"}, "size"),
         ({"view": "nonsense"}, "view"),
         ({"frame": "nonsense"}, "frame"),
         ({"camera": "nonsense"}, "camera"),

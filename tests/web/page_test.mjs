@@ -277,7 +277,7 @@ await fact('theCheckIsTheCommandLinesWithItsReportAsAFile', async () => {
     } catch (error) {
       if (error.status !== 5) throw error;
     }
-    const tools = JSON.parse(readFileSync(join(scratch, 'lint.json'), 'utf8')).over_limit;
+    const tools = JSON.parse(readFileSync(join(scratch, 'lint.json'), 'utf8')).over_limit.map(({ text }) => text);
     if (JSON.stringify(ours.over_limit) !== JSON.stringify(tools)) wrong.push(`${basename(file)}: ${ours.over_limit.join('; ')}\n expected ${tools.join('; ')}`);
     if (/fails/.test(words) !== tools.length > 0) wrong.push(`${basename(file)}: says ${words}`);
     if (ours.limits.limit !== limit || ours.limits.limitArea !== 5 || !(ours.primitives.length > 0)) wrong.push(`${basename(file)}: the report has ${JSON.stringify(ours).slice(0, 200)}`);

@@ -6,7 +6,7 @@
 #include <cstdio>
 #include <filesystem>
 
-#include <imgui.h>
+#include "imgui_versions.hpp"
 
 namespace cotan::viewer {
 
@@ -27,14 +27,32 @@ void drawMenus(const Interface& interface, Commands& chosen)
 {
     if (!ImGui::BeginMainMenuBar())
         return;
+    // What is still too long for a small window scrolls under its title instead of lying over it.
+    const float most = ImGui::GetIO().DisplaySize.y - 2 * ImGui::GetFrameHeight();
     for (const Menu& menu : interface.menus) {
+        ImGui::SetNextWindowSizeConstraints({0, 0}, {FLT_MAX, most});
         if (!ImGui::BeginMenu(menu.title.c_str()))
             continue;
-        for (const MenuItem& item : menu.items)
+        bool open = true; // the submenu that the items are in
+        std::string submenu;
+        for (const MenuItem& item : menu.items) {
+            if (item.submenu != submenu) {
+                if (!submenu.empty() && open)
+                    ImGui::EndMenu();
+                submenu = item.submenu;
+                if (!submenu.empty())
+                    ImGui::SetNextWindowSizeConstraints({0, 0}, {FLT_MAX, most});
+                open = submenu.empty() || ImGui::BeginMenu(submenu.c_str());
+            }
+            if (!open)
+                continue;
             if (item.command.empty())
                 ImGui::Separator();
             else if (ImGui::MenuItem(item.label.c_str(), item.key.c_str(), item.on, item.usable))
                 chosen.push_back(item.command);
+        }
+        if (!submenu.empty() && open)
+            ImGui::EndMenu();
         ImGui::EndMenu();
     }
     ImGui::EndMainMenuBar();
@@ -255,7 +273,7 @@ void setFont(float scale)
         config.SizePixels = pixels;
         fonts.AddFontDefault(&config);
     }
-    fonts.Build();
+    buildImGuiFonts();
 }
 
 std::vector<std::string> drawInterface(const Interface& interface, float scale)

@@ -4,8 +4,7 @@
 #include <cstring>
 #include <limits>
 
-#include <backends/imgui_impl_vulkan.h>
-#include <imgui.h>
+#include "imgui_versions.hpp"
 
 namespace cotan::viewer {
 
@@ -193,20 +192,20 @@ void Presenter::startInterface()
     info.DescriptorPool = descriptors_;
     info.MinImageCount = 2;
     info.ImageCount = std::max(2u, std::uint32_t(images_.size()));
-    info.MSAASamples = VK_SAMPLE_COUNT_1_BIT;
-    ImGui_ImplVulkan_Init(&info, pass_);
+    startImGuiBackend(info, pass_);
     interface_started_ = true;
-    auto begin = made<VkCommandBufferBeginInfo>(VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO);
-    begin.flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT;
-    COTAN_CHECK(vkBeginCommandBuffer(commands_, &begin));
-    ImGui_ImplVulkan_CreateFontsTexture(commands_);
-    COTAN_CHECK(vkEndCommandBuffer(commands_));
-    auto submit = made<VkSubmitInfo>(VK_STRUCTURE_TYPE_SUBMIT_INFO);
-    submit.commandBufferCount = 1;
-    submit.pCommandBuffers = &commands_;
-    COTAN_CHECK(vkQueueSubmit(queue_, 1, &submit, VK_NULL_HANDLE));
-    COTAN_CHECK(vkQueueWaitIdle(queue_));
-    ImGui_ImplVulkan_DestroyFontUploadObjects();
+    uploadImGuiFonts([this](const auto& upload) {
+        auto begin = made<VkCommandBufferBeginInfo>(VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO);
+        begin.flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT;
+        COTAN_CHECK(vkBeginCommandBuffer(commands_, &begin));
+        upload(commands_);
+        COTAN_CHECK(vkEndCommandBuffer(commands_));
+        auto submit = made<VkSubmitInfo>(VK_STRUCTURE_TYPE_SUBMIT_INFO);
+        submit.commandBufferCount = 1;
+        submit.pCommandBuffers = &commands_;
+        COTAN_CHECK(vkQueueSubmit(queue_, 1, &submit, VK_NULL_HANDLE));
+        COTAN_CHECK(vkQueueWaitIdle(queue_));
+    });
 }
 
 // The backend never frees a font's texture before its own end.
@@ -250,6 +249,8 @@ bool Presenter::show(const Shown& shown, ImDrawData* interface, int width, int h
             keep(other_, *shown.other);
         serial_ = shown.serial;
     }
+    if (interface)
+        nameImGuiTexture(*interface);
     record(index, shown, interface);
     const VkPipelineStageFlags stage = VK_PIPELINE_STAGE_TRANSFER_BIT | VK_PIPELINE_STAGE_COLOR_ATTACHMENT_OUTPUT_BIT;
     auto submit = made<VkSubmitInfo>(VK_STRUCTURE_TYPE_SUBMIT_INFO);

@@ -15,7 +15,16 @@ from ._library import library_path, library_version
 from ._version import __version__
 from .baking import Baked, bake
 from .conversion import Conversion, model_pictures
-from .errors import Error, InputError, LimitError, OutputError, StoppedError, UnavailableError, UsageError
+from .errors import (
+    Error,
+    InputError,
+    LimitError,
+    MissingFileError,
+    OutputError,
+    StoppedError,
+    UnavailableError,
+    UsageError,
+)
 from .geometry import (
     Mesh,
     frame_apply,
@@ -63,6 +72,7 @@ __all__ = [
     "Lint",
     "MapInfo",
     "Mesh",
+    "MissingFileError",
     "Model",
     "OutputError",
     "StoppedError",

@@ -22,13 +22,17 @@ def _shape_text(shape):
     return "(" + ", ".join("n" if s is None else str(s) for s in shape) + ("," if len(shape) == 1 else "") + ")"
 
 
+def _array(given, field, expected):
+    try:
+        return np.asarray(given)
+    except ValueError:  # whose text is numpy's
+        raise wrong(field, expected, "rows of different lengths") from None
+
+
 def floats(given, field, width, count=None):
     """(count, width) of float32, C order; width None: (count,). Numbers of other types are converted."""
     shape = (count,) if width is None else (count, width)
-    try:
-        array = np.asarray(given)
-    except ValueError as error:
-        raise wrong(field, f"numbers of shape {_shape_text(shape)}", str(error)) from None
+    array = _array(given, field, f"numbers of shape {_shape_text(shape)}")
     if array.dtype.kind not in "fiub":
         raise wrong(field, "numbers, best of dtype float32", f"dtype {array.dtype}")
     if array.ndim != len(shape) or any(s not in (None, a) for s, a in zip(shape, array.shape)):
@@ -38,7 +42,7 @@ def floats(given, field, width, count=None):
 
 def triangles(given, field="indices"):
     """(3 n,) of uint32 from (3 n,) or (n, 3) of any integers."""
-    array = np.asarray(given)
+    array = _array(given, field, "integers of shape (n,) or (n, 3)")
     if array.size == 0 and array.dtype.kind == "f":  # what an empty list becomes
         array = array.astype(np.uint32)
     if array.dtype.kind not in "iu":
@@ -73,7 +77,7 @@ def at(array):
 def pixels(given, field="map"):
     """(height, width, 4) of uint8, uint16 or float32, C order. One or three channels become four by a copy: grey is
     repeated, alpha is full. Other floats become float32."""
-    array = np.asarray(given)
+    array = _array(given, field, "a picture")
     if array.dtype.kind == "f" and array.dtype != np.float32:
         array = array.astype(np.float32)
     if array.dtype not in BITS:
@@ -88,6 +92,33 @@ def pixels(given, field="map"):
     whole[..., :3] = array
     whole[..., 3] = 1 if array.dtype == np.float32 else np.iinfo(array.dtype).max
     return whole
+
+
+def finite(array, field):
+    """Refuses floats that are no number or infinite, with the place of the first."""
+    if array.dtype != np.float32:
+        return
+    wrong_at = ~np.isfinite(array[..., :3])
+    if wrong_at.any():
+        row, column, channel = (int(i) for i in np.argwhere(wrong_at)[0])
+        found = f"{array[row, column, channel]} at row {row}, column {column}"
+        raise wrong(field, "finite numbers", found, InputError)
+
+
+_SLACK = 1e-3  # what filters and half floats leave
+
+
+def stored(array, words, field):
+    """Refuses floats that no map of that convention holds: outside of 0 to 1, or of -1 to 1 where it is signed. Slopes
+    have no range."""
+    finite(array, field)
+    words = os.fsdecode(words).split(",") if isinstance(words, (str, bytes)) else []
+    if array.dtype != np.float32 or "slope" in words:
+        return
+    low = -1.0 if "signed" in words else 0.0
+    for found in (float(array[..., :3].min()), float(array[..., :3].max())):
+        if not low - _SLACK <= found <= 1 + _SLACK:
+            raise wrong(field, f"floats from {low:g} to 1 as {','.join(words)} stores them", f"{found:g}", InputError)
 
 
 def picture(array):

@@ -17,6 +17,7 @@ from .geometry import Mesh
 from .maps import Map
 from .models import Model, Progress, load
 from .pictures import Path, pixels_of
+from .words import BakeKind, Convention, Frame, HighNormals, Search, TangentOrigin
 
 Geometry = Union[Mesh, Path, Model]
 
@@ -78,15 +79,15 @@ def bake(
     high: Union[Geometry, Sequence[Geometry]],
     *,
     size: Any = 1024,
-    frame: str = "mikktspace",
-    kind: str = "normal",
-    convention: str = "opengl",
+    frame: Frame = "mikktspace",
+    kind: BakeKind = "normal",
+    convention: Convention = "opengl",
     bits: int = 8,
     samples: int = 1,
     padding: int = 0,
     dither: bool = False,
     ao_rays: int = 64,
-    search: str = "first",
+    search: Search = "first",
     extrusion: float = 0.0,
     max_distance: float = 0.0,
     cage: Union[Geometry, Sequence[Mesh], None] = None,
@@ -94,11 +95,11 @@ def bake(
     match_by_name: bool = False,
     material: int = -1,
     udim: int = 1001,
-    tangents: str = "stored",
-    high_normals: str = "smooth",
-    high_frame: Optional[str] = None,
+    tangents: TangentOrigin = "stored",
+    high_normals: HighNormals = "smooth",
+    high_frame: Optional[Frame] = None,
     high_map: Union[Map, Sequence[Map], None] = None,
-    high_convention: Optional[str] = None,
+    high_convention: Optional[Convention] = None,
     mask: bool = False,
     memory: int = 640,
     threads: int = 0,
@@ -133,7 +134,8 @@ def bake(
         tangents: for the frames "vertex" and "mikktspace": "stored" (generated where missing) or "generated".
         high_normals: "smooth", "curved", "face" or "map": the high meshes' own normal maps.
         high_frame: that those were made for; None: "mikktspace".
-        high_map: a picture that takes the place of the high meshes' own maps, or one for each of `high`.
+        high_map: a picture that takes the place of the high meshes' own maps, or one for each of `high`; in float32 0.5
+            stands for zero, which is not 128 / 255.
         high_convention: how their maps are stored; None: as the materials say, "opengl" for high_map.
         mask: also gives the picture of what became of each texel.
         memory: of the largest picture that is read, in MiB.
@@ -167,10 +169,12 @@ def bake(
         )
     }  # fmt: skip
     maps = [] if high_map is None else [pixels_of(m, "high_map") for m in _several(high_map)]
+    for given in maps:
+        arrays.stored(given, "opengl" if high_convention is None else high_convention, "high_map")
     pictures = [arrays.picture(m) for m in maps]
     mask_picture = None if mask_made is None else arrays.picture(mask_made)
     result, lines = structs.BakeResult(), structs.handle()
-    warnings = []
+    warnings: list[str] = []
 
     def work(told):
         simple = _model(low, "low", memory=memory)

@@ -25,6 +25,7 @@ from .models import (
     converted_of,
 )
 from .pictures import Path
+from .words import Expansion, Frame, TangentOrigin
 
 
 def model_pictures(
@@ -59,17 +60,17 @@ class Conversion:
     def __init__(
         self,
         model: Union[Path, Bytes],
-        to_frame: str = "cotangent",
-        from_frame: Optional[str] = None,
-        tangents: str = "stored",
+        to_frame: Frame = "cotangent",
+        from_frame: Optional[Frame] = None,
+        tangents: TangentOrigin = "stored",
         keep_tangents: bool = False,
         bits: int = 0,
         threads: int = 0,
         progress: Optional[Progress] = None,
         beside: Optional[Mapping[str, bytes]] = None,
         decode: Optional[Decode] = None,
-        unsigned: str = "biased",
-    ):
+        unsigned: Expansion = "biased",
+    ) -> None:
         """Arguments and errors are those of `convert`."""
         check_tangents(tangents)
         source = Source(model, beside, decode)

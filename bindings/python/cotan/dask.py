@@ -38,13 +38,13 @@ def run(
     shards: int = 0,
     options: Sequence[str] = (),
     progress: Optional[Callable[[float], bool]] = None,
-) -> dict:
+) -> dict[str, Any]:
     """Runs the jobs of a file on the workers of a Dask cluster, and returns the report of all of them.
 
     jobs: the file, a job in each line. report: the page to write; None: none. store: the folder that keeps results;
     None: beside the report. client: a distributed.Client; None: the present one. tool: the program cotan, on the
     workers, too. shards: parts that the jobs are dealt to; 0: four for each thread of the cluster, at most one for each
-    job. options: more words for `cotan batch`, such as ["--limit-seconds", "600"]. progress: called with the share that
+    job. options: more words for `cotan batch`, such as ["--limit-time", "600"]. progress: called with the share that
     is done, from 0 to 1, after each shard; False stops.
 
     Returns what `cotan batch --json` writes: "counts" by state, "jobs" with the worst first. A job that fails is a row
@@ -107,7 +107,7 @@ def _shard(words: Sequence[str]) -> int:
     return done.returncode
 
 
-def _merge(tool: str, jobs: str, store: pathlib.Path, report: Optional[Path]) -> dict:
+def _merge(tool: str, jobs: str, store: pathlib.Path, report: Optional[Path]) -> dict[str, Any]:
     words = [tool, "batch", jobs, "--merge", "--store", str(store), "--json", "-"]
     done = _start(words + (["-o", str(report)] if report is not None else []))
     if not done.stdout:

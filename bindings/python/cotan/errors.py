@@ -1,7 +1,9 @@
 """What can go wrong, as exceptions. Each carries the one line that the library said, and the parts of it."""
 
+import errno
 import os
 import re
+from typing import Any, Optional
 
 # The library says "WHERE: expected THIS, found THAT"; WHERE is a file, a field, or a file and a field. What reads words
 # of the command line for it says the rest.
@@ -33,11 +35,21 @@ class Error(Exception):
 
     status = 0
 
-    def __init__(self, message, file=None, field=None, expected=None, found=None):
+    def __init__(
+        self,
+        message: str,
+        file: Optional[str] = None,
+        field: Optional[str] = None,
+        expected: Optional[str] = None,
+        found: Optional[str] = None,
+    ) -> None:
         super().__init__(message)
         self.file, self.field, self.expected, self.found = file, field, expected, found
 
-    def __reduce__(self):  # all of it survives pickle, so that it comes whole from another process
+    def __str__(self) -> str:  # not that of OSError, which some are too
+        return str(self.args[0])
+
+    def __reduce__(self) -> Any:  # all of it survives pickle, so that it comes whole from another process
         return type(self), (self.args[0], self.file, self.field, self.expected, self.found)
 
 
@@ -53,14 +65,29 @@ class InputError(Error, ValueError):
     status = 2
 
 
+class MissingFileError(InputError, FileNotFoundError):
+    """A file that was to be read is not there. `errno` and `filename` are those of a FileNotFoundError."""
+
+    def __init__(
+        self,
+        message: str,
+        file: Optional[str] = None,
+        field: Optional[str] = None,
+        expected: Optional[str] = None,
+        found: Optional[str] = None,
+    ) -> None:
+        super().__init__(message, file, field, expected, found)
+        self.errno, self.strerror, self.filename = errno.ENOENT, os.strerror(errno.ENOENT), file
+
+
 class UnavailableError(Error, RuntimeError):
     """Not here: the library is missing or was built without what this needs, or there is no memory."""
 
     status = 3
 
 
-class OutputError(Error, RuntimeError):
-    """A file could not be written."""
+class OutputError(Error, RuntimeError, OSError):
+    """A file could not be written. `filename` is its name; `errno` is None, for the line says why."""
 
     status = 4
 
@@ -110,4 +137,10 @@ def error_of(status, message, files=()):
         field, expected, found = parts["where"], parts["expected"], parts["found"]
     elif ": " in rest:
         field = rest.split(": ", 1)[0]
-    return _OF_STATUS.get(status, Error)(message, file, field, expected, found)
+    kind = _OF_STATUS.get(status, Error)
+    if kind is InputError and rest.endswith("no such file"):
+        kind = MissingFileError
+    error = kind(message, file, field, expected, found)
+    if isinstance(error, OutputError):
+        error.filename = file
+    return error

@@ -10,12 +10,13 @@ from numpy.typing import ArrayLike, NDArray
 from . import _arrays as arrays
 from . import _structs as structs
 from ._library import call, library
+from .words import Frame, TangentKind, VertexFrame
 
 Floats = NDArray[np.float32]
 Words = NDArray[np.uint32]
 
 
-@dataclasses.dataclass(eq=False)
+@dataclasses.dataclass(eq=False, init=False, repr=False)
 class Mesh:
     """A mesh of triangles. Arrays of the right dtype in C order are kept as they are, others are converted once.
 
@@ -35,16 +36,22 @@ class Mesh:
     texcoords: Optional[Floats] = None
     name: str = ""
 
-    def __post_init__(self):
-        self.positions = arrays.floats(self.positions, "positions", 3)
+    def __init__(
+        self,
+        positions: ArrayLike,
+        indices: ArrayLike,
+        normals: Optional[ArrayLike] = None,
+        texcoords: Optional[ArrayLike] = None,
+        name: str = "",
+    ) -> None:
+        self.positions = arrays.floats(positions, "positions", 3)
         count = len(self.positions)
-        self.indices = arrays.triangles(self.indices)
-        if self.normals is not None:
-            self.normals = arrays.floats(self.normals, "normals", 3, count)
-        if self.texcoords is not None:
-            self.texcoords = arrays.floats(self.texcoords, "texcoords", 2, count)
+        self.indices = arrays.triangles(indices)
+        self.normals = None if normals is None else arrays.floats(normals, "normals", 3, count)
+        self.texcoords = None if texcoords is None else arrays.floats(texcoords, "texcoords", 2, count)
+        self.name = name
 
-    def __repr__(self):
+    def __repr__(self) -> str:
         return f"Mesh(name={self.name!r}, vertices={len(self.positions)}, triangles={len(self.indices) // 3})"
 
     def _c(self):
@@ -59,7 +66,7 @@ class Mesh:
         )
 
 
-def frames() -> list[str]:
+def frames() -> list[Frame]:
     """The names of all frames."""
     made = library()
     return [made.cotan_frame_name(i).decode() for i in range(made.cotan_frame_count())]
@@ -82,7 +89,7 @@ def _places(function, frame, given, normals, dpdx, dpdy, duvdx, duvdy, out):
 
 
 def frame_apply(
-    frame: str,
+    frame: Frame,
     texels: ArrayLike,
     normals: ArrayLike,
     dpdx: ArrayLike,
@@ -107,7 +114,7 @@ def frame_apply(
 
 
 def frame_encode(
-    frame: str,
+    frame: Frame,
     normals_wanted: ArrayLike,
     normals: ArrayLike,
     dpdx: ArrayLike,
@@ -140,7 +147,7 @@ def _vertex_places(function, frame, given, normals, tangents, cotangents_u, cota
 
 
 def vertex_frame_apply(
-    frame: str,
+    frame: VertexFrame,
     texels: ArrayLike,
     normals: ArrayLike,
     tangents: Optional[ArrayLike] = None,
@@ -163,7 +170,7 @@ def vertex_frame_apply(
 
 
 def vertex_frame_encode(
-    frame: str,
+    frame: VertexFrame,
     normals_wanted: ArrayLike,
     normals: ArrayLike,
     tangents: Optional[ArrayLike] = None,
@@ -177,7 +184,7 @@ def vertex_frame_encode(
     )
 
 
-def tangents(mesh: Mesh, kind: str = "mikktspace", threads: int = 0, out: Optional[Floats] = None) -> Floats:
+def tangents(mesh: Mesh, kind: TangentKind = "mikktspace", threads: int = 0, out: Optional[Floats] = None) -> Floats:
     """One tangent for each index: (3 t, 4) float32; x, y, z along increasing u, w as glTF's TANGENT.
 
     kind: "mikktspace" or "vertex". threads: 0 for all cores; the result does not depend on it. The mesh needs

@@ -3,6 +3,12 @@
 A picture is (height, width, 4) of uint8, uint16 or float32: red, green, blue, alpha, rows from the top. Pictures of
 three channels or one are taken too, and copied to four; so are paths of picture files. A convention is words: "gltf",
 "directx", "unity,xy".
+
+Which number stands for zero depends on the dtype: 128 in uint8, 32768 in uint16, and **0.5 in float32**, where 0 and 1
+stand for -1 and 1 (with "signed" in the convention -1, 0 and 1 for themselves; "biased" moves the first two to 127.5
+and 32767.5). So a map of 8 bits divided by 255 is not the same map in floats: its zero is 128 / 255 = 0.50196. Make
+floats with `map_convert(map, source, to, bits=32)`. Floats outside of that range, and such as are no numbers, are
+refused.
 """
 
 import dataclasses
@@ -16,6 +22,7 @@ from . import _structs as structs
 from ._handles import array_of_picture
 from ._library import call
 from .pictures import Path, pixels_of
+from .words import BlendMode, Convention
 
 Pixels = NDArray[np.generic]
 Map = Union[ArrayLike, Path]
@@ -114,17 +121,20 @@ def _like(pixels, bits, out):
 
 
 def map_convert(
-    map: Map, source: str, to: str, bits: Optional[int] = None, out: Optional[Pixels] = None
+    map: Map, source: Convention, to: Convention, bits: Optional[int] = None, out: Optional[Pixels] = None
 ) -> Pixels:
     """The map stored another way.
 
     Args:
-        map: a picture.
+        map: a picture; in float32 0.5 stands for zero, which is not 128 / 255.
         source, to: conventions: "directx", "gltf", ...; both in tangent space or both in object space.
         bits: of the result: 8, 16 or 32; as the map where it is left out.
         out: a picture of the map's size to write into.
+
+    Raises InputError for floats that are no numbers, or that no map of `source` holds.
     """
     pixels = pixels_of(map)
+    arrays.stored(pixels, source, "map")
     out = _like(pixels, bits, out)
     call(
         "cotan_map_convert", arrays.picture(pixels), arrays.encoded(source, "source"), arrays.encoded(to, "to"),
@@ -137,7 +147,7 @@ def map_from_height(
     height: Map,
     scale_x: float,
     scale_y: Optional[float] = None,
-    to: str = "gltf",
+    to: Convention = "gltf",
     bits: int = 8,
     out: Optional[Pixels] = None,
 ) -> Pixels:
@@ -150,6 +160,7 @@ def map_from_height(
         bits: of the map: 8, 16 or 32.
     """
     pixels = pixels_of(height, "height")
+    arrays.finite(pixels, "height")
     out = arrays.made(out, "out", pixels.shape, arrays.dtype_of(bits))
     scale_x = arrays.number(scale_x, "scale_x")
     scale_y = scale_x if scale_y is None else arrays.number(scale_y, "scale_y")
@@ -158,9 +169,10 @@ def map_from_height(
     return out
 
 
-def map_to_height(map: Map, source: str = "gltf") -> NDArray[np.float32]:
+def map_to_height(map: Map, source: Convention = "gltf") -> NDArray[np.float32]:
     """The height (height, width) float32 whose slopes are nearest to the map's, in widths of a texel, mean 0."""
     pixels = pixels_of(map)
+    arrays.stored(pixels, source, "map")
     heights = np.empty(pixels.shape[:2], np.float32)
     call("cotan_map_to_height", arrays.picture(pixels), arrays.encoded(source, "source"), arrays.at(heights))
     return heights
@@ -169,8 +181,8 @@ def map_to_height(map: Map, source: str = "gltf") -> NDArray[np.float32]:
 def map_blend(
     base: Map,
     detail: Map,
-    convention: str = "gltf",
-    mode: str = "reoriented",
+    convention: Convention = "gltf",
+    mode: BlendMode = "reoriented",
     strength: float = 1.0,
     bits: Optional[int] = None,
     out: Optional[Pixels] = None,
@@ -180,6 +192,8 @@ def map_blend(
     mode: "reoriented", "whiteout", "udn", "slopes" or "linear". strength: factor on the detail's slopes.
     """
     under, over = pixels_of(base, "base"), pixels_of(detail, "detail")
+    for pixels, field in ((under, "base"), (over, "detail")):
+        arrays.stored(pixels, convention, field)
     out = _like(under, bits, out)
     call(
         "cotan_map_blend", arrays.picture(under), arrays.picture(over), arrays.encoded(convention, "convention"),
@@ -188,12 +202,15 @@ def map_blend(
     return out
 
 
-def map_mips(map: Map, convention: str = "gltf", roughness: float = 0.5) -> list[Level]:
+def map_mips(map: Map, convention: Convention = "gltf", roughness: float = 0.5) -> list[Level]:
     """Levels of half the size each, filtered as vectors: the map's own size first, 1 x 1 last.
 
     roughness: of the material, 0 to 1.
     """
-    pixels, levels, failures = pixels_of(map), [], []
+    levels: list[Level] = []
+    failures: list[BaseException] = []
+    pixels = pixels_of(map)
+    arrays.stored(pixels, convention, "map")
 
     def take(_, number, level, rough):
         try:

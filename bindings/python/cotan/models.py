@@ -16,9 +16,10 @@ from . import _structs as structs
 from ._handles import array_of_picture, is_path
 from ._library import call, library, taken
 from ._work import long_call
-from .errors import InputError, OutputError, UsageError
+from .errors import InputError, MissingFileError, OutputError, UsageError
 from .geometry import Mesh
 from .pictures import Path
+from .words import Expansion, Frame, Reading, TangentOrigin
 
 Bytes = Union[bytes, bytearray, memoryview]
 Progress = Callable[[float], Any]
@@ -33,7 +34,7 @@ class Model:
         warnings: what was odd about it, one line each.
     """
 
-    def __init__(self, meshes: Union[Mesh, Sequence[Mesh]]):
+    def __init__(self, meshes: Union[Mesh, Sequence[Mesh]]) -> None:
         meshes = [meshes] if isinstance(meshes, Mesh) else list(meshes)
         for i, mesh in enumerate(meshes):
             if not isinstance(mesh, Mesh):
@@ -85,7 +86,7 @@ class Lint:
 
     primitives: int
     maps: int
-    advice: Optional[str]
+    advice: Optional[Frame]
     maps_to_convert: int
     distrust_stored: bool
     green_against: int
@@ -93,7 +94,7 @@ class Lint:
     cotangent_degrees: Optional[float]
     smooth_degrees: Optional[float]
     recommendation: str
-    report: dict = dataclasses.field(repr=False)
+    report: dict[str, Any] = dataclasses.field(repr=False)
     passed: Optional[bool] = None
 
 
@@ -118,7 +119,7 @@ class Converted:
     tangent_bytes_dropped: int
     worst_degrees_before: Optional[float]
     worst_degrees_after: Optional[float]
-    report: dict = dataclasses.field(repr=False)
+    report: dict[str, Any] = dataclasses.field(repr=False)
 
 
 class Source:
@@ -148,7 +149,7 @@ class Source:
         try:
             return path.read_bytes()
         except FileNotFoundError:
-            raise InputError(f"{path}: no such file", file=str(path)) from None
+            raise MissingFileError(f"{path}: no such file", file=str(path)) from None
         except OSError as error:
             raise InputError(f"{path}: {error.strerror or error}", file=str(path)) from None
 
@@ -226,7 +227,7 @@ def lint(
     beside: Optional[Mapping[str, bytes]] = None,
     limit: Optional[float] = None,
     limit_area: Optional[float] = None,
-    frame: str = "orthonormal",
+    frame: Reading = "orthonormal",
 ) -> Lint:
     """What to expect of a model whose normal maps are read without stored tangents, before anything is drawn.
 
@@ -286,9 +287,9 @@ def check_tangents(tangents):
 def convert(
     model: Union[Path, Bytes],
     out: Optional[Path] = None,
-    to_frame: str = "cotangent",
-    from_frame: Optional[str] = None,
-    tangents: str = "stored",
+    to_frame: Frame = "cotangent",
+    from_frame: Optional[Frame] = None,
+    tangents: TangentOrigin = "stored",
     keep_tangents: bool = False,
     bits: int = 0,
     threads: int = 0,
@@ -297,7 +298,7 @@ def convert(
     beside: Optional[Mapping[str, bytes]] = None,
     decode: Optional[Decode] = None,
     encode: Optional[Encode] = None,
-    unsigned: str = "biased",
+    unsigned: Expansion = "biased",
 ) -> Converted:
     """A glTF model's normal maps made for another frame, and its tangents dropped.
 

@@ -2,7 +2,7 @@
 
 import ctypes
 import json
-from typing import Any, Optional, Sequence, Union
+from typing import Any, Mapping, Optional, Sequence, Union
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,6 +14,7 @@ from ._library import call, taken
 from ._work import long_call
 from .models import Bytes, Progress, Source
 from .pictures import Path
+from .words import Convention, DrawnFrame, TangentOrigin, Up
 
 
 def _word(name, value):
@@ -31,16 +32,17 @@ def _word(name, value):
 def render(
     model: Union[Path, Bytes, None] = None,
     *,
-    size: Union[str, Sequence[int]] = (1280, 720),
-    frame: str = "auto",
+    size: Union[str, int, Sequence[int]] = (1280, 720),
+    frame: DrawnFrame = "auto",
     view: str = "shaded",
     camera: Union[str, int, Sequence[float], None] = None,
     shape: Optional[str] = None,
+    up: Optional[Up] = None,
     device: str = "auto",
     floats: bool = False,
     samples: int = 4,
     normal_map: Optional[Path] = None,
-    convention: Optional[str] = None,
+    convention: Optional[Convention] = None,
     material: Optional[int] = None,
     base_color: Optional[Path] = None,
     metallic_roughness: Optional[Path] = None,
@@ -52,7 +54,7 @@ def render(
     shading: Optional[str] = None,
     lighting: Optional[str] = None,
     normal_mapping: Optional[str] = None,
-    tangents: Optional[str] = None,
+    tangents: Optional[TangentOrigin] = None,
     exposure: Union[float, str, None] = None,
     tone_mapping: Optional[str] = None,
     environment: Optional[Path] = None,
@@ -69,9 +71,9 @@ def render(
     point_sampled: bool = False,
     memory: Optional[int] = None,
     threads: int = 0,
-    report: Optional[dict] = None,
+    report: Optional[dict[str, Any]] = None,
     progress: Optional[Progress] = None,
-    beside: Optional[dict] = None,
+    beside: Optional[Mapping[str, bytes]] = None,
 ) -> NDArray[np.generic]:
     """A picture of a model: (height, width, 4), red, green, blue, alpha, rows from the top.
 
@@ -80,10 +82,11 @@ def render(
 
     Args:
         model: a path to a model file, the bytes of a glTF one, or None for the built-in scene or `shape`.
-        size: (width, height) or "WxH".
+        size: (width, height), one number for both, or "WxH".
         frame: to apply normal maps with: see `frames`.
         view: "shaded", "normal", "uv", "depth", "error", "checker", "stretch", "base-color", ...
         camera: "front", "fit", the number of a camera of the file, or six numbers in world units: eye and target.
+        up: "y", or "z" for a model whose file has z up, as PLY and STL of Blender and CAD.
         floats: True: float32, with light linear and unlimited, as in an .exr file; False: uint8 as in a .png.
         device: "auto", "reference", or a part of a Vulkan device's name.
         report: a dict that gets what was drawn: the device, counts, `warnings`, and for the view "error" the degrees

@@ -1,12 +1,14 @@
 """The portable text printed for a language."""
 
 import ctypes
+from typing import Union
 
 from . import _arrays as arrays
 from ._library import call
+from .words import Convention, Frame, ShaderLanguage
 
 
-def shader(lang: str, frame: str = "cotangent", convention: str = "gltf") -> str:
+def shader(lang: ShaderLanguage, frame: Union[Frame, str] = "cotangent", convention: Convention = "gltf") -> str:
     """The function that perturbs the normal with that frame, as self-contained text to paste into a shader.
 
     Args:

@@ -25,11 +25,22 @@ extern "C" {
 #define COTAN_API_VERSION 4
 /* clang-format off */
 #ifdef __cplusplus
-#define COTAN_INIT(type) { sizeof(type) }
+#define COTAN_INIT(type) cotan_init<type>()
 #else
 #define COTAN_INIT(type) { .size = sizeof(type) }
 #endif
 /* clang-format on */
+#ifdef __cplusplus
+/* A struct with its size, all else 0. */
+extern "C++" {
+template<class Struct> inline Struct cotan_init()
+{
+    Struct made = Struct();
+    made.size = sizeof(Struct);
+    return made;
+}
+}
+#endif
 
 typedef enum cotan_status {
     COTAN_OK = 0,
@@ -109,6 +120,9 @@ typedef struct cotan_mesh {
     size_t index_count;      /* a multiple of 3 */
     const uint32_t* indices; /* each below vertex_count */
 } cotan_mesh;
+
+/* All functions that take a mesh refuse one with numbers that are not finite (COTAN_INPUT), and name the first:
+ * "mesh.positions[7]: ...". */
 
 /* One tangent for each index: x, y, z along increasing u, w as glTF's TANGENT. `kind`: "mikktspace" or "vertex".
  * threads: 0 for all cores; the result does not depend on it. tangents: 4 * index_count floats. */

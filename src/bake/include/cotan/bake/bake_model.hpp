@@ -34,10 +34,12 @@ struct BakeModelOptions {
     TangentOrigin tangents = TangentOrigin::stored; // for the frames `vertex` and `mikktspace`
     const Scene* cage = nullptr; // the triangles of the simple scene in their order, moved out around both sides; rays
                                  // run from it inwards. Null: none. Read by prepareBake only
-    bool matchByName = false;    // a simple mesh NAME_low sees only the detailed mesh NAME_high, any case. Instances
-                                 // without a name have that of their mesh
-    bool ownMaps = false;        // normals of the detailed scenes' own normal maps, or of HighModel::maps. Heights and
-                                 // occlusion take no notice
+    const Scene* others = nullptr; // other simple meshes: no map is made for them now, and detail that is nearer to
+                                   // them is theirs. Null: none. Read by prepareBake only
+    bool matchByName = false;      // a simple mesh NAME_low sees only the detailed mesh NAME_high, any case. Instances
+                                   // without a name have that of their mesh
+    bool ownMaps = false; // normals of the detailed scenes' own normal maps, or of HighModel::maps. Heights and
+                          // occlusion take no notice
     Frame highFrame = Frame::mikktspace;  // that those maps were made for
     std::optional<Convention> highFormat; // how they are stored; none: as the materials say, the default one for
                                           // HighModel::maps
@@ -58,9 +60,9 @@ struct BakeSetup {
 // Derives what the frame needs on the simple scene, the acceleration structure over the detailed ones, the cage's
 // vertices and the matches.
 // Errors: those of checkScene, makeLowSurface, HighSurface::make and HighNormalMaps::make. One about an option begins
-// with its name, "options.material: ". ErrorKind::usage: a size, number of samples, material or number of maps out of
-// range; ErrorKind::input: a cage of another number of triangles, a mesh without its match.
-// An extrusion or the search `nearest` together with a cage are ErrorKind::usage, too.
+// with its name, "options.material: ". ErrorKind::usage: a size, number of samples, frame, distance, number of rays,
+// material or number of maps out of range, or no tile; ErrorKind::input: a cage of another number of triangles, a mesh
+// without its match. An extrusion or the search `nearest` together with a cage are ErrorKind::usage, too.
 Result<BakeSetup> prepareBake(const Scene& low, HighModel high, const BakeModelOptions& options);
 
 struct BakedMap {

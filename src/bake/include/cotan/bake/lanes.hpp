@@ -8,6 +8,8 @@
 
 #include <glm/vec3.hpp>
 
+#include "cotan/packed_only.hpp"
+
 namespace cotan {
 
 inline constexpr std::size_t kLanes = 16;

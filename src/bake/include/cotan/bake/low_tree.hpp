@@ -15,9 +15,11 @@ namespace cotan {
 // Triangles in Embree's acceleration structure, for single questions from several threads.
 class LowTree {
 public:
-    // positions, indices: of the triangles, copied. threads: 0 for all.
+    // positions, indices: of the triangles, copied. shown: one a triangle: the part of the high surface that it shows, -1
+    // for all of it; empty: all triangles show all of it. threads: 0 for all.
     // Errors: ErrorKind::unavailable where memory does not suffice, or without Embree.
-    static Result<LowTree> make(std::vector<glm::vec3> positions, std::vector<std::uint32_t> indices, int threads);
+    static Result<LowTree> make(std::vector<glm::vec3> positions, std::vector<std::uint32_t> indices,
+                                std::vector<std::int64_t> shown, int threads);
 
     LowTree(LowTree&&) noexcept;
     LowTree& operator=(LowTree&&) noexcept;
@@ -47,6 +49,8 @@ public:
     };
     // The first triangle on a ray.
     Met first(const Ray& ray) const;
+    // The same, of those that show something that `triangle` shows too.
+    Met firstBeside(std::uint32_t triangle, Ray ray) const;
 
     glm::vec3 corner(std::uint32_t triangle, std::size_t i) const;
     // Unit, by the order of the corners; zero without area.

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include <glm/vec3.hpp>
@@ -47,14 +48,21 @@ struct RayStartOptions {
 // on; and points between, where its triangles are large) belongs to the nearest point of the low surface whose front it
 // faces, at most the limit away; where that lies aside, to the point below it. The vertices of the triangle there get a
 // distance that encloses it, and 5 % and 0.002 of the diagonal more. Where nothing belongs to a vertex, the outermost
-// front within the limit on its own ray counts. Rays start no further out than another part of the low surface:
-// measured ones, not those with a given extrusion. The result does not depend on the number of threads. Errors: those
+// front within the limit on its own ray counts. Rays start no further out than another part of the low surface
+// that shows the same detail: measured ones, not those with a given extrusion. The result does not depend on the number of threads. Errors: those
 // of LowTree::make.
 Result<RayStarts> makeRayStarts(const LowSurface& low, const HighSurface& high, const RayStartOptions& options,
                                 const LowRest& rest = {});
 
-// How far a ray may start in front of a point: `wanted`, or where another part of the low surface stands in between,
-// the distance to it; half of that, if one sees it from behind. `skip`: parts nearer than this are the surface itself.
-float openDistance(const LowTree& tree, glm::vec3 point, glm::vec3 direction, float skip, float wanted);
+// How far a ray may start in front of a point of `triangle`: `wanted`, or where another part of the low surface that
+// shows the same detail stands in between, the distance to it; half of that, if one sees it from behind. `skip`: parts
+// nearer than this are the surface itself.
+float openDistance(const LowTree& tree, std::uint32_t triangle, glm::vec3 point, glm::vec3 direction, float skip,
+                   float wanted);
+
+// The instance of the high surface that each triangle shows, -1 for all: as LowTree::make asks for it. Empty where no
+// instances are matched. matched: as in BakeOptions.
+std::vector<std::int64_t> shownBy(std::span<const std::uint32_t> triangleInstance,
+                                  std::span<const std::int64_t> matched);
 
 } // namespace cotan

@@ -17,9 +17,10 @@ enum class Thumbnails { none, pictures, models };
 
 // What the process is told.
 struct ChildRequest {
-    std::filesystem::path work; // an empty folder, absolute: for its answer, and for the command's report
-    std::int64_t parent = 0;    // the process that asks
-    std::size_t megabytes = 0;  // MiB that it may take; 0: no limit
+    std::filesystem::path work;       // an empty folder, absolute: for its answer, and for the command's report
+    std::int64_t parent = 0;          // the process that asks
+    std::size_t megabytes = 0;        // MiB that it may take; 0: no limit
+    std::size_t processorSeconds = 0; // that it may take; then it gets SIGXCPU. 0: no limit
     Thumbnails thumbnails = Thumbnails::pictures;
     std::vector<std::string> words; // of the command line
 };

@@ -39,9 +39,11 @@ struct Thumbnail {
 
 struct JobRecord {
     JobState state = JobState::notRun;
-    int code = 0;       // exit code, or signal
-    std::string reason; // one line, why it is not done
-    std::string said;   // what it printed, the beginning and the end of it
+    std::optional<int> code;   // exit code; none where it did not run, or was ended by a signal
+    std::optional<int> signal; // that ended it
+    int runs = 0;              // how often it was started until then
+    std::string reason;        // one line, why it is not done
+    std::string said;          // what it printed, the beginning and the end of it
     double seconds = 0, processorSeconds = 0;
     double megabytes = 0; // most memory at a time
     std::optional<Degrees> degrees;

@@ -12,8 +12,8 @@
 
 namespace cotan {
 
-// The numbers of results, worst first: what failed, what is over its limit, then by degrees; the order of the jobs
-// decides the rest.
+// The numbers of results, worst first: what crashed, took too much memory or time, what is over its limit, what was
+// refused, what did not run; then by degrees; the order of the jobs decides the rest.
 std::vector<std::size_t> worstFirst(const std::vector<JobResult>& results);
 
 // How many jobs are in each state.

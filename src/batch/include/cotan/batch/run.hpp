@@ -13,12 +13,15 @@
 
 namespace cotan {
 
+// For all jobs; JobOptions of a job come before them.
 struct RunOptions {
-    std::size_t processes = 1; // at a time
-    int threads = 1;           // of each, where its words do not say how many
-    double seconds = 3600;     // on the wall, of each
-    std::size_t megabytes = 0; // MiB of each; 0: no limit
-    bool again = false;        // also what is kept
+    std::size_t processes = 1;   // at a time
+    int threads = 1;             // of each, where its words do not say how many
+    double seconds = 3600;       // on the clock, of each
+    double processorSeconds = 0; // of each, its threads together; whole seconds count, rounded up. 0: no limit
+    std::size_t megabytes = 0;   // MiB of each; 0: no limit
+    int retries = 0;             // how often each runs again that ended by a limit, a signal or what is missing here
+    bool again = false;          // also what is kept
     Thumbnails thumbnails = Thumbnails::pictures;
     std::string program = "/proc/self/exe"; // one that begins with isJobProcess
 };

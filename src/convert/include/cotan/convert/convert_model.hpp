@@ -39,6 +39,8 @@ struct ConvertModelOptions {
     // Cotan's own. New maps are written so, and material extras say so (kUnsignedKey); old ones are read so, unless
     // theirs say another. Maps that a clear coat reads are exact.
     Expansion expansion = Expansion::biased;
+    // All maps stay, byte for byte, to be read with frames.to, which may not read tangents: only tangents go.
+    bool keepMaps = false;
     bool keepTangents = false; // leave TANGENT where the new frame does not read it
     int threads = 0;           // 0: all cores; the result does not depend on it
     std::size_t memory = 0;    // bytes that the triangles may take besides the document; 0: any number

@@ -6,6 +6,8 @@
 #include <glm/mat3x3.hpp>
 #include <glm/vec3.hpp>
 
+#include "cotan/packed_only.hpp"
+
 namespace cotan {
 
 // What a place wants: normalize(frame * texel) = target.

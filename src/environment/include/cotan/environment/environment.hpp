@@ -8,6 +8,7 @@
 
 #include <glm/vec3.hpp>
 
+#include "cotan/packed_only.hpp"
 #include "cotan/result.hpp"
 #include "cotan/scene/environment.hpp"
 

@@ -30,7 +30,14 @@ struct Pose {
     double seconds = 0;    // from the animation's start; its first and last key hold before and after
 };
 
-// Limits on what a file may ask for. Over a limit the file is refused before memory is taken.
+// Which axis of a model's file is up.
+enum class Up {
+    y, // as in a scene
+    z, // the model is turned, see turnZUp in cotan/scene/up.hpp
+};
+
+// Limits on what a file may ask for. Over a limit the file is refused before memory is taken. All members have an
+// initialiser, so that callers who name some of them, {.pixels = Pixels::none}, get no warning about the others.
 struct LoadLimits {
     std::size_t fileBytes = std::size_t(2) << 30; // of the model file or one of its buffers
     std::size_t vertices = 100'000'000;           // of all meshes together
@@ -45,19 +52,20 @@ struct LoadLimits {
     std::size_t allImageBytes =
         std::min<std::uint64_t>(std::uint64_t(8) << 30, SIZE_MAX); // decoded, of all images of one model
     Pixels pixels = Pixels::all;                                   // of a glTF model
-    Pose pose;                                                     // likewise; other models have none
-    std::string variant; // of a glTF model's materials, its name or number in the file; empty: as the file has them
+    Pose pose = Pose();    // likewise; other models have none. Written out: else g++ 12 warns in callers
+    Up up = Up::y;          // of a model
+    std::string variant{}; // of a glTF model's materials, its name or number in the file; empty: as the file has them
     Sandbox sandbox = defaultSandbox(); // where models other than glTF, and third-party formats of pictures, are read
     // Told of bytes that are about to be decoded, once their number has been found within the limits: how a reader in
     // a process of its own is given room for them. May be empty.
-    std::function<void(std::size_t)> expect;
+    std::function<void(std::size_t)> expect{};
 
     // A glTF model that is not in files. Both may be empty, and are called on the thread of the caller.
     // The bytes of the model, by the name that it is opened by, and of what its URIs name, decoded: in place of the
     // disk.
-    std::function<Result<std::vector<std::byte>>(const std::string& name)> readFile;
+    std::function<Result<std::vector<std::byte>>(const std::string& name)> readFile{};
     // A picture from the bytes of its file, in place of Cotan's own readers; name: for messages.
-    std::function<Result<Image>(std::span<const std::byte> bytes, const std::string& name)> decode;
+    std::function<Result<Image>(std::span<const std::byte> bytes, const std::string& name)> decode{};
 };
 
 } // namespace cotan

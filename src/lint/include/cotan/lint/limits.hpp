@@ -25,6 +25,10 @@ struct LintFailure {
     std::string where;            // nameOf(primitive), or the name of the map; empty: the whole model
     double value = 0, limit = -1; // in degrees or % of the area; limit -1: it has none
     std::string text;             // one sentence, names included
+    // What it is about, as the file names it; empty where it is about something else, or the file gives no name.
+    std::string mesh = {}, material = {}, map = {};
+    bool percent = false;    // value and limit are % of the primitive's area, not degrees
+    std::string beside = {}; // what else helps to read the value: the means beside it; empty if nothing does
 };
 
 // A check passes where nothing fails. Without any limit nothing is checked, and it passes.
@@ -35,6 +39,7 @@ struct LintCheck {
     bool passed() const { return failures.empty(); }
 };
 
+// Each primitive is held to the limits by itself, not the model as a whole.
 // Every check, whichever limit it has, fails for a map whose green points the other way than the file says. One in
 // degrees fails also for a map whose pixels were not read, and where there are maps and none was judged. A primitive's
 // area in % is compared with limits.area, its degrees with limits.degrees.

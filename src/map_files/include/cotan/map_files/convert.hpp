@@ -16,6 +16,7 @@ struct MeshOfMap {
     Frame frame = Frame::smooth; // that reads the map in tangent space
     TangentOrigin tangents = TangentOrigin::stored;
     int material = -1; // -1: all
+    Up up = Up::y;     // of the file, for object space
 };
 
 struct ConvertFileOptions {

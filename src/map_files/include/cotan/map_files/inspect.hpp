@@ -35,8 +35,8 @@ struct GreenOfFile {
 // Which way green points. Errors: as openRows; ErrorKind::stopped.
 Result<GreenOfFile> greenOfFile(const std::filesystem::path& map, const FileOptions& files = {});
 
-// The same in sentences and for a report.
-std::vector<std::string> linesOf(const GreenOfFile& found);
+// The same in sentences and for a report; file: its name.
+std::vector<std::string> linesOf(const GreenOfFile& found, const std::string& file);
 Json toJson(const GreenOfFile& found);
 
 struct ComparedFiles {

@@ -63,6 +63,14 @@ struct OpenMap {
     std::unique_ptr<RowReader> rows;
     Convention convention;
     Swizzle swizzle = Swizzle::rg;
+    Damage damage{};
+
+    // Rows as they were read, with x in red and y in green, and what was wrong with them undone.
+    void put(Image& strip) const
+    {
+        unswizzle(strip, swizzle);
+        undo(damage, strip);
+    }
 };
 
 // Opens a map. A map of two channels in a file of four is read once through, to find where they are. Errors: as

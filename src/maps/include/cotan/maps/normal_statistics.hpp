@@ -7,6 +7,7 @@
 #include <string>
 
 #include "cotan/maps/texels.hpp"
+#include "cotan/packed_only.hpp"
 #include "cotan/scene/image.hpp"
 
 namespace cotan::maps {
@@ -29,6 +30,8 @@ struct NormalStatistics {
     Swizzle swizzle = Swizzle::rg;
     Centre centre = Centre::unknown;
     Transfer transfer = Transfer::linear;
+    bool redIsZ = false;       // red points outwards nearly everywhere, and blue does not: they are exchanged
+    bool eightBits = false;    // 16-bit components that are all steps of 8 bits
     bool signedStored = false; // floats that go below zero, or unit vectors as they are
     std::size_t texels = 0;
     double background = 0;        // share outside the charts: alpha 0, black, white, fields of another colour; the rest

@@ -5,6 +5,7 @@
 
 #include "cotan/convention_words.hpp"
 #include "cotan/result.hpp"
+#include "cotan/scene/image.hpp"
 
 namespace cotan::maps {
 
@@ -15,5 +16,9 @@ namespace cotan::maps {
 // ErrorKind::input: the file has one.
 Result<Convention> conventionOf(const StatedConvention& stated, const std::string& file, int channels,
                                 const std::string& option);
+
+// Undoes damage: the curve on red, green and blue, then their order. Values keep their type; of unorm ones the nearest
+// step is taken, which for a map that was saved through the curve by mistake is the step that it had.
+void undo(const Damage& damage, Image& image);
 
 } // namespace cotan::maps

@@ -13,6 +13,7 @@
 #include <glm/vec4.hpp>
 
 #include "cotan/convention.hpp"
+#include "cotan/packed_only.hpp"
 #include "cotan/scene/image.hpp"
 
 namespace cotan::maps {

@@ -5,6 +5,7 @@
 #include <functional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -20,7 +21,10 @@ inline constexpr int kDefaultMemory = 640; // MiB, of one picture
 // than is usual.
 LoadLimits limitsFor(int memory, Pixels pixels = Pixels::all);
 
-// "WxH", each 1..16384.
+// The up of a word, "y" or "z".
+inline Up upFrom(std::string_view word) { return word == "z" ? Up::z : Up::y; }
+
+// "WxH", or one number for both, each 1..16384.
 Result<std::pair<int, int>> parseSize(const std::string& text);
 
 // Pictures of one's own on a model: --normal-map, and for models that come without --base-color, --metallic-roughness
@@ -45,6 +49,7 @@ struct PictureOptions {
     std::string model;                  // empty: the built-in scene, or the shape
     std::string shape;                  // plane, sphere, torus or teapot
     OwnMaps maps;
+    std::string up = "y"; // or z: of the model's file
     std::string variant;
     std::string animation;
     double time = 0;

@@ -29,6 +29,9 @@ Result<FrameChoice> parseFrameChoice(const std::string& text);
 // also: what else it limits, after the picture.
 void addMemoryOption(Arguments& a, int& memory, const std::string& also = "");
 
+// Adds --up, y or z. what: whose up it is.
+void addUpOption(Arguments& a, std::string& up, const std::string& what = "the model's file");
+
 // Adds --tangents, stored or generated.
 void addTangentsOption(Arguments& a, std::string& tangents, const std::string& help);
 

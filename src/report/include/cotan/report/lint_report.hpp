@@ -27,6 +27,11 @@ std::string summaryOf(const LintCheck& check);
 // limit was set, limits that were not set are null.
 Json toJson(const LintCheck& check);
 
+// The failures as objects: {"kind", "mesh", "material", "map", "degrees", "percent", "limit", "text"}. Names are null
+// where the failure is about something else or the file gives none; of degrees and percent the one that was measured is
+// not null.
+Json overLimits(const LintCheck& check);
+
 // Those of the file as it was read, then lintWarnings.
 std::vector<std::string> warningsOf(const LintReport& report, std::vector<std::string> ofFile);
 

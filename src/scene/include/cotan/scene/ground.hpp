@@ -6,6 +6,7 @@
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
+#include "cotan/packed_only.hpp"
 #include "cotan/scene/environment.hpp"
 
 namespace cotan {

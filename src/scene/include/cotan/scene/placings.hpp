@@ -5,6 +5,8 @@
 
 #include <glm/mat3x3.hpp>
 
+#include "cotan/packed_only.hpp"
+
 namespace cotan {
 
 // Whether two linear maps differ by a rotation, a mirroring and a uniform scale only: all frames go along

@@ -8,6 +8,7 @@
 #include <glm/vec2.hpp>
 #include <glm/vec4.hpp>
 
+#include "cotan/packed_only.hpp"
 #include "cotan/scene/image.hpp"
 #include "cotan/scene/picture_text.hpp"
 

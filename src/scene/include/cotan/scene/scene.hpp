@@ -14,6 +14,7 @@
 
 #include "cotan/convention.hpp"
 #include "cotan/frame.hpp"
+#include "cotan/packed_only.hpp"
 #include "cotan/scene/image.hpp"
 
 namespace cotan {

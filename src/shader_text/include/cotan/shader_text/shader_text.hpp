@@ -62,14 +62,14 @@ bool hasSet(Language language, Set set);
 struct Choice {
     Language language = Language::glsl;
     Frame frame = Frame::cotangent;
-    Convention convention;          // expansion, channels and green are used
-    std::optional<Form> form;       // nothing: fused where there is one that reads no vertices, else total
+    Convention convention{};        // expansion, channels and green are used
+    std::optional<Form> form{};     // nothing: fused where there is one that reads no vertices, else total
     int uvSets = 1;                 // 1..4; more than one: gradients are added, total form
     Stage stage = Stage::all;       // another than `all`: of the fused form of `triangle` only
     bool callerDifferences = false; // leave out the function that takes derivatives itself
     bool functionsOnly = false;     // Godot: without shader_type, the map, vertex(), fragment() and light()
     bool twoSided = false;          // Godot: back faces are seen too, those of a thin sheet
-    std::vector<Set> sets;          // in any order
+    std::vector<Set> sets{};        // in any order
 };
 
 struct ShaderText {

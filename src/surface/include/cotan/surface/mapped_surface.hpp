@@ -19,6 +19,7 @@
 #include "cotan/surface/triangle.hpp"
 #include "cotan/surface/uv_raster.hpp"
 #include "cotan/surface/vertex_frames.hpp"
+#include "cotan/tangents.hpp"
 
 namespace cotan {
 
@@ -27,21 +28,43 @@ using FrameSet = std::bitset<kFrameCount>;
 FrameSet frameSet(std::initializer_list<Frame> frames);
 inline const FrameSet kAllFrames = FrameSet().set();
 
+// Where corners have their value: at the number of their vertex, but for some.
+class CornerPlaces {
+public:
+    // corners in rising order; vertices: of the mesh.
+    void add(std::size_t corner, std::uint32_t vertex, std::uint32_t place, std::size_t vertices);
+    std::size_t of(std::size_t corner, std::uint32_t vertex) const;
+
+private:
+    struct Elsewhere {
+        std::uint32_t corner, place;
+    };
+    std::vector<bool> several_; // by vertex: not all of its corners have theirs there; empty: of none
+    std::vector<Elsewhere> elsewhere_;
+};
+
 // What was derived for the corners of a mesh, once for those of a vertex that have the same.
-template<class T> struct CornerValues {
-    std::vector<T> values;
-    std::vector<std::uint32_t> places; // per corner, in `values`; empty: the vertex of the corner is its place
+struct CornerTangents {
+    std::vector<glm::vec4> values; // as glTF has them
+    CornerPlaces places;
 
     bool empty() const { return values.empty(); }
+};
+
+// Gradients of u and v, likewise.
+struct CornerCotangents {
+    Cotangents values;
+    CornerPlaces places;
+
+    bool empty() const { return values.u.empty(); }
 };
 
 // What all placings of a mesh share, in the mesh's own space.
 struct SurfaceMesh {
     std::shared_ptr<const Mesh> mesh;
     std::vector<glm::vec2> uv; // of the map, transformed, one a vertex; empty if the mesh has none
-    // glTF's tangents, of the frames that read tangents; empty where they were not asked for.
-    std::array<CornerValues<glm::vec4>, kFrameCount> generated;
-    CornerValues<std::array<glm::vec3, 2>> cotangents; // gradients of u and v; likewise
+    std::array<CornerTangents, kFrameCount> generated; // of the frames that read tangents; empty where not asked for
+    CornerCotangents cotangents; // likewise
     bool ofCoat = false; // uv of another map than the vertices' frames: `smooth` is `cotangent` here
 };
 

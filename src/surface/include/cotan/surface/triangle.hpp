@@ -8,6 +8,8 @@
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
+#include "cotan/packed_only.hpp"
+
 namespace cotan {
 
 using Corners = std::array<std::size_t, 3>; // places in the arrays

@@ -8,6 +8,8 @@
 
 #include <glm/vec2.hpp>
 
+#include "cotan/packed_only.hpp"
+
 namespace cotan {
 
 // Triangles in texture space, (0,0) the top left corner of the image, (1,1) its bottom right.

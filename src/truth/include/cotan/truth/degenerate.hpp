@@ -4,6 +4,7 @@
 #include <functional>
 #include <vector>
 
+#include "cotan/packed_only.hpp"
 #include "cotan/truth/patch.hpp"
 
 namespace cotan {

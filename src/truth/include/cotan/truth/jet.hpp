@@ -5,6 +5,8 @@
 
 #include <glm/vec3.hpp>
 
+#include "cotan/packed_only.hpp"
+
 namespace cotan {
 
 // A value f(s,t) and its derivatives.

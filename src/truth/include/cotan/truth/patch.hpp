@@ -4,6 +4,7 @@
 #include <array>
 #include <numbers>
 
+#include "cotan/packed_only.hpp"
 #include "cotan/truth/quad.hpp"
 #include "cotan/truth/random.hpp"
 

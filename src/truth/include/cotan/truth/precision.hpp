@@ -2,6 +2,7 @@
 // that hardware interpolates: what is left of the differences.
 #pragma once
 
+#include "cotan/packed_only.hpp"
 #include "cotan/truth/patch.hpp"
 
 namespace cotan {

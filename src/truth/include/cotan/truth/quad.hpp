@@ -7,6 +7,7 @@
 #include <glm/vec3.hpp>
 
 #include "cotan/cotangent_frame.hpp"
+#include "cotan/packed_only.hpp"
 
 namespace cotan {
 

@@ -7,6 +7,8 @@
 
 #include <glm/vec3.hpp>
 
+#include "cotan/packed_only.hpp"
+
 namespace cotan {
 
 class Random {

@@ -3,6 +3,8 @@
 
 #include <glm/vec3.hpp>
 
+#include "cotan/packed_only.hpp"
+
 namespace cotan {
 
 // Height and slopes in uv units: h_u is the change of height per unit of u.

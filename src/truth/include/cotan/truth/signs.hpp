@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "cotan/packed_only.hpp"
 #include "cotan/truth/patch.hpp"
 
 namespace cotan {

@@ -10,6 +10,7 @@
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
+#include "cotan/packed_only.hpp"
 #include "cotan/truth/jet.hpp"
 #include "cotan/truth/patch.hpp"
 #include "cotan/truth/relief.hpp"

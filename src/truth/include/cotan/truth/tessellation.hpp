@@ -7,6 +7,7 @@
 
 #include <glm/vec4.hpp>
 
+#include "cotan/packed_only.hpp"
 #include "cotan/tangents.hpp"
 #include "cotan/truth/quad.hpp"
 #include "cotan/truth/random.hpp"

@@ -1,0 +1,63 @@
+// What differs between versions of Dear ImGui's backend for Vulkan, from Debian 12's 1.86 on.
+#pragma once
+
+#include <backends/imgui_impl_vulkan.h>
+#include <imgui.h>
+
+namespace cotan::viewer {
+
+// Starts the backend with a render pass, of one sample, that `info` may have no field for.
+template<class Info> bool startImGuiBackend(Info info, VkRenderPass pass)
+{
+    if constexpr (requires { info.PipelineInfoMain.RenderPass; }) { // 1.92.4
+        info.PipelineInfoMain.RenderPass = pass;
+        info.PipelineInfoMain.MSAASamples = VK_SAMPLE_COUNT_1_BIT;
+        return ImGui_ImplVulkan_Init(&info);
+    } else {
+        info.MSAASamples = VK_SAMPLE_COUNT_1_BIT;
+        if constexpr (requires { info.RenderPass; }) { // 1.90.3
+            info.RenderPass = pass;
+            return ImGui_ImplVulkan_Init(&info);
+        } else {
+            return ImGui_ImplVulkan_Init(&info, pass);
+        }
+    }
+}
+
+// Makes the fonts ready for the next frame. From 1.92 on the backend makes their textures as glyphs are needed; the
+// flag says so already before the backend starts.
+inline void buildImGuiFonts()
+{
+    ImGuiIO& io = ImGui::GetIO();
+#if IMGUI_VERSION_NUM < 19200
+    io.Fonts->Build();
+#else
+    io.BackendFlags |= ImGuiBackendFlags_RendererHasTextures;
+#endif
+}
+
+// Uploads the fonts. submit: before 1.90, called with a function that records into a command buffer, which it is to run
+// and wait for. Since then the backend submits by itself; from 1.92 on there is nothing to upload here.
+template<class Submit> void uploadImGuiFonts([[maybe_unused]] const Submit& submit)
+{
+#if IMGUI_VERSION_NUM < 19000
+    submit([](VkCommandBuffer commands) { ImGui_ImplVulkan_CreateFontsTexture(commands); });
+    ImGui_ImplVulkan_DestroyFontUploadObjects();
+#elif IMGUI_VERSION_NUM < 19200
+    ImGui_ImplVulkan_CreateFontsTexture();
+#endif
+}
+
+// What was laid out before the backend started names no texture, which since 1.87 is bound as it is: gives it the
+// fonts'.
+inline void nameImGuiTexture([[maybe_unused]] ImDrawData& data)
+{
+#if IMGUI_VERSION_NUM < 19200
+    for (int i = 0; i < data.CmdListsCount; ++i)
+        for (ImDrawCmd& command : data.CmdLists[i]->CmdBuffer)
+            if (!command.TextureId)
+                command.TextureId = ImGui::GetIO().Fonts->TexID;
+#endif
+}
+
+} // namespace cotan::viewer

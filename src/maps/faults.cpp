@@ -1,0 +1,78 @@
+#include "cotan/maps/faults.hpp"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+namespace cotan::maps {
+
+namespace {
+
+// Means of lengths. Filtering and 8 bits leave over 0.95 on all maps that were looked at (docs/maps.md).
+constexpr double kShort = 0.9, kLong = 1.05;
+
+bool has(const std::vector<Fault>& faults, Fault::Kind kind)
+{
+    return std::ranges::any_of(faults, [&](const Fault& f) { return f.kind == kind; });
+}
+
+} // namespace
+
+const char* name(Fault::Kind kind)
+{
+    switch (kind) {
+    case Fault::Kind::srgb: return "srgb";
+    case Fault::Kind::linearised: return "linearised";
+    case Fault::Kind::redAndBlue: return "bgr";
+    case Fault::Kind::redAndGreen: return "grb";
+    case Fault::Kind::tooShort: return "washed_out";
+    case Fault::Kind::tooLong: return "too_strong";
+    case Fault::Kind::eightBitsIn16: return "8_in_16";
+    case Fault::Kind::greenDown: break;
+    }
+    return "green_down";
+}
+
+std::vector<Fault> faultsOf(const NormalStatistics& s, const GreenVerdict* green)
+{
+    using Kind = Fault::Kind;
+    std::vector<Fault> faults;
+    if (s.transfer == Transfer::srgb)
+        faults.push_back({Kind::srgb, "it was saved as a colour, through the sRGB curve: flat is near 188 instead of 128"});
+    if (s.transfer == Transfer::linearised)
+        faults.push_back({Kind::linearised,
+                          "the sRGB curve was undone on values that never had it: flat is near 55 instead of 128"});
+    if (s.redIsZ)
+        faults.push_back({Kind::redAndBlue, "red and blue are exchanged: red points outwards everywhere, blue does not"});
+    const bool tangentSpace = s.content == Content::tangentSpace && s.transfer == Transfer::linear && !s.redIsZ;
+    if (tangentSpace && s.meanLength < kShort)
+        faults.push_back({Kind::tooShort, fmt::format("washed out: vectors are {:.2f} long on average, not 1", s.meanLength)});
+    if (tangentSpace && s.meanLength > kLong)
+        faults.push_back({Kind::tooLong, fmt::format("too strong: vectors are {:.2f} long on average, not 1", s.meanLength)});
+    if (s.eightBits)
+        faults.push_back({Kind::eightBitsIn16, "its 16 bits hold steps of 8 bits only"});
+    if (green && green->swapped == Swapped::yes)
+        faults.push_back({Kind::redAndGreen, "red and green are exchanged"});
+    if (green && green->green == Green::down)
+        faults.push_back({Kind::greenDown, "green points down (DirectX), which glTF and OpenGL read as dents"});
+    return faults;
+}
+
+std::string mendingOptions(const std::vector<Fault>& faults)
+{
+    if (faults.empty())
+        return {};
+    using Kind = Fault::Kind;
+    std::string options = has(faults, Kind::greenDown) ? "--from directx" : "--from gltf";
+    for (const Kind kind : {Kind::srgb, Kind::linearised, Kind::redAndBlue, Kind::redAndGreen})
+        if (has(faults, kind))
+            options += std::string(",") + name(kind);
+    options += " --to gltf";
+    if (has(faults, Kind::tooShort) || has(faults, Kind::tooLong))
+        options += " --normalise";
+    if (has(faults, Kind::eightBitsIn16))
+        options += " --bits 8";
+    return options;
+}
+
+} // namespace cotan::maps

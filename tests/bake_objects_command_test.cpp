@@ -1,0 +1,180 @@
+// `cotan bake` of several objects, and of files with another axis up, as a user runs it.
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "cotan/image/file.hpp"
+#include "run_tool.hpp"
+
+namespace cotan::test {
+namespace {
+
+using Words = std::vector<std::string>;
+
+// A square of side 1 with its corner at x, leaning by `slope` along x where it is a high mesh; uv fill the unit square.
+std::string square(const std::string& name, double x, double slope, int first)
+{
+    std::string text = "o " + name + "\n";
+    for (const auto& [u, v] : {std::pair(0, 0), {1, 0}, {1, 1}, {0, 1}})
+        text += fmt::format("v {} {} {}\nvt {} {}\n", x + u, v, slope * (u - 0.5), u, v);
+    return text + fmt::format("f {0}/{0} {1}/{1} {2}/{2} {3}/{3}\n", first, first + 1, first + 2, first + 3);
+}
+
+// Two objects whose uv overlap, with detail that leans to either side.
+void writeTwo(const TemporaryFolder& folder)
+{
+    std::ofstream(folder / "low.obj") << square("left lid", 0, 0, 1) << square("right/lid", 3, 0, 5);
+    std::ofstream(folder / "high.obj") << square("a", 0, 0.2, 1) << square("b", 3, -0.2, 5);
+}
+
+ToolRun bake(const TemporaryFolder& folder, const Words& more)
+{
+    Words words = {"bake", "--high", "high.obj", "--low", "low.obj", "--size", "16", "--overwrite"};
+    words.insert(words.end(), more.begin(), more.end());
+    return runTool(words, folder.path());
+}
+
+// Red of a texel in the middle: over 128 where the map leans to +x.
+int middleRed(const TemporaryFolder& folder, const std::string& file)
+{
+    const auto map = readImage(folder / file);
+    if (!map || map->width != 16 || map->height != 16)
+        return -1;
+    return map->bytes8()[4 * (8 * 16 + 8)];
+}
+
+TEST(BakeObjects, aMapForEachObjectIsThatOfTheObjectByItself)
+{
+    TemporaryFolder folder;
+    writeTwo(folder);
+    const ToolRun both = bake(folder, {"-o", "m.png"});
+    ASSERT_EQ(both.code, 0) << both.err;
+    EXPECT_NE(
+        both.err.find("256 of 256 covered texels are claimed by several triangles; the first in the file won; the "
+                      "low mesh has 2 objects: --per-object makes a map for each, --object NAME one"),
+        std::string::npos)
+        << both.err;
+    const ToolRun each = bake(folder, {"-o", "each.png", "--mask", "mask.png", "--per-object", "--json", "r.json"});
+    ASSERT_EQ(each.code, 0) << each.err;
+    EXPECT_EQ(each.err.find("claimed"), std::string::npos) << each.err;
+    EXPECT_FALSE(std::filesystem::exists(folder / "each.png"));
+    EXPECT_TRUE(std::filesystem::exists(folder / "mask-left_lid.png"));
+    const int left = middleRed(folder, "each-left_lid.png"), right = middleRed(folder, "each-right_lid.png");
+    EXPECT_NEAR(left, 128 - 127 * 0.196, 2); // the normal of a slope of 0.2
+    EXPECT_NEAR(right, 128 + 127 * 0.196, 2);
+    const auto report = nlohmann::json::parse(readWhole(folder / "r.json"));
+    ASSERT_EQ(report["objects"].size(), 2u);
+    EXPECT_EQ(report["objects"][1]["object"], "right/lid");
+    EXPECT_EQ(report["objects"][1]["output"], "each-right_lid.png");
+    ASSERT_EQ(bake(folder, {"-o", "one.png", "--object", "right/lid"}).code, 0);
+    EXPECT_EQ(readWhole(folder / "one.png"), readWhole(folder / "each-right_lid.png"));
+}
+
+TEST(BakeObjects, wrongNamesAndOptionsThatContradictGetOneLine)
+{
+    TemporaryFolder folder;
+    writeTwo(folder);
+    std::ofstream(folder / "same.obj") << square("a b", 0, 0, 1) << square("a_b", 3, 0, 5);
+    const std::tuple<Words, int, std::string> cases[] = {
+        {{"-o", "m.png", "--object", "lid"}, 2, "low.obj has no object 'lid'; expected one of 'left lid', 'right/lid'"},
+        {{"-o", "m.glb", "--object", "left lid"}, 1, "expected a picture with --object"},
+        {{"-o", "m.glb", "--per-object"}, 1, "expected a picture with --per-object"},
+        {{"-o", "m.png", "--per-object", "--object", "left lid"}, 1, "without --object"},
+        {{"-o", "m.png", "--per-object", "--cage", "low.obj"}, 1, "no --cage"},
+        {{"-o", "m.png", "--per-object", "--low", "same.obj"}, 1, "are one file"},
+        {{"-o", "m.png", "--size", "16x"}, 1, "--size: expected WxH, or one number for both"},
+        {{"-o", "m.png", "--up", "x"}, 1, "--up"},
+    };
+    for (const auto& [words, code, message] : cases) {
+        Words all = {"bake", "--high", "high.obj", "--quiet"};
+        if (std::ranges::find(words, "--low") == words.end())
+            all.insert(all.end(), {"--low", "low.obj"});
+        all.insert(all.end(), words.begin(), words.end());
+        const ToolRun run = runTool(all, folder.path());
+        EXPECT_EQ(run.code, code) << ::testing::PrintToString(words) << run.err;
+        EXPECT_EQ(lines(run.err), 1) << run.err;
+        EXPECT_NE(run.err.find(message), std::string::npos) << run.err;
+    }
+}
+
+// A slanted strip 1 wide, 3 high and 0.4 deep, which no turn leaves as it is. zUp: as a program with z up writes it.
+void writeStrip(const std::filesystem::path& file, bool zUp)
+{
+    std::string text;
+    for (const auto& [u, v] : {std::pair(0, 0), {1, 0}, {1, 1}, {0, 1}}) {
+        const double y = 3 * v + 1, z = 0.4 * v;
+        text += zUp ? fmt::format("v {} {} {}\n", u, -z, y) : fmt::format("v {} {} {}\n", u, y, z);
+        text += fmt::format("vt {} {}\n", u, v);
+    }
+    std::ofstream(file) << text << "f 1/1 2/2 3/3 4/4\n";
+}
+
+TEST(BakeUp, filesWithZUpGiveTheSameMapAndAMixtureIsToldWithItsOptions)
+{
+    TemporaryFolder folder;
+    writeStrip(folder / "low.obj", false);
+    writeStrip(folder / "high.obj", false);
+    writeStrip(folder / "low_z.obj", true);
+    writeStrip(folder / "high_z.obj", true);
+    const auto baked = [&](const std::string& high, const std::string& low, const Words& more) {
+        Words words = {"bake", "--high", high, "--low", low, "--size", "16", "-o", "m.png", "--overwrite"};
+        words.insert(words.end(), more.begin(), more.end());
+        const ToolRun run = runTool(words, folder.path());
+        EXPECT_EQ(run.code, 0) << run.err;
+        return std::pair(readWhole(folder / "m.png"), run.err);
+    };
+    const auto [right, quiet] = baked("high.obj", "low.obj", {});
+    EXPECT_EQ(quiet, "");
+    const std::tuple<std::string, std::string, Words, std::string> wrong[] = {
+        {"high_z.obj", "low.obj", {}, "try --high-up z"},
+        {"high.obj", "low_z.obj", {}, "try --up z --high-up y"},
+        {"high_z.obj", "low.obj", {"--up", "z"}, "try --up y --high-up z"},
+        {"high.obj", "low.obj", {"--high-up", "z"}, "try --up y"},
+    };
+    for (const auto& [high, low, given, advice] : wrong) {
+        const std::string said = baked(high, low, given).second;
+        const std::size_t at = said.find("would if one were turned by 90 degrees: it probably has z up; ");
+        ASSERT_NE(at, std::string::npos) << high << " " << low << said;
+        EXPECT_NE(said.find(advice + "\n"), std::string::npos) << said;
+    }
+    EXPECT_EQ(baked("high_z.obj", "low_z.obj", {"--up", "z"}).first, right);
+    EXPECT_EQ(baked("high_z.obj", "low.obj", {"--high-up", "z"}).first, right);
+    EXPECT_EQ(baked("high.obj", "low_z.obj", {"--up", "z", "--high-up", "y"}), std::pair(right, std::string()));
+}
+
+TEST(BakeUp, everyCommandThatReadsAnyModelTurnsIt)
+{
+    TemporaryFolder folder;
+    writeStrip(folder / "y.obj", false);
+    writeStrip(folder / "z.obj", true);
+    const auto same = [&](const Words& command, const std::string& option) {
+        for (const std::string up : {"y", "z"}) {
+            Words words = command;
+            words.insert(words.end(), {option, up + ".obj", "--up", up, "-o", up + ".png"});
+            if (option.empty())
+                words.erase(std::ranges::find(words, ""));
+            EXPECT_EQ(runTool(words, folder.path()).code, 0) << command[0];
+        }
+        EXPECT_EQ(readWhole(folder / "y.png"), readWhole(folder / "z.png")) << command[0];
+    };
+    same({"render", "--size", "32", "--device", "reference", "--overwrite"}, "");
+    ASSERT_EQ(runTool({"render", "--size", "8", "--view", "normal", "--device", "reference", "-o", "n.png", "--quiet"},
+                      folder.path())
+                  .code,
+              0);
+    same({"map", "convert", "n.png", "--from", "opengl", "--to", "object", "--overwrite"}, "--mesh");
+    const auto spots = [&](const std::string& up) {
+        const ToolRun run = runTool({"lint", up + ".obj", "--up", up, "--json", "-"}, folder.path());
+        return nlohmann::json::parse(run.out)["hot_spots"].at(0).at("camera").dump();
+    };
+    EXPECT_EQ(spots("y"), spots("z"));
+    const ToolRun none = runTool({"render", "--up", "z", "-o", "a.png"}, folder.path());
+    EXPECT_EQ(none.code, 1);
+    EXPECT_NE(none.err.find("--up: expected a model; found the built-in scene"), std::string::npos) << none.err;
+}
+
+} // namespace
+} // namespace cotan::test

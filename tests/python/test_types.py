@@ -1,0 +1,95 @@
+"""What a type checker says of programs that call the package: nothing under `mypy --strict`, and where it should."""
+
+import os
+import pathlib
+import re
+import shutil
+import subprocess
+import sys
+import typing
+
+import pytest
+
+import cotan
+from cotan import words
+
+
+@pytest.fixture(scope="module")
+def check(source, tmp_path_factory):
+    """Lines that mypy --strict prints about a program."""
+    found = shutil.which("mypy") or (os.access("/usr/bin/mypy", os.X_OK) and "/usr/bin/mypy")
+    if not found:
+        pytest.skip("skipped: no mypy here (Debian's package mypy)")
+    folder = tmp_path_factory.mktemp("types")
+
+    def run(program):
+        file = folder / "program.py"
+        file.write_text(program)
+        done = subprocess.run(
+            [found, "--strict", "--python-executable", sys.executable, "--cache-dir", folder / "cache", file],
+            capture_output=True,
+            text=True,
+            env={**os.environ, "MYPYPATH": str(source / "bindings/python")},
+            cwd=folder,
+        )
+        lines = done.stdout.splitlines()
+        return [line for line in lines if line.startswith("program.py")] or ([] if done.returncode == 0 else lines)
+
+    return run
+
+
+def test_the_pages_examples_are_clean(source, check):
+    prelude = "import numpy as np\nimport cotan\nlow: cotan.Mesh\nhigh: cotan.Mesh\n"
+    seen = 0
+    for page in ("docs/python.md", "bindings/python/README.md"):
+        for block in re.findall(r"```python\n(.*?)```", (source / page).read_text(), re.S):
+            declared = re.sub(r"^(low|high): cotan.Mesh\n", "", prelude, flags=re.M) if re.search(r"^low = ", block, re.M) else prelude
+            assert check(declared + block) == [], block
+            seen += 1
+    assert seen > 5
+
+
+def test_a_misspelt_word_is_an_error_and_a_right_one_is_not(check):
+    right = """
+import cotan
+from cotan.words import Frame
+baked = cotan.bake("a.obj", "b.obj", size=(4, 4), frame="smooth", kind="ao", convention="unity,xy")
+frame: Frame = cotan.frames()[0]
+advice = cotan.lint("m.glb", frame="triangle").advice
+if advice is not None:
+    cotan.convert("m.glb", to_frame=advice)
+try:
+    cotan.render("m.glb", size=64, frame="auto", up="z")
+except FileNotFoundError as error:
+    print(error.filename)
+except cotan.Error as error:
+    print(error.file, error.field)
+"""
+    assert check(right) == []
+    for wrong in (
+        'cotan.bake("a.obj", "b.obj", frame="smoth")',
+        'cotan.bake("a.obj", "b.obj", kind="normals")',
+        'cotan.render("m.glb", frame="mikktspac")',
+        'cotan.render("m.glb", up="x")',
+        'cotan.lint("m.glb", frame="unit")',
+        'cotan.map_blend("a.png", "b.png", mode="overlay")',
+        'cotan.tangents(cotan.Mesh([[0, 0, 0]], [0, 0, 0]), kind="smooth")',
+        'cotan.shader("cg")',
+        'cotan.convert(1)',
+    ):
+        said = check(f"import cotan\n{wrong}\n")
+        assert len(said) >= 1 and "program.py:2: error" in said[0], (wrong, said)
+
+
+def test_the_words_are_those_of_the_program(command):
+    assert list(typing.get_args(words.Frame)) == cotan.frames()
+    bake, convert = command("bake", "--help"), command("map", "convert", "--help")
+    for kind in typing.get_args(words.BakeKind):
+        assert kind in bake
+    for name in ("Search", "HighNormals", "TangentOrigin", "Up"):
+        said = re.findall(r"\{([a-z,-]+)\}", bake)
+        assert ",".join(typing.get_args(getattr(words, name))) in said, name
+    presets = re.search(r"gltf[a-z0-9, ]*source", re.sub(r"\s+", " ", convert))
+    assert presets and set(typing.get_args(words.Preset)) == set(presets[0].split())
+    judged = re.search(r"--frame NAME:\{([a-z,]+)\}", command("lint", "--help"))
+    assert judged and judged[1].split(",") == list(typing.get_args(words.Reading))
