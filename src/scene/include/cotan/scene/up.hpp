@@ -1,4 +1,4 @@
-// Which axis of a model is up: y in a scene, z in many PLY and STL files.
+// Which axis of a model is up: y in a scene, z in the files of many programs.
 #pragma once
 
 #include "cotan/scene/scene.hpp"
