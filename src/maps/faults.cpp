@@ -1,8 +1,8 @@
 #include "cotan/maps/faults.hpp"
 
 #include <algorithm>
-
-#include <fmt/format.h>
+#include <cmath>
+#include <string>
 
 namespace cotan::maps {
 
@@ -14,6 +14,14 @@ constexpr double kShort = 0.9, kLong = 1.05;
 bool has(const std::vector<Fault>& faults, Fault::Kind kind)
 {
     return std::ranges::any_of(faults, [&](const Fault& f) { return f.kind == kind; });
+}
+
+// "0.85 long on average, not 1". This part has no {fmt}: it is built where there is none.
+std::string longOnAverage(double length)
+{
+    const long hundredths = std::lround(100 * length);
+    const std::string digits = std::to_string(hundredths % 100);
+    return std::to_string(hundredths / 100) + (digits.size() < 2 ? ".0" : ".") + digits + " long on average, not 1";
 }
 
 } // namespace
@@ -46,9 +54,9 @@ std::vector<Fault> faultsOf(const NormalStatistics& s, const GreenVerdict* green
         faults.push_back({Kind::redAndBlue, "red and blue are exchanged: red points outwards everywhere, blue does not"});
     const bool tangentSpace = s.content == Content::tangentSpace && s.transfer == Transfer::linear && !s.redIsZ;
     if (tangentSpace && s.meanLength < kShort)
-        faults.push_back({Kind::tooShort, fmt::format("washed out: vectors are {:.2f} long on average, not 1", s.meanLength)});
+        faults.push_back({Kind::tooShort, "washed out: vectors are " + longOnAverage(s.meanLength)});
     if (tangentSpace && s.meanLength > kLong)
-        faults.push_back({Kind::tooLong, fmt::format("too strong: vectors are {:.2f} long on average, not 1", s.meanLength)});
+        faults.push_back({Kind::tooLong, "too strong: vectors are " + longOnAverage(s.meanLength)});
     if (s.eightBits)
         faults.push_back({Kind::eightBitsIn16, "its 16 bits hold steps of 8 bits only"});
     if (green && green->swapped == Swapped::yes)
