@@ -234,8 +234,10 @@ TEST(BakeModel, errorsOfOptionsBeginWithTheirNames)
               "options.bake: expected a width and a height from 1 to 65535; found 12x0");
     EXPECT_EQ(errorWith([](O& o, H&) { o.bake.samples = 3; }),
               "options.bake: expected 1, 2 or 4 samples a texel and axis; found 3");
-    EXPECT_EQ(errorWith([](O& o, H&) { o.bake.frame = Frame(99); }), fmt::format("options.bake.frame: expected 0 to {}; found 99", kFrameCount - 1));
-    EXPECT_EQ(errorWith([](O& o, H&) { o.highFrame = Frame(-1); }), fmt::format("options.highFrame: expected 0 to {}; found -1", kFrameCount - 1));
+    EXPECT_EQ(errorWith([](O& o, H&) { o.bake.frame = Frame(99); }),
+              fmt::format("options.bake.frame: expected 0 to {}; found 99", kFrameCount - 1));
+    EXPECT_EQ(errorWith([](O& o, H&) { o.highFrame = Frame(-1); }),
+              fmt::format("options.highFrame: expected 0 to {}; found -1", kFrameCount - 1));
     EXPECT_EQ(errorWith([](O& o, H&) { o.bake.occlusionRays = 0; }),
               "options.bake: expected 1 to 65536 rays for occlusion; found 0");
     EXPECT_EQ(errorWith([](O& o, H&) { o.bake.cageReach = NAN; }), "options.cageReach: expected 0 to 1e+17; found nan");
@@ -273,8 +275,7 @@ TEST(BakeModel, positionsFromWhichNoRayCanStartAreRefused)
     EXPECT_EQ(errorOf(bakeModel(flat, highOf(flat), options)), "options.extrusion: expected 0 to 1e+17; found 1e+20");
     options.bake.extrusion = 0;
     options.bake.maxDistance = 1e20f;
-    EXPECT_EQ(errorOf(bakeModel(flat, highOf(flat), options)),
-              "options.maxDistance: expected 0 to 1e+17; found 1e+20");
+    EXPECT_EQ(errorOf(bakeModel(flat, highOf(flat), options)), "options.maxDistance: expected 0 to 1e+17; found 1e+20");
     options.bake.maxDistance = -1;
     EXPECT_EQ(errorOf(bakeModel(flat, highOf(flat), options)), "options.maxDistance: expected 0 to 1e+17; found -1");
 }

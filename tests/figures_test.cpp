@@ -204,7 +204,7 @@ TEST(Figures, tangentSpaceByTheInverseAgreesWithTheWorldToALevel)
 
 TEST(Figures, wrongWordsExitOneAndAnUnwritableFolderExitsFour)
 {
-    for (const Words& words : {Words{"--only", "2.6.9"}, Words{"--only", "2.6.4,"}, Words{"--size", "10"}}) {
+    for (const Words& words : {Words{"--only", "2.6.9"}, Words{"--only", "2.6.4,"}, Words{"--size", "10x"}}) {
         TemporaryFolder folder;
         const ToolRun run = runTool(command("out", words), folder.path());
         EXPECT_EQ(run.code, 1) << words[1] << run.err;

@@ -61,12 +61,12 @@ TEST(Recommend, aMapThatIsReadAsItIsIsNotTouchedByTheCommand)
     p.stored.angle = spreadAt(0, 0);
     const LintReport fits = advisedOn({p}, {fitAs(0.29)}), close = advisedOn({p}, {fitAs(0.31)});
     EXPECT_TRUE(fits.dropsTangents);
-    // convert would make it anew: then nothing is to be done.
+    // convert would make it anew: the command keeps it (--keep-maps), and the tangents go all the same.
     EXPECT_EQ(close.advice, Advice::readOrthonormal);
-    EXPECT_FALSE(close.dropsTangents);
+    EXPECT_TRUE(close.dropsTangents);
     EXPECT_EQ(close.mapsConverted, 0u);
     EXPECT_EQ(close.mapsKept, 1u);
-    EXPECT_TRUE(says(close.advised, "Nothing has to be changed")) << close.advised;
+    EXPECT_TRUE(says(close.advised, "as they are; the command drops the tangents")) << close.advised;
 }
 
 TEST(Recommend, theFrameThatTheFileNamesIsTheOneToReadItWith)

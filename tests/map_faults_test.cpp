@@ -69,8 +69,14 @@ struct Broken {
 
 // None of these is made with Cotan's own `undo`.
 const Broken kBroken[] = {
-    {"srgb", [](glm::vec4& t) { t = {encoded(t.x), encoded(t.y), encoded(t.z), t.w}; }},
-    {"linearised", [](glm::vec4& t) { t = {decoded(t.x), decoded(t.y), decoded(t.z), t.w}; }},
+    {"srgb",
+     [](glm::vec4& t) {
+         t = {encoded(t.x), encoded(t.y), encoded(t.z), t.w};
+     }},
+    {"linearised",
+     [](glm::vec4& t) {
+         t = {decoded(t.x), decoded(t.y), decoded(t.z), t.w};
+     }},
     {"bgr", [](glm::vec4& t) { std::swap(t.x, t.z); }},
     {"washed_out", [](glm::vec4& t) { t = glm::vec4(glm::vec3(t) * 0.7f + 0.3f * 128 / 255, t.w); }},
     {"green_down", [](glm::vec4& t) { t.y = 256.0f / 255 - t.y; }},

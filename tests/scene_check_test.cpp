@@ -147,7 +147,8 @@ TEST(SceneCheck, bothRenderersRefuseAViewThatShowsNothing)
     const float bad = std::numeric_limits<float>::quiet_NaN();
     const std::pair<void (*)(View&, float), std::string> wrong[] = {
         {[](View& v, float) { v.width = 0; }, "view: expected a width and a height from 1 on; found 0x16"},
-        {[](View& v, float) { v.frame = Frame(99); }, "view.frame: expected 0 to " + std::to_string(kFrameCount - 1) + "; found 99"},
+        {[](View& v, float) { v.frame = Frame(99); },
+         "view.frame: expected 0 to " + std::to_string(kFrameCount - 1) + "; found 99"},
         {[](View& v, float) { v.samples = 3; }, "view.samples: expected 1, 4 or 16; found 3"},
         {[](View& v, float n) { v.exposure = n; }, "view.exposure: expected a finite number; found nan"},
         {[](View& v, float n) { v.camera.eye.y = n; }, "view.camera: expected finite numbers"},

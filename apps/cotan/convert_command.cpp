@@ -69,8 +69,8 @@ Status checkVerticesOnly(const ConvertCommandOptions& o)
 Result<std::optional<FramePair>> checkUsage(const ConvertCommandOptions& o)
 {
     if (o.keepMaps && (o.keepTangents || o.bits != 0))
-        return usageError(fmt::format("{}: with --keep-maps only the tangents go",
-                                      o.keepTangents ? "--keep-tangents" : "--bits"));
+        return usageError(
+            fmt::format("{}: with --keep-maps only the tangents go", o.keepTangents ? "--keep-tangents" : "--bits"));
     if (o.to.empty() && !o.keepMaps)
         if (Status alone = checkVerticesOnly(o); !alone)
             return alone.error();
@@ -81,9 +81,8 @@ Result<std::optional<FramePair>> checkUsage(const ConvertCommandOptions& o)
     if (!to)
         return to.error();
     if (o.keepMaps && readsTangents(*to))
-        return usageError(
-            fmt::format("--to-frame: expected a frame that reads no tangents, since --keep-maps drops them; found {}",
-                        name(*to)));
+        return usageError(fmt::format(
+            "--to-frame: expected a frame that reads no tangents, since --keep-maps drops them; found {}", name(*to)));
     if (o.output.empty())
         return usageError("convert: expected -o FILE; found none");
     if (Status names = checkGltfNames(o.model, o.output); !names)
@@ -195,8 +194,10 @@ Status run(const ConvertCommandOptions& o)
             return inWords(named.error());
         if (*named && o.from.empty())
             (*frames)->from = **named;
-        report.update(
-            {{"from", name((*frames)->from)}, {"to", name((*frames)->to)}, {"tangents_read", o.tangents}, {"unsigned", o.expansion}});
+        report.update({{"from", name((*frames)->from)},
+                       {"to", name((*frames)->to)},
+                       {"tangents_read", o.tangents},
+                       {"unsigned", o.expansion}});
     }
     report["output"] = o.output.string();
     report["maps"] = Json::array();
@@ -285,8 +286,7 @@ void addConvertCommand(Arguments& tool)
          "make a glTF model's normal maps for another frame, and drop the tangents; or its vertices for the frame "
          "triangle",
          "the converted model, .glb or .gltf",
-         {"cotan convert model.glb --to-frame smooth -o out.glb",
-          "cotan convert model.glb --keep-maps -o out.glb",
+         {"cotan convert model.glb --to-frame smooth -o out.glb", "cotan convert model.glb --keep-maps -o out.glb",
           "cotan convert model.glb --from-frame mikktspace --to-frame orthonormal -o out.glb --verify check",
           "cotan convert model.glb --provoking first -o out.glb"}},
         declare, run);

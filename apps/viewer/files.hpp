@@ -48,8 +48,8 @@ private:
     double lookedAt_ = -1;
 };
 
-// The model and the files that it names: buffers and pictures of a .gltf; of others the pictures of these names, and the
-// materials, in its folder. Those that are not there are left out.
+// The model and the files that it names: buffers and pictures of a .gltf; of others the pictures of these names, and
+// the materials, in its folder. Those that are not there are left out.
 std::vector<std::filesystem::path> filesOf(const std::filesystem::path& model,
                                            const std::vector<std::string>& pictureNames);
 

@@ -156,8 +156,7 @@ Interface interfaceOf(const State& s)
     for (const Entry& entry : entriesOf(s)) {
         if (i.menus.empty() || i.menus.back().title != entry.menu)
             i.menus.push_back({entry.menu, {}});
-        i.menus.back().items.push_back(
-            {entry.label, entry.key, entry.command, entry.on, entry.usable, entry.submenu});
+        i.menus.back().items.push_back({entry.label, entry.key, entry.command, entry.on, entry.usable, entry.submenu});
         addToSheet(entry, i.sheet);
     }
     for (const auto& [keys, what] : {std::pair("left drag", "turn"),

@@ -85,9 +85,8 @@ void addFileEntries(Entries& e, const State& s)
     e.add("Write the picture as EXR", "", "picture .exr");
     e.add("Copy the command that draws it", "ctrl+c", "copy command");
     e.add("Copy the camera", "ctrl+shift+c", "copy camera");
-    addList(e, "Recent files", s.recent.size(), [&](std::size_t i) {
-        e.add(s.recent[i], "", "open " + s.recent[i], s.recent[i] == s.picture.model);
-    });
+    addList(e, "Recent files", s.recent.size(),
+            [&](std::size_t i) { e.add(s.recent[i], "", "open " + s.recent[i], s.recent[i] == s.picture.model); });
     e.line();
     e.add("Quit", "ctrl+q", "quit");
 }

@@ -59,9 +59,11 @@ void Pictures::receive(State& state, bool timed)
     failed_ = !drawn->problem.empty();
     if (failed_) {
         state.problem = state.drawProblem = drawn->problem;
+        failedAtLoads_ = state.loads;
         goBack(state);
     } else if (drawn->picture) {
-        if (state.problem == std::exchange(state.drawProblem, {}))
+        // What is drawn now may be what was good before; but a file that was read again is good.
+        if (state.loads != failedAtLoads_ && state.problem == std::exchange(state.drawProblem, {}))
             state.problem.clear();
         good_ = {true, state.picture, state.a, state.b};
     }

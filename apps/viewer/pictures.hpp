@@ -52,6 +52,7 @@ private:
     std::uint64_t serial_ = 0, orders_ = 0;
     double firstSeconds_ = 0;
     bool failed_ = false;
+    std::size_t failedAtLoads_ = 0; // State::loads when it last failed
 
     void goBack(State& state) const;
 };

@@ -47,8 +47,7 @@ std::string lightKey(const PictureOptions& o)
 {
     std::error_code none; // of names that are no files
     const auto written = std::filesystem::last_write_time(o.environment, none).time_since_epoch().count();
-    return fmt::format("{}|{}|{}|{}", o.environment, none ? 0 : written, o.environmentRotation,
-                       o.environmentIntensity);
+    return fmt::format("{}|{}|{}|{}", o.environment, none ? 0 : written, o.environmentRotation, o.environmentIntensity);
 }
 
 // Compared, and not told by keys: a map's file may have changed meanwhile, and a model that is read again may not have.

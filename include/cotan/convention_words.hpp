@@ -16,9 +16,13 @@ Result<Convention> conventionFromWords(std::string_view text);
 
 // What went wrong with the stored values of a map, and is undone when it is read.
 struct Damage {
-    enum class Curve { none, srgb, linearised }; // srgb: saved as a colour; linearised: the sRGB curve was undone on
-                                                 // values that never had it
-    enum class Order { rgb, bgr, grb };          // bgr: red and blue are exchanged; grb: red and green
+    enum class Curve {
+        none,
+        srgb,
+        linearised
+    };                                  // srgb: saved as a colour; linearised: the sRGB curve was undone on
+                                        // values that never had it
+    enum class Order { rgb, bgr, grb }; // bgr: red and blue are exchanged; grb: red and green
     Curve curve = Curve::none;
     Order order = Order::rgb;
 

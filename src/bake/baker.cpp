@@ -97,8 +97,8 @@ void Baker::aimFromStart(const LowPoints& points, const UvPlace& place, std::siz
     probes.before[i] =
         length * (starts.distances[v[0]] * b0 + starts.distances[v[1]] * place.b1 + starts.distances[v[2]] * place.b2);
     if (starts.crossed[place.triangle])
-        probes.before[i] =
-            openDistance(*starts.tree, place.triangle, probes.point.at(i), probes.direction.at(i), starts.skip, probes.before[i]);
+        probes.before[i] = openDistance(*starts.tree, place.triangle, probes.point.at(i), probes.direction.at(i),
+                                        starts.skip, probes.before[i]);
 }
 
 std::size_t Baker::find(std::span<const UvPlace> places, const Probes& probes, Hits& hits) const

@@ -160,8 +160,8 @@ LowTree::Met LowTree::firstBeside(std::uint32_t triangle, Ray ray) const
 {
     const std::vector<std::int64_t>& shown = state_->shown;
     Met met = first(ray);
-    while (met.found && met.distance < ray.farthest && !shown.empty() && shown[triangle] >= 0 && shown[met.triangle] >= 0
-           && shown[triangle] != shown[met.triangle]) {
+    while (met.found && met.distance < ray.farthest && !shown.empty() && shown[triangle] >= 0
+           && shown[met.triangle] >= 0 && shown[triangle] != shown[met.triangle]) {
         ray.nearest = std::nextafter(met.distance, ray.farthest);
         met = first(ray);
     }

@@ -96,9 +96,9 @@ void findDirections(const LowSurface& low, const Groups& groups, RayStarts& star
 // The low surface and the rest as one tree, and how large they are.
 struct Body {
     std::shared_ptr<const LowTree> tree;
-    std::vector<glm::vec3> outsides;      // of its triangles: unit, to the side of the vertices' normals
-    std::vector<std::int64_t> shown;      // of the same: the instance of the high surface, -1 for all; empty for all
-    float diagonal = 0, edge = 0;         // of the box; about that of a triangle
+    std::vector<glm::vec3> outsides; // of its triangles: unit, to the side of the vertices' normals
+    std::vector<std::int64_t> shown; // of the same: the instance of the high surface, -1 for all; empty for all
+    float diagonal = 0, edge = 0;    // of the box; about that of a triangle
 };
 
 Result<Body> bodyOf(const LowSurface& low, const LowRest& rest, const RayStartOptions& options)
@@ -338,7 +338,8 @@ bool isCrossed(const LowSurface& low, const RayStarts& starts, std::size_t trian
             const float wanted =
                 length * (starts.distances[v[0]] * b0 + starts.distances[v[1]] * b1 + starts.distances[v[2]] * b2);
             if (length > 0
-                && openDistance(*starts.tree, std::uint32_t(triangle), p[0] * b0 + p[1] * b1 + p[2] * b2, sum / length, starts.skip, wanted)
+                && openDistance(*starts.tree, std::uint32_t(triangle), p[0] * b0 + p[1] * b1 + p[2] * b2, sum / length,
+                                starts.skip, wanted)
                     < wanted)
                 return true;
         }

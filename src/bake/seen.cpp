@@ -127,8 +127,8 @@ Result<SeenHigh> seeHigh(const LowSurface& low, const HighSurface& high, const B
         return ready.error();
     std::shared_ptr<const LowTree> tree = options.starts ? options.starts->tree : nullptr;
     if (!tree) {
-        auto made = LowTree::make(low.positions, low.indices, shownBy(low.triangleInstance, options.matched),
-                                  options.threads);
+        auto made =
+            LowTree::make(low.positions, low.indices, shownBy(low.triangleInstance, options.matched), options.threads);
         if (!made)
             return made.error();
         tree = std::make_shared<const LowTree>(std::move(*made));

@@ -48,7 +48,9 @@ inline void checkFinite(const std::string& name, const float* numbers, std::size
         if (!std::isfinite(numbers[i]))
             fail(ErrorKind::input,
                  name + '[' + std::to_string(i / each) + "]: expected finite numbers, found "
-                     + (std::isnan(numbers[i]) ? "nan" : numbers[i] > 0 ? "inf" : "-inf"));
+                     + (std::isnan(numbers[i]) ? "nan"
+                            : numbers[i] > 0   ? "inf"
+                                               : "-inf"));
 }
 
 // A mesh with uv as the library takes it.

@@ -247,8 +247,9 @@ Result<ConvertModelReport> convertModel(GltfDocument& document, const ConvertMod
         return usageError(
             fmt::format("convert: expected 8 or 16 bits, or 0 for those of the old maps; found {}", options.bits));
     if (options.keepMaps && (options.keepTangents || readsTangents(options.frames.to)))
-        return usageError(fmt::format("convert: where maps stay tangents go; expected a frame that reads none, found {}",
-                                      options.keepTangents ? "keepTangents" : name(options.frames.to)));
+        return usageError(
+            fmt::format("convert: where maps stay tangents go; expected a frame that reads none, found {}",
+                        options.keepTangents ? "keepTangents" : name(options.frames.to)));
     ModelConverter converter(document, options);
     if (Status done = converter.run(); !done)
         return done.error();

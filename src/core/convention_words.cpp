@@ -56,23 +56,42 @@ bool applyWord(std::string_view text, StatedConvention& stated)
     return true;
 }
 
+Error unknownWord(std::string_view word, bool damages)
+{
+    const std::string found = word.empty() ? "nothing" : "'" + std::string(word) + "'";
+    std::string message = "expected ";
+    message += conventionWords(); // gcc 12 warns wrongly where a string is put before one that is moved
+    for (const DamageWord& w : kDamageWords)
+        message += damages ? std::string(" ") + w.name : std::string();
+    return {ErrorKind::usage, message + "; found " + found};
+}
+
+Result<StatedConvention> parsed(std::string_view text, bool damages)
+{
+    if (text.empty())
+        return unknownWord(text, damages);
+    StatedConvention stated;
+    for (bool first = true; !text.empty(); first = false) {
+        const std::string_view word = text.substr(0, text.find(','));
+        const auto preset = first ? conventionFromName(word) : std::nullopt;
+        if (preset)
+            stated.convention = *preset;
+        else if (!applyWord(word, stated))
+            return unknownWord(word, damages);
+        text.remove_prefix(std::min(word.size() + 1, text.size()));
+    }
+    return stated;
+}
+
 // For what is to be written, or read by a shader.
 Result<StatedConvention> undamaged(std::string_view text)
 {
-    auto stated = statedFromWords(text);
+    auto stated = parsed(text, false);
     if (stated && stated->damage.any())
         return usageError("srgb, linearised, bgr and grb say how a broken map is stored; expected a convention without "
                           "them, found '"
                           + std::string(text) + "'");
     return stated;
-}
-
-Error unknownWord(std::string_view word)
-{
-    const std::string found = word.empty() ? "nothing" : "'" + std::string(word) + "'";
-    std::string message = "expected ";
-    message += conventionWords(); // gcc 12 warns wrongly where a string is put before one that is moved
-    return {ErrorKind::usage, message + "; found " + found};
 }
 
 } // namespace
@@ -124,21 +143,6 @@ Result<Convention> sampledFromWords(std::string_view text)
     return convention;
 }
 
-Result<StatedConvention> statedFromWords(std::string_view text)
-{
-    if (text.empty())
-        return unknownWord(text);
-    StatedConvention stated;
-    for (bool first = true; !text.empty(); first = false) {
-        const std::string_view word = text.substr(0, text.find(','));
-        const auto preset = first ? conventionFromName(word) : std::nullopt;
-        if (preset)
-            stated.convention = *preset;
-        else if (!applyWord(word, stated))
-            return unknownWord(word);
-        text.remove_prefix(std::min(word.size() + 1, text.size()));
-    }
-    return stated;
-}
+Result<StatedConvention> statedFromWords(std::string_view text) { return parsed(text, true); }
 
 } // namespace cotan

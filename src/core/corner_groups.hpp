@@ -51,8 +51,8 @@ struct CornerGroups {
 // Where averages go.
 struct Averages {
     Cotangents* cotangents = nullptr; // of all vertices, copies included; null: nowhere
-    // Where vertices that both sides index have a copy for one of them, per vertex: the side that keeps it, and the copy
-    // or kNone. Empty: such a vertex takes the side with more to say.
+    // Where vertices that both sides index have a copy for one of them, per vertex: the side that keeps it, and the
+    // copy or kNone. Empty: such a vertex takes the side with more to say.
     std::span<const Side> keepers;
     std::span<const std::uint32_t> copies;
 };

@@ -46,12 +46,14 @@ std::vector<Fault> faultsOf(const NormalStatistics& s, const GreenVerdict* green
     using Kind = Fault::Kind;
     std::vector<Fault> faults;
     if (s.transfer == Transfer::srgb)
-        faults.push_back({Kind::srgb, "it was saved as a colour, through the sRGB curve: flat is near 188 instead of 128"});
+        faults.push_back(
+            {Kind::srgb, "it was saved as a colour, through the sRGB curve: flat is near 188 instead of 128"});
     if (s.transfer == Transfer::linearised)
         faults.push_back({Kind::linearised,
                           "the sRGB curve was undone on values that never had it: flat is near 55 instead of 128"});
     if (s.redIsZ)
-        faults.push_back({Kind::redAndBlue, "red and blue are exchanged: red points outwards everywhere, blue does not"});
+        faults.push_back(
+            {Kind::redAndBlue, "red and blue are exchanged: red points outwards everywhere, blue does not"});
     const bool tangentSpace = s.content == Content::tangentSpace && s.transfer == Transfer::linear && !s.redIsZ;
     if (tangentSpace && s.meanLength < kShort)
         faults.push_back({Kind::tooShort, "washed out: vectors are " + longOnAverage(s.meanLength)});

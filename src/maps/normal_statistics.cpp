@@ -33,19 +33,21 @@ struct Sums {
     std::size_t strange = 0;          // of those: no normal under any reading
     std::array<double, 4> lowest{1e30, 1e30, 1e30, 1e30}, highest{-1e30, -1e30, -1e30, -1e30};
     std::array<double, 4> error2{}; // of lengths: exact, biased, decoded from sRGB, encoded to sRGB
+    std::array<double, 4> length{}; // sums
     std::array<std::size_t, 4> counted{};
-    std::size_t signedUnit = 0; // length within 0.1 of 1 as stored
+    std::size_t signedUnit = 0;         // length within 0.1 of 1 as stored
     std::array<std::size_t, 3> above{}; // the middle
     std::size_t between = 0;            // not a step of 8 bits
     ChannelRange range;
 
     void repeat(std::size_t times)
     {
-        all *= times, allGrey *= times, finite *= times, grey *= times, strange *= times, signedUnit *= times, between *= times;
+        all *= times, allGrey *= times, finite *= times, grey *= times, strange *= times, signedUnit *= times,
+            between *= times;
         for (std::size_t& a : above)
             a *= times;
         for (std::size_t i = 0; i < 4; ++i)
-            error2[i] *= double(times), counted[i] *= times;
+            error2[i] *= double(times), length[i] *= double(times), counted[i] *= times;
     }
 
     void add(const Sums& o)
@@ -63,6 +65,7 @@ struct Sums {
             lowest[i] = std::min(lowest[i], o.lowest[i]);
             highest[i] = std::max(highest[i], o.highest[i]);
             error2[i] += o.error2[i];
+            length[i] += o.length[i];
             counted[i] += o.counted[i];
         }
     }
@@ -156,6 +159,7 @@ void addStoredValues(const Image& image, Sums& sums)
         }
         for (std::size_t i = 0; i < 4; ++i) {
             s.error2[i] += (lengths[i] - 1.0) * (lengths[i] - 1.0);
+            s.length[i] += lengths[i];
             ++s.counted[i];
         }
     });
@@ -166,11 +170,17 @@ double rms(const Sums& s, std::size_t reading)
     return s.counted[reading] ? std::sqrt(s.error2[reading] / double(s.counted[reading])) : 0;
 }
 
-// sRGB bends every length; the reading that makes vectors unit is the true one.
+// Of the lengths, whatever their mean.
+double deviation(double error2, double mean) { return std::sqrt(std::max(error2 - (mean - 1) * (mean - 1), 0.0)); }
+
+// sRGB bends every length; the reading that makes vectors unit is the true one. Vectors that are all as long as each
+// other were scaled, and not bent.
 Transfer transferOf(const Sums& s)
 {
     const double stored = std::min(rms(s, 0), rms(s, 1));
-    if (stored < 0.05)
+    const double mean = s.counted[0] ? s.length[0] / double(s.counted[0]) : 1;
+    const double scaled = deviation(rms(s, 0) * rms(s, 0), mean);
+    if (stored < 0.05 || scaled < 0.5 * std::min(rms(s, 2), rms(s, 3)))
         return Transfer::linear;
     if (rms(s, 2) < 0.4 * stored && rms(s, 2) <= rms(s, 3))
         return Transfer::srgb;
@@ -273,6 +283,9 @@ Content contentOf(const NormalStatistics& s, const Sums& sums, bool constantBlue
         return twoChannelContent(s);
     if (share(sums.strange, sums.finite) > 0.1)
         return Content::other;
+    const bool upwards = share(sums.above[2], sums.finite) > 0.99;
+    if (upwards && deviation(s.lengthSpread * s.lengthSpread, s.meanLength) < 0.1)
+        return Content::tangentSpace; // shorter or longer than 1, but all alike
     if (s.belowHorizon > 0.1)
         return s.lengthSpread < 0.2 ? Content::objectSpace : Content::other;
     return s.lengthSpread < 0.25 ? Content::tangentSpace : Content::other;

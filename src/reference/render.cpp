@@ -165,7 +165,8 @@ Result<Image> draw(const Scene& scene, const View& view, const Progress& progres
 
 Status checkSize(const View& view)
 {
-    if (view.width > kLargestSide || view.height > kLargestSide)
+    const auto fits = [](int side) { return side >= 1 && side <= kLargestSide; };
+    if (!fits(view.width) || !fits(view.height))
         return usageError("picture size: expected 1 to 16384 pixels a side, found " + std::to_string(view.width) + "x"
                           + std::to_string(view.height));
     return Done{};
@@ -176,7 +177,7 @@ Status checkSize(const View& view)
 Result<Image> renderReference(const Scene& scene, const View& view, int threads, const Progress& progress)
 {
     for (const Status& ok :
-         {checkView(view), checkSize(view), checkTrianglesDrawn(scene), checkVertexAttributes(scene, view.frame)})
+         {checkSize(view), checkView(view), checkTrianglesDrawn(scene), checkVertexAttributes(scene, view.frame)})
         if (!ok)
             return ok.error();
     try {

@@ -15,9 +15,9 @@ namespace cotan {
 // Triangles in Embree's acceleration structure, for single questions from several threads.
 class LowTree {
 public:
-    // positions, indices: of the triangles, copied. shown: one a triangle: the part of the high surface that it shows, -1
-    // for all of it; empty: all triangles show all of it. threads: 0 for all.
-    // Errors: ErrorKind::unavailable where memory does not suffice, or without Embree.
+    // positions, indices: of the triangles, copied. shown: one a triangle: the part of the high surface that it shows,
+    // -1 for all of it; empty: all triangles show all of it. threads: 0 for all. Errors: ErrorKind::unavailable where
+    // memory does not suffice, or without Embree.
     static Result<LowTree> make(std::vector<glm::vec3> positions, std::vector<std::uint32_t> indices,
                                 std::vector<std::int64_t> shown, int threads);
 

@@ -49,8 +49,8 @@ struct RayStartOptions {
 // faces, at most the limit away; where that lies aside, to the point below it. The vertices of the triangle there get a
 // distance that encloses it, and 5 % and 0.002 of the diagonal more. Where nothing belongs to a vertex, the outermost
 // front within the limit on its own ray counts. Rays start no further out than another part of the low surface
-// that shows the same detail: measured ones, not those with a given extrusion. The result does not depend on the number of threads. Errors: those
-// of LowTree::make.
+// that shows the same detail: measured ones, not those with a given extrusion. The result does not depend on the number
+// of threads. Errors: those of LowTree::make.
 Result<RayStarts> makeRayStarts(const LowSurface& low, const HighSurface& high, const RayStartOptions& options,
                                 const LowRest& rest = {});
 

@@ -53,7 +53,7 @@ struct LoadLimits {
         std::min<std::uint64_t>(std::uint64_t(8) << 30, SIZE_MAX); // decoded, of all images of one model
     Pixels pixels = Pixels::all;                                   // of a glTF model
     Pose pose = Pose();    // likewise; other models have none. Written out: else g++ 12 warns in callers
-    Up up = Up::y;          // of a model
+    Up up = Up::y;         // of a model
     std::string variant{}; // of a glTF model's materials, its name or number in the file; empty: as the file has them
     Sandbox sandbox = defaultSandbox(); // where models other than glTF, and third-party formats of pictures, are read
     // Told of bytes that are about to be decoded, once their number has been found within the limits: how a reader in

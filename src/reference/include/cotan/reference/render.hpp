@@ -13,9 +13,9 @@ namespace cotan {
 // threads: 0 means all cores. progress is called from several threads.
 // Translucent materials are composed per sample in the order of their distance, whatever their number
 // of layers; of equally far ones the one drawn later is in front.
-// Errors: those of checkView (cotan/scene/view_check.hpp); ErrorKind::usage for a size over 16384 a side; ErrorKind::input over
-// kMostTrianglesDrawn (cotan/scene/bounds.hpp); ErrorKind::unavailable without the memory, or where more
-// than 1024 translucent layers a pixel meet in a tile of 32 x 32 pixels.
+// Errors: those of checkView (cotan/scene/view_check.hpp); ErrorKind::usage for a size over 16384 a side;
+// ErrorKind::input over kMostTrianglesDrawn (cotan/scene/bounds.hpp); ErrorKind::unavailable without the memory, or
+// where more than 1024 translucent layers a pixel meet in a tile of 32 x 32 pixels.
 Result<Image> renderReference(const Scene& scene, const View& view, int threads = 0, const Progress& progress = {});
 
 } // namespace cotan

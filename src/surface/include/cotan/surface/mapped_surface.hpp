@@ -64,7 +64,7 @@ struct SurfaceMesh {
     std::shared_ptr<const Mesh> mesh;
     std::vector<glm::vec2> uv; // of the map, transformed, one a vertex; empty if the mesh has none
     std::array<CornerTangents, kFrameCount> generated; // of the frames that read tangents; empty where not asked for
-    CornerCotangents cotangents; // likewise
+    CornerCotangents cotangents;                       // likewise
     bool ofCoat = false; // uv of another map than the vertices' frames: `smooth` is `cotangent` here
 };
 
