@@ -321,8 +321,9 @@ const cases = {
       for (const [, to] of script(name).matchAll(/from '(\.[^']+)'/g)) reached(path.join(path.dirname(name), to), seen);
       return seen;
     };
-    // The module in a file beside the scripts. As a text inside them it takes 2.4 % and 0.5 % more.
-    for (const [name, most] of [['tangents', 30000], ['cotan', 435000]]) {
+    // The module in a file beside the scripts. As a text inside them it takes 2.4 % and 0.5 % more. 32,000: meshes are
+    // looked at for numbers that are not finite, which took 1.3 KB over the 30,000 of before.
+    for (const [name, most] of [['tangents', 32000], ['cotan', 440000]]) {
       const beside = packed(...reached(`${name}_beside.js`), `wasm/${name}.wasm`), inside = packed(...reached(`${name}.js`));
       console.log(`${name}: ${beside} bytes gzipped, ${inside} with the wasm inside`);
       assert.ok(beside <= most, `${name}: ${beside} bytes gzipped`);
