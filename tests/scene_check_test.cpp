@@ -146,7 +146,6 @@ TEST(SceneCheck, bothRenderersRefuseAViewThatShowsNothing)
     const Scene scene = soundScene();
     const float bad = std::numeric_limits<float>::quiet_NaN();
     const std::pair<void (*)(View&, float), std::string> wrong[] = {
-        {[](View& v, float) { v.width = 0; }, "view: expected a width and a height from 1 on; found 0x16"},
         {[](View& v, float) { v.frame = Frame(99); },
          "view.frame: expected 0 to " + std::to_string(kFrameCount - 1) + "; found 99"},
         {[](View& v, float) { v.samples = 3; }, "view.samples: expected 1, 4 or 16; found 3"},
@@ -160,6 +159,9 @@ TEST(SceneCheck, bothRenderersRefuseAViewThatShowsNothing)
          "view.camera: expected a verticalFieldOfView over 0 and below pi; found 0.000000"},
     };
     EXPECT_TRUE(checkView(smallView(scene)));
+    View empty = smallView(scene);
+    empty.width = 0;
+    expectRefused(checkView(empty), "view: expected a width and a height from 1 on; found 0x16", ErrorKind::usage);
     for (const auto& [make, message] : wrong) {
         View view = smallView(scene);
         make(view, bad);
