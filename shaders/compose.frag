@@ -45,7 +45,7 @@ vec2 toSample()
 
 void main()
 {
-    uint first = newest[pixelInBand()];
+    uint first = outsideBand() ? 0u : newest[pixelInBand()];
     vec2 offset = toSample();
     float hidden = -1.0; // what is not nearer is behind an opaque surface
 #ifdef COTAN_MULTISAMPLED

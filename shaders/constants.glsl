@@ -20,6 +20,8 @@ layout(constant_id = 14) const bool GROUND = false;
 layout(constant_id = 15) const bool FOUR_SAMPLES = false; // a pixel
 layout(constant_id = 16) const bool SPECULAR_ANTIALIASING = false;
 layout(constant_id = 17) const bool LEVELS = false; // levels.glsl
+// Pixels from one sample to the next: as large is what of a texture is read for one.
+layout(constant_id = 18) const float APART = 1.0;
 
 #define OUTPUT_SHADED 0
 #define OUTPUT_NORMAL 1

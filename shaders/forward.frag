@@ -59,7 +59,11 @@ bool present(uint map, CotanTextureUse use) { return (MAPS & map) != 0u && use.v
 
 vec4 sampled(sampler2D map, CotanTextureUse use)
 {
-    return texture(map, finiteUv(transformed(use, inTexcoords + inTexcoordOrigin)));
+    vec2 uv = finiteUv(transformed(use, inTexcoords + inTexcoordOrigin));
+    if (APART == 1.0)
+        return texture(map, uv);
+    // A bias of the level would not shorten what anisotropic filters read.
+    return textureGrad(map, uv, finiteUv(dFdxFine(uv) * APART), finiteUv(dFdyFine(uv) * APART));
 }
 
 vec4 baseColor()
@@ -128,7 +132,7 @@ cotan_surface atTap(cotan_surface s, int tap)
     int aSide = tapSource.aSide;
     vec2 place = vec2(float(tap % aSide), float(tap / aSide)) - 0.5 * float(aSide - 1);
     vec2 uv = finiteUv(tapSource.uv + tapSource.dx * place.x + tapSource.dy * place.y);
-    vec4 texel = textureGrad(normalMap, uv, tapSource.dx, tapSource.dy);
+    vec4 texel = textureGrad(normalMap, uv, tapSource.dx * APART, tapSource.dy * APART);
     vec3 n = normalOfTexel(texel, tapSource.frame, tapSource.n);
     place /= float(aSide);
     s.n = cotan_normalize_or(n + tapSource.turn.x * place.x + tapSource.turn.y * place.y, n) * tapSource.side;
@@ -197,6 +201,8 @@ uint samplesOfMask(float alpha)
 #ifdef COTAN_LAYERS
 void keepLayer(vec3 light, vec3 through, uint samples, float depthX, float depthY)
 {
+    if (outsideBand())
+        return;
     uint index = atomicAdd(lists.count, 1u);
     if (index >= lists.capacity)
         return;

@@ -117,6 +117,7 @@ struct CotanLayerLists {
     uint capacity;
     uint width;    // of the picture, in pixels
     uint top;      // row of the raster at which the band starts
+    uint bottom;   // row below its last one
 };
 
 // Storage buffer, an array: one translucent fragment.

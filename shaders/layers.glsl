@@ -7,6 +7,13 @@ layout(set = 0, binding = 3, std430) buffer ListBlock {
 };
 layout(set = 0, binding = 4, std430) buffer LayerBlock { CotanLayer layers[]; };
 
+// Mesa's CPU driver (22.3) draws samples half a pixel beside the scissor's rectangle: pixels without a list.
+bool outsideBand()
+{
+    uvec2 p = uvec2(gl_FragCoord.xy);
+    return p.x >= lists.width || p.y < lists.top || p.y >= lists.bottom;
+}
+
 uint pixelInBand()
 {
     uvec2 p = uvec2(gl_FragCoord.xy);

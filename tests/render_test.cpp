@@ -203,9 +203,8 @@ TEST(RenderDevice, texturesOfTheSameImagesStayOnTheDevice)
     }
 }
 
-// But for one pixel: with four samples, translucent layers and several threads, Mesa's CPU driver (22.3) makes another
-// one of the pixel (156, 26) in one picture of a dozen. With LP_NUM_THREADS=0, with one sample and without translucent
-// layers there is no difference. The cause is not known: docs/testing.md lists it.
+// Several threads reach the same pixel in another order each time. With four samples some drivers also draw at pixels
+// just beside the scissor's rectangle, which have no list of layers.
 TEST(RenderDevice, samePictureTwiceIsTheSameBytes)
 {
     COTAN_RENDERER_OR_SKIP(renderer, {});
@@ -223,7 +222,8 @@ TEST(RenderDevice, samePictureTwiceIsTheSameBytes)
     load(renderer, opaqueOnly(everything()));
     EXPECT_EQ(differing(), 0u);
     load(renderer, everything());
-    EXPECT_LE(differing(), 1u);
+    for (int i = 0; i < 40; ++i) // threads come one after the other in another order now and then
+        EXPECT_EQ(differing(), 0u);
     view.samples = 1;
     EXPECT_EQ(differing(), 0u);
 }

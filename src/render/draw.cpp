@@ -9,6 +9,7 @@
 #include "cotan/portable.hpp"
 #include "cotan/scene/environment.hpp"
 #include "cotan/scene/ground.hpp"
+#include "cotan/scene/sample_places.hpp"
 
 namespace cotan {
 
@@ -77,6 +78,7 @@ PipelineKey forwardKey(const View& view, const Targets& targets)
         key.environmentMap = view.environment && view.environmentMap;
         key.shadows = castsShadow(view);
         key.specularAntialiasing = view.specularAntialiasing;
+        key.separateSamples = view.samples > kMostSharedSamples;
         key.softShadows = key.shadows && view.shadowSoftness > 0;
         key.toneMap = !view.linearOutput;
         key.tone = view.linearOutput ? key.tone : view.toneMapping;

@@ -33,7 +33,7 @@ class Drawer {
     // What a shadow map depends on, besides the scene.
     struct ShadowView {
         gpu::vec4 x, y, z;
-        bool pointSampled = false, finer = false;
+        bool pointSampled = false;
         bool operator==(const ShadowView&) const = default;
     };
 

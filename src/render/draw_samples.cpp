@@ -95,7 +95,7 @@ void Drawer::finish(const vk::raii::CommandBuffer& commands, const PixelArea& ar
 Result<Image> Drawer::drawOnce(GpuScene& scene, const View& view, std::optional<int> sample, RenderTimings& timings)
 {
     const Axes axes = cameraAxes(view.camera);
-    scene.setSampling(view.pointSampled, sample.has_value());
+    scene.setPointSampled(view.pointSampled);
     DrawLists lists = makeLists(scene, view, axes);
     const bool layered = view.output == Output::shaded && !lists.translucent.empty();
     const gpu::CotanView constants =
@@ -109,8 +109,7 @@ Result<Image> Drawer::drawOnce(GpuScene& scene, const View& view, std::optional<
 
     const double start = now();
     const vk::raii::CommandBuffer& commands = begin();
-    recordShadow(commands, scene, lists,
-                 {constants.shadowX, constants.shadowY, constants.shadowZ, view.pointSampled, sample.has_value()});
+    recordShadow(commands, scene, lists, {constants.shadowX, constants.shadowY, constants.shadowZ, view.pointSampled});
     if (targets_->resolves())
         recordSurround(commands, view, area);
     targets_->begin(commands, rectangle(area), layered);

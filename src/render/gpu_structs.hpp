@@ -22,7 +22,7 @@ static_assert(sizeof(CotanLight) == 64);
 static_assert(sizeof(CotanView) == 15 * 16);
 static_assert(sizeof(CotanDraw) == 128);
 static_assert(offsetof(CotanDraw, flags) == 120);
-static_assert(sizeof(CotanLayerLists) == 16);
+static_assert(sizeof(CotanLayerLists) == 20);
 static_assert(sizeof(CotanLayer) == 48);
 
 } // namespace cotan::gpu

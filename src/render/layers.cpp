@@ -44,7 +44,7 @@ std::uint32_t LayerLists::capacity() const { return static_cast<std::uint32_t>(k
 
 void LayerLists::clear(const vk::raii::CommandBuffer& commands, std::uint32_t top, std::uint32_t rows) const
 {
-    const gpu::CotanLayerLists head{0, capacity(), width_, top};
+    const gpu::CotanLayerLists head{0, capacity(), width_, top, top + rows};
     barrier(commands, Stage::eFragmentShader | Stage::eTransfer, Access::eShaderStorageRead | Access::eTransferRead,
             Stage::eTransfer, Access::eTransferWrite);
     commands.updateBuffer<gpu::CotanLayerLists>(*lists_.buffer, 0, head);

@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
+#include <bit>
 #include <memory>
 #include <thread>
 
+#include "cotan/scene/sample_places.hpp"
 #include "gpu_structs.hpp"
 #include "scene_upload.hpp"
 
@@ -23,8 +25,8 @@ vk::raii::DescriptorSetLayout makeSetLayout(const Device& device, std::span<cons
 
 // The values of shaders/constants.glsl, in the order of their numbers.
 struct Specialization {
-    std::array<std::uint32_t, 18> values;
-    std::array<vk::SpecializationMapEntry, 18> entries;
+    std::array<std::uint32_t, 19> values;
+    std::array<vk::SpecializationMapEntry, 19> entries;
     vk::SpecializationInfo info;
 
     explicit Specialization(const PipelineKey& key)
@@ -45,7 +47,8 @@ struct Specialization {
                  key.ground,
                  key.samples != vk::SampleCountFlagBits::e1,
                  key.specularAntialiasing,
-                 key.levels}
+                 key.levels,
+                 std::bit_cast<std::uint32_t>(key.separateSamples ? kPlacesApart : 1.0f)}
     {
         for (std::uint32_t i = 0; i < entries.size(); ++i)
             entries[i] = vk::SpecializationMapEntry(i, i * 4, 4);

@@ -61,6 +61,7 @@ struct PipelineKey {
     bool environmentMap = false; // a picture in place of the formula
     bool shadows = true;
     bool specularAntialiasing = false;
+    bool separateSamples = false; // each lit at a place of its own: cotan/scene/sample_places.hpp
     bool softShadows = false;
     bool toneMap = true; // false: linear output
     ToneMapping tone = ToneMapping::aces;

@@ -352,19 +352,17 @@ void GpuScene::writeTextures(std::size_t material)
     std::vector<vk::WriteDescriptorSet> writes;
     for (std::uint32_t k = 0; k < count; ++k) {
         const BoundMap& map = maps_[material][k];
-        images[k] = {samplers_.get(map.sampler, pointSampled_, finer_), map.view,
-                     vk::ImageLayout::eShaderReadOnlyOptimal};
+        images[k] = {samplers_.get(map.sampler, pointSampled_), map.view, vk::ImageLayout::eShaderReadOnlyOptimal};
         writes.emplace_back(materials[material].set, k + 1, 0, vk::DescriptorType::eCombinedImageSampler, images[k]);
     }
     device_->device.updateDescriptorSets(writes, {});
 }
 
-void GpuScene::setSampling(bool pointSampled, bool finer)
+void GpuScene::setPointSampled(bool pointSampled)
 {
-    if (pointSampled == pointSampled_ && finer == finer_)
+    if (pointSampled == pointSampled_)
         return;
     pointSampled_ = pointSampled;
-    finer_ = finer;
     for (std::size_t i = 0; i < materials.size(); ++i)
         writeTextures(i);
 }

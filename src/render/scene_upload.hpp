@@ -65,8 +65,8 @@ public:
     // For the next scene; this one cannot be drawn any more.
     Textures takeTextures() { return std::move(textures_); }
 
-    // Switches the textures of all materials between the samplers' filters and nearest texels, and to finer levels.
-    void setSampling(bool pointSampled, bool finer);
+    // Switches the textures of all materials between the samplers' filters and nearest texels.
+    void setPointSampled(bool pointSampled);
 
     std::vector<Buffer> buffers;
     std::vector<GpuMesh> meshes;
@@ -93,7 +93,7 @@ private:
     Buffer materialBuffer_;
     std::vector<std::array<BoundMap, COTAN_MAP_COUNT>> maps_; // of each material, in the order of the bindings
     vk::raii::DescriptorPool pool_{nullptr};
-    bool pointSampled_ = false, finer_ = false;
+    bool pointSampled_ = false;
 };
 
 } // namespace cotan

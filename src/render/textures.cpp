@@ -8,8 +8,6 @@
 #include <mutex>
 #include <thread>
 
-#include "cotan/scene/sample_places.hpp"
-
 namespace cotan {
 
 namespace {
@@ -79,9 +77,9 @@ const Image& whiteImage()
 
 } // namespace
 
-vk::Sampler Samplers::get(const Sampler& s, bool pointSampled, bool finer)
+vk::Sampler Samplers::get(const Sampler& s, bool pointSampled)
 {
-    const Key key{s.wrapU, s.wrapV, s.magnify, s.minify, s.mip, pointSampled, finer};
+    const Key key{s.wrapU, s.wrapV, s.magnify, s.minify, s.mip, pointSampled};
     const auto found = made_.find(key);
     if (found != made_.end())
         return *found->second;
@@ -94,7 +92,6 @@ vk::Sampler Samplers::get(const Sampler& s, bool pointSampled, bool finer)
         s.mip == MipFilter::linear && !pointSampled ? vk::SamplerMipmapMode::eLinear : vk::SamplerMipmapMode::eNearest;
     // 0.25 keeps the choice between magnification and minification, but not a second level.
     info.maxLod = pointSampled ? 0.0f : s.mip == MipFilter::none ? 0.25f : VK_LOD_CLAMP_NONE;
-    info.mipLodBias = finer && !pointSampled ? std::log2(kPlacesApart) : 0.0f;
     const bool stretch = device_->anisotropy && !pointSampled && s.mip != MipFilter::none && s.minify == Filter::linear
         && s.magnify == Filter::linear;
     info.anisotropyEnable = stretch;

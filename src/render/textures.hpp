@@ -18,11 +18,10 @@ public:
     explicit Samplers(const Device& device) : device_(&device) {}
 
     // pointSampled: nearest texel of the finest level whatever the sampler says; wrap is kept.
-    // finer: for samples that are kPlacesApart (cotan/scene/sample_places.hpp) of a pixel apart.
-    vk::Sampler get(const Sampler& sampler, bool pointSampled, bool finer);
+    vk::Sampler get(const Sampler& sampler, bool pointSampled);
 
 private:
-    using Key = std::tuple<Wrap, Wrap, Filter, Filter, MipFilter, bool, bool>;
+    using Key = std::tuple<Wrap, Wrap, Filter, Filter, MipFilter, bool>;
     const Device* device_;
     std::map<Key, vk::raii::Sampler> made_;
 };
