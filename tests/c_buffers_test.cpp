@@ -1,0 +1,484 @@
+// Every buffer that a function of cotan.h fills: as long as cotan.h says and not an element longer, and every number in
+// it. Data have no symmetry: widths are not heights, x is not y, the first place is not the last.
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include "cotan.h"
+
+namespace {
+
+char message[512];
+
+// `count` elements between two rows of others that a call must leave alone.
+template<class T> class Guarded {
+public:
+    explicit Guarded(std::size_t count) : all_(count + 2 * kAround, T(77)) {}
+    ~Guarded()
+    {
+        for (std::size_t i = 0; i < kAround; ++i) {
+            EXPECT_EQ(all_[i], T(77)) << "before the buffer";
+            EXPECT_EQ(all_[all_.size() - 1 - i], T(77)) << "behind the buffer";
+        }
+    }
+    T* data() { return all_.data() + kAround; }
+    T operator[](std::size_t i) const { return all_[kAround + i]; }
+    // Nothing of it was written.
+    bool untouched() const
+    {
+        for (const T& x : all_)
+            if (x != T(77))
+                return false;
+        return true;
+    }
+
+private:
+    static constexpr std::size_t kAround = 64;
+    std::vector<T> all_;
+};
+
+template<class T> cotan_picture pictureOf(T* pixels, int width, int height)
+{
+    return {sizeof(cotan_picture), width, height, int(8 * sizeof(T)), pixels};
+}
+
+// A picture of one colour, floats.
+std::vector<float> filled(int width, int height, std::array<float, 3> c)
+{
+    std::vector<float> pixels;
+    for (int i = 0; i < width * height; ++i)
+        pixels.insert(pixels.end(), {c[0], c[1], c[2], 1});
+    return pixels;
+}
+
+// The number that a map of floats stores for one from -1 to 1.
+float stored(double x) { return float(0.5 * x + 0.5); }
+
+void expectPixel(const float* pixel, double x, double y, double z, double tolerance)
+{
+    EXPECT_NEAR(2 * double(pixel[0]) - 1, x, tolerance);
+    EXPECT_NEAR(2 * double(pixel[1]) - 1, y, tolerance);
+    EXPECT_NEAR(2 * double(pixel[2]) - 1, z, tolerance);
+}
+
+constexpr double kRounding = 1e-6; // of floats
+
+// Two triangles that share an edge, without symmetry: u runs along 2 x, v along -3 y. Vertex 4 belongs to none.
+struct TwoTriangles {
+    std::vector<float> positions{0, 0, 0, 2, 0, 0, 2, 3, 0, 0, 3, 0, 9, 9, 9};
+    std::vector<float> normals{0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1};
+    std::vector<float> texcoords{0, 1, 1, 1, 1, 0, 0, 0, 0.5f, 0.5f};
+    std::vector<std::uint32_t> indices{0, 1, 2, 0, 2, 3};
+    cotan_mesh mesh() const
+    {
+        return {sizeof(cotan_mesh), 5, positions.data(), normals.data(), texcoords.data(), 6, indices.data()};
+    }
+};
+
+} // namespace
+
+TEST(CBuffers, tangentsAreFourFloatsAnIndex)
+{
+    const TwoTriangles two;
+    const cotan_mesh mesh = two.mesh();
+    for (const char* kind : {"mikktspace", "vertex"}) {
+        Guarded<float> tangents(4 * mesh.index_count);
+        ASSERT_EQ(cotan_tangents(kind, &mesh, 1, tangents.data(), message, sizeof message), COTAN_OK) << message;
+        for (std::size_t i = 0; i < mesh.index_count; ++i) {
+            EXPECT_NEAR(tangents[4 * i], 1, kRounding);
+            EXPECT_NEAR(tangents[4 * i + 1], 0, kRounding);
+            EXPECT_NEAR(tangents[4 * i + 2], 0, kRounding);
+            EXPECT_EQ(tangents[4 * i + 3], 1); // cross(n, t) = +y, towards smaller v
+        }
+    }
+    Guarded<float> tangents(4 * mesh.index_count);
+    EXPECT_EQ(cotan_tangents("tangent", &mesh, 1, tangents.data(), message, sizeof message), COTAN_USAGE);
+    EXPECT_TRUE(tangents.untouched());
+}
+
+TEST(CBuffers, aMeshOfAnIndexTooHighOrHalfATriangleIsRefused)
+{
+    TwoTriangles two;
+    Guarded<float> out(4 * 6);
+    cotan_mesh mesh = two.mesh();
+    mesh.index_count = 5;
+    EXPECT_EQ(cotan_tangents("mikktspace", &mesh, 1, out.data(), message, sizeof message), COTAN_USAGE) << message;
+    two.indices[5] = 5; // as many as there are vertices
+    mesh = two.mesh();
+    EXPECT_EQ(cotan_tangents("mikktspace", &mesh, 1, out.data(), message, sizeof message), COTAN_INPUT) << message;
+    EXPECT_NE(std::strstr(message, "indices[5]"), nullptr) << message;
+    two.indices[5] = 4;
+    two.positions[13] = std::numeric_limits<float>::infinity();
+    mesh = two.mesh();
+    EXPECT_EQ(cotan_tangents("mikktspace", &mesh, 1, out.data(), message, sizeof message), COTAN_INPUT) << message;
+    EXPECT_NE(std::strstr(message, "positions[4]"), nullptr) << message;
+    EXPECT_TRUE(out.untouched());
+}
+
+TEST(CBuffers, cotangentsAreThreeFloatsAVertex)
+{
+    const TwoTriangles two;
+    const cotan_mesh mesh = two.mesh();
+    Guarded<float> u(3 * 5), v(3 * 5);
+    ASSERT_EQ(cotan_smooth_cotangents(&mesh, u.data(), v.data(), message, sizeof message), COTAN_OK) << message;
+    for (std::size_t i = 0; i < 4; ++i) { // u rises by 1 over 2 units, v falls by 1 over 3: |u| / |v| is 3 / 2
+        EXPECT_GT(u[3 * i], 0);
+        EXPECT_GT(-v[3 * i + 1], 0);
+        EXPECT_NEAR(u[3 * i] / -v[3 * i + 1], 1.5f, 1e-5);
+        EXPECT_NEAR(u[3 * i + 1], 0, kRounding);
+        EXPECT_NEAR(v[3 * i], 0, kRounding);
+    }
+}
+
+TEST(CBuffers, triangleVectorsAreOneFloatAnIndexAndPackIntoThreeWordsATriangle)
+{
+    const TwoTriangles two;
+    const cotan_mesh mesh = two.mesh();
+    Guarded<float> u(mesh.index_count), v(mesh.index_count);
+    ASSERT_EQ(cotan_triangle_vectors(&mesh, 1, u.data(), v.data(), message, sizeof message), COTAN_OK) << message;
+    for (std::size_t t = 0; t < 2; ++t) { // cross(n, u) runs along u of the texture, cross(n, v) along its v
+        EXPECT_GT(-u[3 * t + 1], 0);
+        EXPECT_NEAR(-u[3 * t + 1] / -v[3 * t], 1.5f, 1e-5);
+        for (const float none : {u[3 * t], u[3 * t + 2], v[3 * t + 1], v[3 * t + 2]})
+            EXPECT_NEAR(none, 0, kRounding);
+    }
+    Guarded<std::uint32_t> words(3 * 2);
+    ASSERT_EQ(cotan_pack_triangles(2, u.data(), v.data(), words.data(), message, sizeof message), COTAN_OK) << message;
+    const auto half = [&](std::size_t i) { // without the sign of a zero
+        const std::uint32_t h = words[i / 2] >> (16 * (i % 2)) & 0xffff;
+        return h == 0x8000 ? 0 : h;
+    };
+    for (std::size_t i = 0; i < 6; ++i)
+        EXPECT_EQ(half(i), half(6 + i)) << i; // both triangles have the same vectors
+    EXPECT_NE(half(1), 0u);                   // u.y
+    EXPECT_NE(half(3), 0u);                   // v.x
+}
+
+TEST(CBuffers, packedCotangentsAndTangentsHaveTheirSizes)
+{
+    const std::vector<float> normals{0, 0, 1, 0, 1, 0, 1, 0, 0}, u{1, 0, 0, 2, 0, 0, 0, 3, 0},
+        v{0, -1, 0, 0, 0, -2, 0, 0, 1};
+    Guarded<std::int16_t> eight(4 * 3);
+    Guarded<std::uint32_t> four(3);
+    ASSERT_EQ(cotan_pack_smooth8(3, normals.data(), u.data(), v.data(), eight.data(), message, sizeof message),
+              COTAN_OK);
+    ASSERT_EQ(cotan_pack_smooth4(3, normals.data(), u.data(), v.data(), four.data(), message, sizeof message),
+              COTAN_OK);
+    for (std::size_t i = 0; i < 3; ++i)
+        EXPECT_NE(four[i], 77u);
+    const std::vector<float> tangents{1, 0, 0, 1, 1, 0, 0, -1, 0, 1, 0, 1};
+    Guarded<std::uint16_t> two(3);
+    ASSERT_EQ(cotan_pack_tangents(3, normals.data(), tangents.data(), two.data(), message, sizeof message), COTAN_OK);
+    for (std::size_t i = 0; i < 3; ++i)
+        EXPECT_NE(two[i], 77u);
+}
+
+// Corners of the shared edge differ in w: its two vertices are copied, the others not.
+TEST(CBuffers, splitVerticesFillsIndicesAndAsManySourcesAsItSays)
+{
+    const TwoTriangles two;
+    std::vector<float> corners;
+    for (const float w : {1.0f, 1.0f, 1.0f, -1.0f, -1.0f, -1.0f})
+        corners.insert(corners.end(), {1, 0, 0, w});
+    Guarded<std::uint32_t> indices(6), sources(5 + 6);
+    std::size_t count = 0;
+    ASSERT_EQ(cotan_split_vertices(5, 6, two.indices.data(), corners.data(), indices.data(), sources.data(), &count,
+                                   message, sizeof message),
+              COTAN_OK);
+    ASSERT_EQ(count, 7u);
+    for (std::uint32_t i = 0; i < 5; ++i)
+        EXPECT_EQ(sources[i], i); // the old ones first
+    std::array<int, 5> used{};
+    for (std::size_t i = 0; i < 6; ++i) {
+        ASSERT_LT(indices[i], count);
+        EXPECT_EQ(sources[indices[i]], two.indices[i]);
+        ++used[sources[indices[i]]];
+    }
+    EXPECT_NE(indices[0], indices[3]);
+    EXPECT_NE(indices[2], indices[4]);
+    EXPECT_EQ(used, (std::array<int, 5>{2, 1, 2, 1, 0}));
+    EXPECT_EQ(sources[7], 77u) << "beyond the count";
+}
+
+TEST(CBuffers, provokingNumbersTheTrianglesByTheirFirstOrLastCorner)
+{
+    const TwoTriangles two;
+    for (const int last : {0, 1}) {
+        Guarded<std::uint32_t> indices(6), sources(5 + 6), corners(6);
+        std::size_t count = 0;
+        ASSERT_EQ(cotan_provoking(5, 6, two.indices.data(), last, indices.data(), sources.data(), &count,
+                                  corners.data(), message, sizeof message),
+                  COTAN_OK)
+            << message;
+        for (std::uint32_t t = 0; t < 2; ++t) {
+            EXPECT_EQ(indices[3 * t + (last != 0 ? 2 : 0)], t);
+            EXPECT_EQ(corners[3 * t], sources[t]) << "the provoking corner comes first";
+            for (std::uint32_t k = 0; k < 3; ++k)
+                ASSERT_LT(indices[3 * t + k], count);
+        }
+    }
+}
+
+TEST(CBuffers, framesFillThreeFloatsAPlaceAndNothingOfNone)
+{
+    const std::vector<float> normals{0, 0, 1, 0, 1, 0}, dpdx{1, 0, 0, 1, 0, 0}, dpdy{0, 1, 0, 0, 0, -1};
+    const std::vector<float> duvdx{1, 0, 1, 0}, duvdy{0, 1, 0, 1}, texels{0.6f, 0, 0.8f, 0, 0.6f, 0.8f};
+    cotan_places places = {sizeof places, 2, normals.data(), dpdx.data(), dpdy.data(), duvdx.data(), duvdy.data()};
+    Guarded<float> out(6), back(6);
+    ASSERT_EQ(cotan_frame_apply("orthonormal", &places, texels.data(), out.data(), message, sizeof message), COTAN_OK);
+    const std::array<float, 6> expected{0.6f, 0, 0.8f, 0, 0.8f, -0.6f}; // u along x; v along y, then along -z
+    for (std::size_t i = 0; i < 6; ++i)
+        EXPECT_NEAR(out[i], expected[i], kRounding) << i;
+    ASSERT_EQ(cotan_frame_encode("orthonormal", &places, out.data(), back.data(), message, sizeof message), COTAN_OK);
+    for (std::size_t i = 0; i < 6; ++i)
+        EXPECT_NEAR(back[i], texels[i], kRounding) << i;
+    places.count = 0;
+    Guarded<float> none(6);
+    EXPECT_EQ(cotan_frame_apply("orthonormal", &places, texels.data(), none.data(), message, sizeof message), COTAN_OK);
+    EXPECT_EQ(cotan_frame_encode("orthonormal", &places, texels.data(), none.data(), message, sizeof message),
+              COTAN_OK);
+    EXPECT_TRUE(none.untouched());
+}
+
+TEST(CBuffers, namesOfFramesEndWithTheirCount)
+{
+    const int count = cotan_frame_count();
+    ASSERT_GT(count, 10);
+    EXPECT_STREQ(cotan_frame_name(0), "cotangent");
+    EXPECT_NE(cotan_frame_name(count - 1), nullptr);
+    EXPECT_EQ(cotan_frame_name(count), nullptr);
+    EXPECT_EQ(cotan_frame_name(-1), nullptr);
+}
+
+TEST(CBuffers, mapsAreConvertedWithinTheirBufferAndOnlyGreenTurnsForDirectX)
+{
+    constexpr int kWidth = 5, kHeight = 3;
+    const auto pixels = filled(kWidth, kHeight, {stored(0.6), stored(0.48), stored(0.64)});
+    cotan_picture map = pictureOf(const_cast<float*>(pixels.data()), kWidth, kHeight);
+    Guarded<float> floats(4 * kWidth * kHeight);
+    cotan_picture out = pictureOf(floats.data(), kWidth, kHeight);
+    ASSERT_EQ(cotan_map_convert(&map, "opengl", "directx", &out, message, sizeof message), COTAN_OK) << message;
+    for (int i = 0; i < kWidth * kHeight; ++i)
+        expectPixel(floats.data() + 4 * i, 0.6, -0.48, 0.64, kRounding);
+    Guarded<std::uint8_t> bytes(4 * kWidth * kHeight);
+    out = pictureOf(bytes.data(), kWidth, kHeight);
+    ASSERT_EQ(cotan_map_convert(&map, "opengl", "opengl", &out, message, sizeof message), COTAN_OK) << message;
+    for (std::size_t i = 0; i < std::size_t(kWidth * kHeight); ++i) {
+        EXPECT_NEAR(bytes[4 * i], 128 + 0.6 * 127, 1); // 0 is 128, 1 is 255
+        EXPECT_NEAR(bytes[4 * i + 1], 128 + 0.48 * 127, 1);
+        EXPECT_NEAR(bytes[4 * i + 2], 128 + 0.64 * 127, 1);
+        EXPECT_EQ(bytes[4 * i + 3], 255);
+    }
+}
+
+TEST(CBuffers, picturesOfAnotherSizeOrDepthAreRefusedOnBothSidesOfEachBound)
+{
+    const auto pixels = filled(5, 3, {0.5f, 0.5f, 1});
+    cotan_picture map = pictureOf(const_cast<float*>(pixels.data()), 5, 3);
+    Guarded<float> floats(4 * 6 * 4);
+    for (const auto& [width, height] : {std::pair{5, 4}, {4, 3}, {6, 3}, {5, 2}, {3, 5}}) {
+        cotan_picture out = pictureOf(floats.data(), width, height);
+        EXPECT_EQ(cotan_map_convert(&map, "gltf", "gltf", &out, message, sizeof message), COTAN_USAGE)
+            << width << height;
+        EXPECT_EQ(cotan_map_from_height(&map, 1, 1, "gltf", &out, message, sizeof message), COTAN_USAGE);
+        EXPECT_EQ(cotan_map_blend(&map, &map, "gltf", "udn", 1, &out, message, sizeof message), COTAN_USAGE);
+    }
+    cotan_green green = {};
+    green.size = sizeof green;
+    for (const auto& [width, height] : {std::pair{0, 3}, {5, 0}, {-1, 3}, {65537, 1}, {1, 65537}}) {
+        cotan_picture wrong = pictureOf(floats.data(), width, height);
+        EXPECT_EQ(cotan_map_green(&wrong, &green, message, sizeof message), COTAN_USAGE) << width << " " << height;
+    }
+    for (const int bits : {0, 7, 9, 15, 24, 64}) {
+        cotan_picture wrong = map;
+        wrong.bits = bits;
+        EXPECT_EQ(cotan_map_green(&wrong, &green, message, sizeof message), COTAN_USAGE) << bits;
+    }
+    std::vector<std::uint8_t> row(4 * 65536, 128);
+    for (const auto& [width, height] : {std::pair{65536, 1}, {1, 65536}}) {
+        cotan_picture longest = pictureOf(row.data(), width, height);
+        EXPECT_EQ(cotan_map_green(&longest, &green, message, sizeof message), COTAN_OK) << message;
+    }
+    EXPECT_TRUE(floats.untouched());
+}
+
+// Domes in a row of four and a column of two. Round ones look the same with red and green exchanged, from their
+// diagonal.
+TEST(CBuffers, greenIsToldWithEveryNumberOfItsVerdict)
+{
+    constexpr int kSide = 32;
+    for (const int up : {1, -1}) {
+        std::vector<float> pixels;
+        for (int y = 0; y < 2 * kSide; ++y)
+            for (int x = 0; x < 4 * kSide; ++x) {
+                const double dx = (x % kSide + 0.5) / kSide * 2 - 1, dy = 1 - (y % kSide + 0.5) / kSide * 2;
+                const double inside = dx * dx + dy * dy < 0.8 ? 0.7 : 0, nx = inside * dx, ny = inside * dy * up;
+                pixels.insert(pixels.end(), {stored(nx), stored(ny), stored(std::sqrt(1 - nx * nx - ny * ny)), 1});
+            }
+        cotan_picture map = pictureOf(pixels.data(), 4 * kSide, 2 * kSide);
+        cotan_green green = {};
+        green.size = sizeof green;
+        ASSERT_EQ(cotan_map_green(&map, &green, message, sizeof message), COTAN_OK) << message;
+        EXPECT_EQ(green.direction, up) << green.reason;
+        EXPECT_EQ(green.swapped, -1);
+        EXPECT_EQ(green.confidence, 2);
+        EXPECT_GT(green.agreement * up, 0.5); // of green with what belongs to red: with its sign
+        EXPECT_LE(std::abs(green.agreement), 1);
+        EXPECT_GT(std::strlen(green.reason), 10u);
+    }
+}
+
+TEST(CBuffers, aMapIsDescribedByAllItsNumbers)
+{
+    std::vector<float> pixels = filled(8, 5, {stored(0.6), stored(0.2), stored(std::sqrt(1 - 0.36 - 0.04))});
+    for (int i = 0; i < 8; ++i) // the last row looks down
+        pixels[std::size_t(4 * (32 + i) + 2)] = stored(-std::sqrt(1 - 0.36 - 0.04));
+    pixels[0] = std::numeric_limits<float>::quiet_NaN();
+    cotan_picture map = pictureOf(pixels.data(), 8, 5);
+    cotan_map_info info = {};
+    info.size = sizeof info;
+    ASSERT_EQ(cotan_map_describe(&map, &info, message, sizeof message), COTAN_OK) << message;
+    EXPECT_NEAR(info.invalid, 1.0 / 40, 1e-9);
+    EXPECT_NEAR(info.below_horizon, 8.0 / 39, 1.0 / 39 / 40 * 8); // of all texels, or of the valid ones
+    EXPECT_NEAR(info.mean_length, 1, 1e-5);
+    EXPECT_NEAR(info.mean[0], 0.6, 1e-5);
+    EXPECT_NEAR(info.mean[1], 0.2, 1e-5);
+    const double z = std::sqrt(0.6);
+    EXPECT_NEAR(info.mean[2], z * (31.0 - 8) / 39, 1e-5);
+    const double tilt = std::acos(z) * 180 / std::numbers::pi;
+    EXPECT_NEAR(info.mean_tilt, (31 * tilt + 8 * (180 - tilt)) / 39, 1e-3);
+    EXPECT_EQ(info.background, 0);
+    EXPECT_EQ(info.srgb, 0);
+    EXPECT_GT(std::strlen(info.content), 3u);
+}
+
+// A ramp whose stored height rises by a tenth a texel along x and falls by a twentieth along y.
+TEST(CBuffers, slopesOfHeightsHaveAFactorForEachAxis)
+{
+    constexpr int kWidth = 7, kHeight = 6;
+    std::vector<float> pixels;
+    for (int y = 0; y < kHeight; ++y)
+        for (int x = 0; x < kWidth; ++x)
+            pixels.insert(pixels.end(), {0.1f * float(x) - 0.05f * float(y), 9, 9, 1}); // only red is read
+    cotan_picture height = pictureOf(pixels.data(), kWidth, kHeight);
+    Guarded<float> made(4 * kWidth * kHeight);
+    cotan_picture map = pictureOf(made.data(), kWidth, kHeight);
+    ASSERT_EQ(cotan_map_from_height(&height, 2, 3, "gltf", &map, message, sizeof message), COTAN_OK) << message;
+    const double sx = -2 * 0.1, sy = -3 * 0.05, length = std::sqrt(1 + sx * sx + sy * sy); // rises up the picture
+    for (int y = 1; y + 1 < kHeight; ++y) // heights repeat over the borders
+        for (int x = 1; x + 1 < kWidth; ++x)
+            expectPixel(made.data() + 4 * (y * kWidth + x), sx / length, sy / length, 1 / length, 1e-5);
+    for (const double bad : {double(NAN), double(INFINITY)}) {
+        EXPECT_EQ(cotan_map_from_height(&height, bad, 1, "gltf", &map, message, sizeof message), COTAN_USAGE);
+        EXPECT_EQ(cotan_map_from_height(&height, 1, bad, "gltf", &map, message, sizeof message), COTAN_USAGE);
+    }
+}
+
+TEST(CBuffers, heightsAreOneFloatATexelWithMeanZero)
+{
+    constexpr int kWidth = 6, kHeight = 4;
+    std::vector<float> pixels;
+    for (int y = 0; y < kHeight; ++y)
+        for (int x = 0; x < kWidth; ++x) {
+            const double slope = 0.3 * std::sin(2 * std::numbers::pi * (x + 0.5) / kWidth);
+            pixels.insert(pixels.end(), {stored(slope), stored(0), stored(std::sqrt(1 - slope * slope)), 1});
+        }
+    cotan_picture map = pictureOf(pixels.data(), kWidth, kHeight);
+    Guarded<float> heights(kWidth * kHeight);
+    ASSERT_EQ(cotan_map_to_height(&map, "gltf", heights.data(), message, sizeof message), COTAN_OK) << message;
+    double sum = 0, differing = 0;
+    for (int y = 0; y < kHeight; ++y)
+        for (int x = 0; x < kWidth; ++x) {
+            sum += double(heights[std::size_t(y * kWidth + x)]);
+            differing =
+                std::max(differing, std::abs(double(heights[std::size_t(y * kWidth + x)] - heights[std::size_t(x)])));
+        }
+    EXPECT_NEAR(sum, 0, 1e-5);
+    EXPECT_LT(differing, 1e-5);        // all rows alike
+    EXPECT_GT(heights[0], heights[3]); // normals lean to +x first, so it falls there
+}
+
+// Slopes add up in the mode "slopes", those of the detail times its strength.
+TEST(CBuffers, detailIsLaidOverTheBaseWithItsStrength)
+{
+    const auto leaning = [](double x, double y) {
+        const double z = 1 / std::sqrt(1 + x * x + y * y);
+        return filled(3, 2, {stored(x * z), stored(y * z), stored(z)});
+    };
+    auto base = leaning(0.3, 0.1), detail = leaning(0, 0.2);
+    const cotan_picture under = pictureOf(base.data(), 3, 2), over = pictureOf(detail.data(), 3, 2);
+    for (const double strength : {0.0, 0.5, 2.0}) {
+        Guarded<float> made(4 * 3 * 2);
+        cotan_picture map = pictureOf(made.data(), 3, 2);
+        ASSERT_EQ(cotan_map_blend(&under, &over, "gltf", "slopes", strength, &map, message, sizeof message), COTAN_OK)
+            << message;
+        const double sy = 0.1 + strength * 0.2, z = 1 / std::sqrt(1 + 0.09 + sy * sy);
+        for (int i = 0; i < 6; ++i)
+            expectPixel(made.data() + 4 * i, 0.3 * z, sy * z, z, 1e-5);
+    }
+    Guarded<float> made(4 * 3 * 2);
+    cotan_picture map = pictureOf(made.data(), 3, 2);
+    EXPECT_EQ(cotan_map_blend(&under, &over, "gltf", "slope", 1, &map, message, sizeof message), COTAN_USAGE);
+    EXPECT_EQ(cotan_map_blend(&under, &over, "gltf", "slopes", NAN, &map, message, sizeof message), COTAN_USAGE);
+    EXPECT_TRUE(made.untouched());
+}
+
+TEST(CBuffers, levelsHalveEachSideAndAnotherAnswerThanZeroStops)
+{
+    auto pixels = filled(12, 5, {0.5f, 0.5f, 1});
+    const cotan_picture map = pictureOf(pixels.data(), 12, 5);
+    struct Seen {
+        std::vector<std::array<int, 5>> levels;
+        int stopAt = -1;
+    } seen;
+    const auto take = [](void* user, int level, const cotan_picture* normals, const cotan_picture* rough) {
+        Seen& s = *static_cast<Seen*>(user);
+        s.levels.push_back({level, normals->width, normals->height, rough->width, rough->height});
+        EXPECT_NEAR(static_cast<const float*>(rough->pixels)[0], 0.25, 0.01);
+        return level == s.stopAt ? 1 : 0;
+    };
+    ASSERT_EQ(cotan_map_mips(&map, "gltf", 0.25, take, &seen, message, sizeof message), COTAN_OK) << message;
+    ASSERT_EQ(seen.levels.size(), 4u);
+    for (int i = 0; i < 4; ++i) {
+        const int width = std::max(1, 12 >> i), height = std::max(1, 5 >> i);
+        EXPECT_EQ(seen.levels[std::size_t(i)], (std::array<int, 5>{i, width, height, width, height}));
+    }
+    seen = {{}, 1};
+    EXPECT_EQ(cotan_map_mips(&map, "gltf", 0.25, take, &seen, message, sizeof message), COTAN_STOPPED);
+    EXPECT_EQ(seen.levels.size(), 2u);
+    for (const double bad : {-0.01, 1.01, double(NAN)})
+        EXPECT_EQ(cotan_map_mips(&map, "gltf", bad, take, &seen, message, sizeof message), COTAN_USAGE) << bad;
+}
+
+TEST(CBuffers, shaderTextFillsABufferOfItsSizeAndLeavesASmallerOneAlone)
+{
+    std::size_t size = 0;
+    ASSERT_EQ(cotan_shader_text("glsl", "orthonormal", "gltf", nullptr, &size, message, sizeof message), COTAN_OK);
+    ASSERT_GT(size, 100u);
+    const std::size_t needed = size;
+    Guarded<char> exact(needed), small(needed);
+    ASSERT_EQ(cotan_shader_text("glsl", "orthonormal", "gltf", exact.data(), &size, message, sizeof message), COTAN_OK);
+    EXPECT_EQ(size, needed);
+    EXPECT_EQ(std::strlen(exact.data()) + 1, needed);
+    size = needed - 1;
+    EXPECT_EQ(cotan_shader_text("glsl", "orthonormal", "gltf", small.data(), &size, message, sizeof message), COTAN_OK);
+    EXPECT_EQ(size, needed);
+    EXPECT_TRUE(small.untouched());
+}
+
+TEST(CBuffers, messagesAreCutToTheirBuffer)
+{
+    for (const std::size_t size : {std::size_t(1), std::size_t(2), std::size_t(10)}) {
+        Guarded<char> text(size);
+        EXPECT_EQ(cotan_frame_apply("nothing", nullptr, nullptr, nullptr, text.data(), size), COTAN_USAGE);
+        EXPECT_EQ(text[size - 1], '\0');
+        EXPECT_EQ(std::strlen(text.data()), size - 1);
+    }
+    EXPECT_EQ(cotan_frame_apply("nothing", nullptr, nullptr, nullptr, nullptr, 0), COTAN_USAGE);
+}

@@ -1,0 +1,290 @@
+"""Mistakes drawn at random over all code: what `scripts/mutants --random N --seed S` does."""
+import collections
+import concurrent.futures
+import pathlib
+import random
+import re
+import shutil
+import subprocess
+import tempfile
+import time
+
+import mistakes
+import plant
+from plant import HOME, WORK
+
+# Which tests could notice a mistake in a folder, the nearest first; `python:` and `c_api` run over the C library.
+TESTS = {
+    "apps/cotan": "cli_test tangents_command_test files_test help_test words_test judgement_command_test map_command_test bake_command_test",
+    "apps/viewer": "viewer_test",
+    "bindings/js": "web",
+    "bindings/python": "python:arrays python:bake python:maps python:models python:geometry python:render python:work python:json",
+    "shaders/cotan": "core_test tangents_test reference_test frame_table_test shader_text_test",
+    "src/bake": "bake_test bake_command_test python:bake",
+    "src/batch": "batch_test batch_command_test",
+    "src/c": "c_buffers_test c_facts c_api python:geometry python:maps python:bake python:models python:render",
+    "src/convert": "convert_test judgement_test tangents_gltf_test",
+    "src/core": "core_test tangents_test map_test geometry_test",
+    "src/cost": "cost_test",
+    "src/draw": "draw_test figures_test",
+    "src/environment": "environment_test reference_test",
+    "src/figures": "figures_test lighting_test",
+    "src/files": "files_test map_command_test",
+    "src/gltf": "gltf_test gltf_bad_test gltf_edit_test gltf_models_test tangents_gltf_test convert_test",
+    "src/ground": "environment_test",
+    "src/image": "image_test map_test gltf_test",
+    "src/inspect": "viewer_test draw_test",
+    "src/lint": "lint_test judgement_test auto_frame_test",
+    "src/map_files": "map_command_test python:maps",
+    "src/maps": "map_test map_command_test",
+    "src/model": "obj_test assimp_test gltf_test models_test",
+    "src/parallel": "map_test bake_test",
+    "src/picture": "environment_test cli_test models_test",
+    "src/reference": "reference_test draw_test",
+    "src/render": "render_test",
+    "src/report": "report_test lint_test judgement_test",
+    "src/sandbox": "sandbox_test assimp_test",
+    "src/scene": "geometry_test shapes_test gltf_test reference_test environment_test",
+    "src/shader_text": "shader_text_test frame_table_test",
+    "src/shapes": "shapes_test",
+    "src/surface": "figures_test reference_test draw_test",
+    "src/surroundings": "environment_test",
+    "src/terminal": "cli_test words_test",
+    "src/truth": "figures_test lighting_test accuracy_test",
+    "src/verify": "draw_test bake_command_test",
+}
+ENDINGS = (".cpp", ".hpp", ".h", ".py", ".js")
+EQUIVALENT = HOME / "tests/mutation/equivalent.txt"
+BAR = 0.85
+MOST_OF_A_FILE = 6  # mistakes, so that none of them hides in another's text
+
+
+class Drawn:
+    def __init__(self, number, file, text, mistake):
+        self.number, self.file, self.mistake = number, file, mistake
+        self.part = "/".join(file.split("/")[:2])
+        self.right = text[mistake.start:mistake.end]
+        self.line = text.count("\n", 0, mistake.start) + 1
+        self.script = file.endswith((".py", ".js"))
+        words = lambda s: " ".join(s.split())
+        self.said = f"{file}:{self.line}: {mistake.kind}: {words(self.right)[:100]} => {words(mistake.wrong)[:100]}"
+        source = text.split("\n")[self.line - 1]
+        self.place = f"{file}: {words(source)[:160]}: {words(mistake.wrong)[:100]}"
+
+    def planted(self):
+        n, m = self.number, self.mistake
+        if m.kind == "early return":
+            return f"if (cotan_mutant({n})) {m.wrong} "
+        if m.kind == "guard":
+            return f"!cotan_mutant({n}) && ({self.right})"
+        if m.statement:
+            return f"{{ if (cotan_mutant({n})) {{ {m.wrong} }} else {{ {self.right} }} }}"
+        return f"(cotan_mutant({n}) ? ({m.wrong}) : ({self.right}))"
+
+
+def draw(count, seed, parts):
+    """Mistakes at lines drawn evenly from the code of `parts`, and of the kinds at a line one drawn evenly; none inside another."""
+    names = subprocess.run(["git", "-C", HOME, "ls-files", "src", "apps", "shaders/cotan", "bindings"], check=True,
+                           capture_output=True, text=True).stdout.split()
+    texts = {n: (HOME / n).read_text() for n in sorted(names) if n.endswith(ENDINGS) and "/".join(n.split("/")[:2]) in parts}
+    lines = [(name, i + 1) for name, text in texts.items() for i in range(text.count("\n"))]
+    dice, drawn, found, used = random.Random(seed), [], {}, collections.defaultdict(list)
+    for name, line in dice.sample(lines, len(lines)):
+        if len(drawn) == count:
+            break
+        if name not in found:
+            found[name] = collections.defaultdict(list)
+            for m in mistakes.mistakes_in(texts[name], script=name.endswith((".py", ".js"))):
+                found[name][texts[name].count("\n", 0, m.start) + 1].append(m)
+        here = found[name].get(line, [])
+        if not here or len(used[name]) == MOST_OF_A_FILE:
+            continue
+        kind = dice.choice(sorted({m.kind for m in here}))
+        mistake = dice.choice([m for m in here if m.kind == kind])
+        if any(mistake.start < end + 1 and start < mistake.end + 1 for start, end in used[name]):
+            continue
+        used[name].append((mistake.start, mistake.end))
+        drawn.append(Drawn(len(drawn) + 1, name, texts[name], mistake))
+    return drawn, texts
+
+
+def planted_texts(drawn, texts):
+    changed = {}
+    for d in sorted(drawn, key=lambda d: d.mistake.start, reverse=True):
+        if not d.script:
+            text = changed.get(d.file, texts[d.file])
+            end = d.mistake.start if d.mistake.kind == "early return" else d.mistake.end
+            changed[d.file] = text[:d.mistake.start] + d.planted() + text[end:]
+    return changed
+
+
+def those_that_do_not_compile(output, drawn, changed):
+    """The mistakes on the lines that the compiler complains of; where there is none, all of the files that it names."""
+    by_number = {d.number: d for d in drawn}
+    bad, files = set(), set()
+    for block in re.split(r"\nFAILED: ", output)[1:]:
+        here, named = set(), set()
+        for file, line, what in re.findall(r"([^\s:]*(?:source|portable)/[^\s:]+):(\d+):\d+:\s+(\w+)", block):
+            for root in (plant.SOURCE, plant.PORTABLE.parent / "portable"):
+                if file.startswith(str(root)):
+                    file = file[len(str(root)) + 1:]
+            name = file if file in changed else f"shaders/{file}"
+            if name not in changed:
+                continue
+            named.add(name)
+            lines = changed[name].split("\n")
+            at = int(line) - (0 if name.startswith("shaders/cotan/") else 1) - 1
+            near = lines[at] if 0 <= at < len(lines) else ""
+            if what == "error" or not here:
+                here |= {int(n) for n in re.findall(r"cotan_mutant\((\d+)\)", near)} & by_number.keys()
+        bad |= here
+        if not here:
+            files |= named
+    return bad | {d.number for d in drawn if d.file in files and not d.script}
+
+
+def build_what_compiles(drawn, texts, targets, jobs):
+    """Builds, leaving out what does not compile; gives the mistakes that are in, and those that are not."""
+    inside, outside = list(drawn), []
+    for _ in range(12):
+        changed = planted_texts(inside, texts)
+        plant.copy_sources(changed)
+        plant.configure()
+        code, output = plant.build(targets, jobs, go_on=True)
+        if code == 0:
+            return inside, outside
+        (WORK / "build.txt").write_text(output)
+        bad = those_that_do_not_compile(output, inside, changed)
+        print(f"{len(bad)} mistakes do not compile", flush=True)
+        if not bad:
+            raise SystemExit(f"mutants: the build fails, not by a mistake: {WORK / 'build.txt'}")
+        outside += [d for d in inside if d.number in bad]
+        inside = [d for d in inside if d.number not in bad]
+    raise SystemExit("mutants: the build fails again and again")
+
+
+class Web:
+    """The npm package, put together anew for each mistake; its modules are built once."""
+
+    CASES = ("package_test.mjs", "gltf_transform_test.mjs", "three_test.mjs")
+
+    def __init__(self):
+        self.modules = HOME / "build/dev/web"
+        self.npm = HOME / "build/dev/npm/node_modules"
+
+    def missing(self):
+        return not (list(self.modules.glob("npm/*.tgz")) and self.npm.exists())
+
+    def run(self, drawn, texts, limit):
+        with tempfile.TemporaryDirectory() as folder:
+            place = pathlib.Path(folder)
+            shutil.copytree(HOME / "bindings/js", place / "js")
+            if drawn:
+                target = place / "js" / drawn.file[len("bindings/js/"):]
+                m = drawn.mistake
+                target.write_text(texts[drawn.file][:m.start] + m.wrong + texts[drawn.file][m.end:])
+            (place / "npm").mkdir()
+            (place / "npm/node_modules").symlink_to(self.npm)
+            tarball = next(self.modules.glob("npm/*.tgz"))
+            version = tarball.name[len("cotan-"):-len(".tgz")]
+            spent = 0.0
+            outcome, took = plant.run("", 0, limit, command=["node", place / "js/build.mjs", self.modules, place / "web/npm", version])
+            for case in self.CASES:
+                if outcome or spent >= limit:
+                    break
+                arguments = [plant.library()] if case == self.CASES[0] else [self.npm]
+                outcome, took = plant.run("", 0, limit, command=["node", "--expose-gc", HOME / "tests/web" / case, place / "web/npm" / tarball.name,
+                                                                  *arguments, HOME.parent / "shared/data"])
+                spent += took
+            return outcome and f"{case}: {outcome}", spent
+
+
+def try_python(drawn, texts, programs, limit):
+    with tempfile.TemporaryDirectory() as folder:
+        python = pathlib.Path(folder) / "python"
+        shutil.copytree(HOME / "bindings/python", python)
+        m, target = drawn.mistake, python / drawn.file[len("bindings/python/"):]
+        wrong = "pass" if m.statement else m.wrong
+        target.write_text(texts[drawn.file][:m.start] + wrong + texts[drawn.file][m.end:])
+        return plant.try_mistake(0, programs, limit, python)
+
+
+def baselines(parts, seconds):
+    """Of each part the tests that pass without a mistake and take no longer together, with their seconds."""
+    took, chosen = {}, {}
+    for part in parts:
+        programs, total = [], 0.0
+        for program in TESTS[part].split():
+            if program == "web":
+                continue
+            if program not in took:
+                outcome, took[program] = plant.run(program, 0, 900)
+                if outcome:
+                    raise SystemExit(f"mutants: {program} fails without a mistake: {outcome}")
+            if programs and total + took[program] > seconds:
+                continue
+            programs.append(program)
+            total += took[program]
+        chosen[part] = (programs, 2 * total + 10)
+        print(f"{part}: {' '.join(programs)} take {total:.1f} s", flush=True)
+    return chosen
+
+
+def equivalents():
+    """By place: the reason why a mistake changes nothing that anyone could see."""
+    if not EQUIVALENT.exists():
+        return {}
+    pairs = [line.rsplit(" -- ", 1) for line in EQUIVALENT.read_text().splitlines() if line.strip() and not line.startswith("#")]
+    return {place.strip(): why for place, why in pairs}
+
+
+def report(results, outside, known, seed):
+    parts = sorted({d.part for d, _ in results} | {d.part for d in outside})
+    count = lambda which: collections.Counter(d.part for d in which)
+    noticed = count(d for d, outcome in results if outcome)
+    same = count(d for d, outcome in results if not outcome and d.place in known)
+    unnoticed = count(d for d, outcome in results if not outcome and d.place not in known)
+    left_out = count(outside)
+    print(f"\nseed {seed}\n{'part':<18}{'noticed':>8}{'unnoticed':>11}{'equivalent':>12}{'not compiling':>15}")
+    for part in parts:
+        print(f"{part:<18}{noticed[part]:>8}{unnoticed[part]:>11}{same[part]:>12}{left_out[part]:>15}")
+    seen, missed = noticed.total(), unnoticed.total()
+    print(f"{'all':<18}{seen:>8}{missed:>11}{same.total():>12}{left_out.total():>15}   {100 * seen / max(1, seen + missed):.0f} % noticed")
+    return seen >= BAR * (seen + missed) and seen + missed > 0
+
+
+def main(count, seed, jobs, seconds, only):
+    for part in only:
+        if part not in TESTS:
+            raise SystemExit(f"mutants: expected a folder ({', '.join(TESTS)}); found '{part}'")
+    web, wanted = Web(), set(only or TESTS)
+    if "bindings/js" in wanted and web.missing():
+        print("bindings/js is left out: the npm package is not built (ctest --preset dev -R web_package)")
+        wanted.remove("bindings/js")
+    drawn, texts = draw(count + count // 2, seed, wanted)  # about a third does not compile
+    parts = sorted({d.part for d in drawn})
+    targets = set().union(*(plant.targets_of(p) for part in parts for p in TESTS[part].split() if p != "web")) | {"cotan_c", "cotan"}
+    inside, outside = build_what_compiles(drawn, texts, targets, jobs)
+    outside = [d for d in outside if d.number <= inside[:count][-1].number]
+    inside = inside[:count]
+    tests = baselines(sorted({d.part for d in inside}), seconds)
+
+    def judge(d):
+        programs, limit = tests[d.part]
+        if d.part == "bindings/js":
+            return d, *web.run(d, texts, 3 * seconds)
+        if d.script:
+            return d, *try_python(d, texts, programs, limit)
+        return d, *plant.try_mistake(d.number, programs, limit)
+
+    results, known, start = [], equivalents(), time.monotonic()
+    with concurrent.futures.ThreadPoolExecutor(jobs) as pool, open(WORK / f"random-{seed}.tsv", "w") as file:
+        for d, outcome, took in pool.map(judge, inside):
+            results.append((d, outcome))
+            word = outcome or ("equivalent" if d.place in known else "UNNOTICED")
+            print(d.number, word, f"{took:.1f}", d.place, d.said, sep="\t", file=file, flush=True)
+            if word == "UNNOTICED":
+                print(f"unnoticed: {d.said}", flush=True)
+            if len(results) % 50 == 0:
+                print(f"{len(results)} of {len(inside)} tried in {time.monotonic() - start:.0f} s", flush=True)
+    return report(results, outside, known, seed)
