@@ -124,11 +124,8 @@ def those_that_do_not_compile(output, drawn, changed):
     bad, files = set(), set()
     for block in re.split(r"\nFAILED: ", output)[1:]:
         here, named = set(), set()
-        for file, line, what in re.findall(r"([^\s:]*(?:source|portable)/[^\s:]+):(\d+):\d+:\s+(\w+)", block):
-            for root in (plant.SOURCE, plant.PORTABLE.parent / "portable"):
-                if file.startswith(str(root)):
-                    file = file[len(str(root)) + 1:]
-            name = file if file in changed else f"shaders/{file}"
+        for root, file, line, what in re.findall(r"/(source|portable)/([^\s:]+):(\d+):\d+:\s+(\w+)", block):
+            name = file if root == "source" else f"shaders/{file}"
             if name not in changed:
                 continue
             named.add(name)

@@ -251,6 +251,29 @@ def _arguments(f, i, found):
 EXPRESSION = re.compile(r"(?:\+\+|--|\(?\*)?[A-Za-z_][\w:]*(?:\.|->|\(|\[|\s*(?:[-+*/%|&^]|<<|>>)?=(?!=)|\+\+|--)")
 
 
+def early_return(text, line):
+    """What ends the function that the line belongs to, or None in a lambda, whose result is not written down."""
+    lines = text[:line].split("\n")[:-1]
+    indent = len(text) - line - len(text[line:].lstrip(" "))
+    while lines:
+        last = lines.pop()
+        here = len(last) - len(last.lstrip(" "))
+        if not last.strip() or here >= indent:
+            continue
+        indent = here
+        if last.strip() == "{":
+            header = []
+            while lines and lines[-1].strip() and lines[-1].rstrip()[-1] not in ";}{" and not lines[-1].endswith("public:"):
+                header.insert(0, lines.pop().strip())
+            said = " ".join(header)
+            named = re.match(r"(?:(?:static|inline|constexpr|virtual|friend) |template<[^()]*> ?)*([^(]*)\(", said)
+            words = named[1].split() if named else []
+            return None if not words else "return;" if "void" in words or len(words) == 1 else "return {};"
+        if not re.match(r"(if|else|for|while|do|switch|case|default|try|\}|catch)\b|\} (else|catch)", last.strip()):
+            return None
+    return None
+
+
 def _statement(f, i, found):
     """A statement left out, a guard left out, an early return."""
     t = f.tokens[i]
@@ -278,9 +301,9 @@ def _statement(f, i, found):
         return
     end = f.tokens[j].end
     found.append(Mistake("statement", t.start, end, ";", statement=True))
-    if not f.script and before != ")" and before != "else":
-        for early in ("return;", "return {};"):
-            found.append(Mistake("early return", t.start, t.start, early, statement=True))
+    early = None if f.script or before in (")", "else") else early_return(f.text, line)
+    if early:
+        found.append(Mistake("early return", t.start, t.start, early, statement=True))
 
 
 FIXED = re.compile(r"^\s*(?:inline |static |export )*constexpr [^(]*(?:=|\{)|^\s*(?:static_assert|case |template|using |enum |import |from |@|export \{)|= (?:delete|default);|operator")
