@@ -147,5 +147,10 @@ int main(int argc, char** argv)
            [&](int threads) { return cotan::mikktspaceTangents(grid.view(), threads); });
     time("cotan mikktspaceTangents, a vertex a corner", runs, triangles,
          [&] { return cotan::mikktspaceTangents(loose.view()); });
+    time("cotan smoothCotangents, all threads", runs, triangles, [&] { return cotan::smoothCotangents(grid.view()); });
+    time("cotan smoothCotangents, one thread", runs, triangles,
+         [&] { return cotan::smoothCotangents(grid.view(), 1); });
+    time("cotan smoothCotangents, a vertex a corner", runs, triangles,
+         [&] { return cotan::smoothCotangents(loose.view()); });
     return 0;
 }

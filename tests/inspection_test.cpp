@@ -12,6 +12,7 @@
 #include "cotan/inspect/edges.hpp"
 #include "cotan/inspect/hot_spots.hpp"
 #include "cotan/inspect/inspection.hpp"
+#include "cotan/inspect/pick.hpp"
 #include "cotan/inspect/probe.hpp"
 #include "cotan/lint/lint.hpp"
 #include "cotan/model/load.hpp"
@@ -173,10 +174,27 @@ TEST(HotSpots, theWorstTriangleIsLookedAtAlongItsNormal)
     EXPECT_NE(spots[0].text.find("stretched over 1.2: 100.0 % of "), std::string::npos) << spots[0].text;
     EXPECT_TRUE(spots[0].text.ends_with(", here 3")) << spots[0].text;
     EXPECT_NEAR(spots[0].camera.target.x, 10, 0.5f);
-    EXPECT_GT(spots[0].camera.eye.z, 0.1f);
+    EXPECT_GT(spots[0].camera.eye.z, 1.6f); // an eighth of a model 13 wide at 45 degrees
     const auto hit = pick(scene, spots[0].camera, {100, 100}, {50, 50});
     ASSERT_TRUE(hit);
     EXPECT_EQ(hit->mesh, 1);
+}
+
+TEST(HotSpots, theCameraIsNearerThanWhatStandsBeforeTheTriangle)
+{
+    Scene scene;
+    scene.materials.emplace_back();
+    scene.meshes.push_back(makePatch(3, 0, false, 1));
+    scene.meshes.push_back(makePatch(1, 0, false, 1));
+    scene.instances.push_back({"stretched", 0, glm::mat4(1)});
+    const glm::mat4 before = glm::translate(glm::mat4(1), glm::vec3(-3, -3, 8));
+    scene.instances.push_back({"before it", 1, glm::scale(before, glm::vec3(9))});
+    const std::vector<HotSpot> spots = hotSpots(scene);
+    ASSERT_EQ(spots.size(), 1u);
+    const auto hit = pick(scene, spots[0].camera, {100, 100}, {50, 50});
+    ASSERT_TRUE(hit);
+    EXPECT_EQ(hit->mesh, 0);
+    EXPECT_EQ(spots[0].view, "stretch");
 }
 
 // The window lists what `lint` reports: the same shares of the same things.

@@ -375,5 +375,23 @@ TEST(Lint, stopsWhereItsProgressSaysSoAndElseIsTheSameWithIt)
     EXPECT_EQ(whole->recommendation, lintScene(scene).recommendation);
 }
 
+TEST(Lint, tellsHowFarItIsInOneMeshAndStopsThere)
+{
+    const Scene scene = sceneOf({makeSphere(1, 8)});
+    std::vector<double> shares;
+    ASSERT_TRUE(lintScene(scene, {}, [&](double share) {
+        shares.push_back(share);
+        return true;
+    }));
+    EXPECT_GE(shares.size(), 5u);
+    EXPECT_TRUE(std::is_sorted(shares.begin(), shares.end()));
+    EXPECT_LE(shares.front(), 0.5);
+    for (std::size_t most = 1; most < shares.size(); ++most) {
+        std::size_t calls = 0;
+        EXPECT_FALSE(lintScene(scene, {}, [&](double) { return ++calls < most; }));
+        EXPECT_EQ(calls, most);
+    }
+}
+
 } // namespace
 } // namespace cotan

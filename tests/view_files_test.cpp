@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "cotan/shapes/shapes.hpp"
 #include "quad_model.hpp"
@@ -60,6 +61,25 @@ TEST(ViewWindow, aLightThatIsDroppedLightsAndABadOneIsLeft)
     EXPECT_NE(lineOf(readWhole(folder / "b.txt"), "problem").find("bad.hdr"), std::string::npos);
 }
 
+// The large pictures take longer than a file has to rest before it is read again.
+TEST(ViewWindow, aLightThatIsChosenLaterIsReadAgainWhenItChanges)
+{
+    COTAN_NEEDS_DISPLAY();
+    TemporaryFolder folder;
+    Image sky = makeImage(16, 8, PixelType::float32);
+    std::fill_n(sky.floats(), 4 * sky.pixelCount(), 0.5f);
+    ASSERT_TRUE(writeImage(folder / "sky.exr", sky));
+    const std::string pause = "0 do picture pause.png 2000 2000\n";
+    const ToolRun run = play(folder,
+                             "0 wait\n0 do set environment sky.exr\n0 wait\n0 do report a.txt\n"
+                             "0 do picture sky.exr 64 32\n"
+                                 + pause + pause + pause + pause + "0 wait\n0 do report b.txt\n",
+                             {"--shape", "sphere", "--size", "100x80"});
+    ASSERT_EQ(run.code, 0) << run.err;
+    EXPECT_EQ(lineOf(readWhole(folder / "a.txt"), "loads"), "1 failed 0");
+    EXPECT_EQ(lineOf(readWhole(folder / "b.txt"), "loads"), "2 failed 0");
+}
+
 TEST(ViewWindow, aMapAloneStandsOnAShapeAndTheDialogOpensAModel)
 {
     COTAN_NEEDS_DISPLAY();
@@ -80,6 +100,30 @@ TEST(ViewWindow, aMapAloneStandsOnAShapeAndTheDialogOpensAModel)
     EXPECT_NE(lineOf(readWhole(folder / "a.txt"), "first").find("map.png"), std::string::npos);
     EXPECT_EQ(lineOf(readWhole(folder / "b.txt"), "model"), "torus");
     EXPECT_EQ(lineOf(readWhole(folder / "c.txt"), "model"), "quad.gltf");
+}
+
+TEST(ViewWindow, aMapThatWasSavedAsAColourIsNamedOnceAsLintDoes)
+{
+    COTAN_NEEDS_DISPLAY();
+    TemporaryFolder folder;
+    write(quad(2), folder.path());
+    Image map = makeReliefMap(Relief::domes, 128);
+    for (std::size_t i = 0; i < 4 * map.pixelCount(); ++i)
+        if (i % 4 != 3) {
+            const double c = map.bytes8()[i] / 255.0;
+            map.bytes8()[i] =
+                std::uint8_t(std::lround(255 * (c <= 0.0031308 ? 12.92 * c : 1.055 * std::pow(c, 1 / 2.4) - 0.055)));
+        }
+    ASSERT_TRUE(writeImage(folder / "waves.png", map));
+    const ToolRun run = play(folder, "0 wait\n0 do orbit 20 10\n0 wait\n", {"quad.gltf", "--size", "100x80"});
+    ASSERT_EQ(run.code, 0) << run.err;
+    const ToolRun lint = runTool({"lint", "quad.gltf"}, folder.path());
+    const std::string fault = "waves.png: it was saved as a colour, through the sRGB curve";
+    const std::size_t first = run.err.find(fault);
+    ASSERT_NE(first, std::string::npos) << run.err;
+    EXPECT_EQ(run.err.find(fault, first + 1), std::string::npos) << run.err;
+    const std::string sentence = run.err.substr(first, run.err.find('\n', first) - first);
+    EXPECT_NE((lint.out + lint.err).find(sentence), std::string::npos) << lint.out << lint.err;
 }
 
 TEST(ViewWindow, itsHotSpotsAreThoseOfLintAndTheCameraGoesThere)

@@ -9,6 +9,7 @@
 
 #include "camera.hpp"
 #include "files.hpp"
+#include "interface.hpp"
 #include "run_tool.hpp"
 #include "session.hpp"
 #include "settings.hpp"
@@ -184,6 +185,27 @@ TEST(ViewerInput, whatCannotBeDoneIsSaidAndChangesNothing)
         EXPECT_EQ(reportOf(state), before) << line;
         EXPECT_TRUE(state.wishes.empty()) << line;
     }
+}
+
+TEST(ViewerInput, aHotSpotIsOutlinedInTheViewThatShowsItWithTheModelAround)
+{
+    State state = withModel();
+    state.hotSpots = hotSpots(state.model->scene);
+    ASSERT_FALSE(state.hotSpots->empty());
+    for (std::size_t i = 0; i < state.hotSpots->size(); ++i) {
+        state.compare = Compare::angle;
+        send(state, "0 do hot-spot " + std::to_string(i) + "\n");
+        EXPECT_EQ(state.show, (*state.hotSpots)[i].view);
+        EXPECT_EQ(state.compare, Compare::off);
+        const std::vector<Line2D> lines = interfaceOf(state).lines;
+        ASSERT_EQ(lines.size(), 3u);
+        for (const Line2D& line : lines) {
+            EXPECT_TRUE(line.from.x > 0 && line.from.x < float(state.size.x)) << line.from.x;
+            EXPECT_TRUE(line.from.y > 0 && line.from.y < float(state.size.y)) << line.from.y;
+        }
+    }
+    send(state, "0 do toggle hot-spots\n0 do toggle hot-spots\n");
+    EXPECT_TRUE(interfaceOf(state).lines.empty());
 }
 
 // Without surroundings `render` refuses to turn them.

@@ -49,7 +49,15 @@ Status goToHotSpot(State& state, Words& words)
     if (*number < 0 || std::size_t(*number) >= count)
         return expected("hot-spot", count > 0 ? fmt::format("0 to {}", count - 1) : "hot spots to have been found",
                         fmt::format("{}", *number));
-    state.camera = (*state.hotSpots)[std::size_t(*number)].camera;
+    state.hotSpot = std::size_t(*number);
+    const HotSpot& spot = (*state.hotSpots)[*state.hotSpot];
+    state.camera = spot.camera;
+    state.show = std::string(spot.view);
+    state.compare = Compare::off; // whose pictures would cover it
+    if (spot.storedTangents) {
+        state.a.frame = "mikktspace";
+        state.a.tangents = "stored";
+    }
     return moved(state);
 }
 

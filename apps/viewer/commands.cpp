@@ -96,6 +96,8 @@ Status toggle(State& state, const std::string& name)
         state.pinnedAt = azimuthOf(state.camera);
         if (name == "hot-spots" && state.hotSpotsShown && !state.hotSpots)
             wish(state, Wish::Kind::findHotSpots);
+        if (name == "hot-spots" && !state.hotSpotsShown)
+            state.hotSpot.reset();
         return Done{};
     }
     std::string names;

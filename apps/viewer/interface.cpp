@@ -1,6 +1,7 @@
 // What the state looks like, as plain values for the window.
 #include "interface.hpp"
 
+#include <array>
 #include <cstdlib>
 
 #include <fmt/format.h>
@@ -114,6 +115,20 @@ std::vector<Line2D> arrowsOf(const State& s)
     return lines;
 }
 
+// The triangle of the hot spot that was gone to.
+void addOutline(const State& s, std::vector<Line2D>& lines)
+{
+    const std::array<glm::vec3, 3>& corners = (*s.hotSpots)[*s.hotSpot].corners;
+    std::array<glm::vec3, 3> at;
+    for (std::size_t k = 0; k < 3; ++k) {
+        at[k] = onPicture(s.camera, corners[k], s.size);
+        if (!(at[k].z > 0)) // behind the eye
+            return;
+    }
+    for (std::size_t k = 0; k < 3; ++k)
+        lines.push_back({glm::vec2(at[k]), glm::vec2(at[(k + 1) % 3]), {1, 1, 1}, {}});
+}
+
 // The false colours of degrees.
 std::vector<std::pair<double, glm::vec3>> scaleOfDegrees()
 {
@@ -178,6 +193,8 @@ Interface interfaceOf(const State& s)
     }
     if (s.interfaceShown && (s.compare == Compare::angle || s.show == "error" || s.show == "shear"))
         i.scaleBar = scaleOfDegrees();
+    if (s.hotSpots && s.hotSpot && s.interfaceShown && !s.playing) // what plays has moved on
+        addOutline(s, i.lines);
     if (s.hotSpots)
         for (std::size_t k = 0; k < s.hotSpots->size(); ++k)
             i.hotSpots.push_back({(*s.hotSpots)[k].text, fmt::format("hot-spot {}", k)});

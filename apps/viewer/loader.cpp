@@ -7,6 +7,7 @@
 #include <thread>
 #include <utility>
 
+#include "cotan/inspect/map_faults.hpp"
 #include "cotan/scene/geometry.hpp"
 
 namespace cotan::viewer {
@@ -92,9 +93,7 @@ void takePosed(State& state, const Loaded& loaded)
         resetCamera(state);
     if (state.playing) // the moment has gone on
         return;
-    state.hotSpots.reset();
-    if (state.hotSpotsShown)
-        state.wishes.push_back({Wish::Kind::findHotSpots, {}, {}});
+    forgetHotSpots(state);
 }
 
 } // namespace
@@ -103,6 +102,10 @@ void take(State& state, const Loaded& loaded)
 {
     if (loaded.hotSpots) {
         state.hotSpots = loaded.hotSpots;
+        return;
+    }
+    if (!loaded.faults.empty()) {
+        state.said = loaded.faults[0]; // all of them are printed
         return;
     }
     if (loaded.error)
@@ -125,9 +128,7 @@ void take(State& state, const Loaded& loaded)
     if (!state.playing)
         state.picture.time = loaded.options.time;
     state.model = loaded.model;
-    state.hotSpots.reset();
-    if (state.hotSpotsShown)
-        state.wishes.push_back({Wish::Kind::findHotSpots, {}, {}});
+    forgetHotSpots(state);
     state.statisticsOf.clear();
     if (other || !state.cameraMoved) {
         if (state.loads > 1 && other) {
@@ -168,13 +169,31 @@ struct Loader::Work {
                 : toPose           ? guarded([&] { return poseKept(*toPose, ++number, kept); })
                                    : guarded([&] { return lookAt(*toLook); });
             loaded.seconds = watch.lap();
-            lock.lock();
-            working = reading = false;
-            if (!read) // else this is out of date
-                ready.push_back(std::move(loaded));
-            if (done)
-                done();
+            const std::shared_ptr<const Model> fresh = toRead ? loaded.model : nullptr;
+            give(lock, std::move(loaded));
+            if (!fresh || read || stop)
+                continue;
+            working = true;
+            lock.unlock();
+            give(lock, guarded([&] { return faultsIn(*fresh); }));
         }
+    }
+
+    void give(std::unique_lock<std::mutex>& lock, Loaded loaded)
+    {
+        lock.lock();
+        working = reading = false;
+        if (!read) // else this is out of date
+            ready.push_back(std::move(loaded));
+        if (done)
+            done();
+    }
+
+    static Loaded faultsIn(const Model& model)
+    {
+        Loaded loaded;
+        loaded.faults = mapFaults(model.scene);
+        return loaded;
     }
 
     static Loaded lookAt(const Model& model)

@@ -12,8 +12,9 @@ namespace cotan::viewer {
 struct Loaded {
     bool posed = false;                 // the model as before, at another moment
     PictureOptions options;             // that it was read with
-    std::shared_ptr<const Model> model; // null where there is an error, or nothing but hot spots
+    std::shared_ptr<const Model> model; // null where there is an error, or nothing else
     std::optional<std::vector<HotSpot>> hotSpots;
+    std::vector<std::string> faults; // of its maps; they come after the model, since looking takes longer than drawing
     std::optional<Error> error;
     double seconds = 0;
 };

@@ -234,9 +234,10 @@ private:
             refused_ = loaded.error;
         else if (loaded.error)
             app::warn(options_.common, loaded.error->message);
+        for (const std::string& fault : loaded.faults)
+            app::warn(options_.common, fault);
         if (!loaded.model || loaded.posed)
             return;
-        watchShown(parts_);
         const std::string& file = state_.picture.model;
         parts_.window->setTitle(fmt::format("{} - cotan view", file.empty() ? std::string("cotan") : fileName(file)));
         for (const std::string& line : state_.model->scene.warnings)

@@ -45,7 +45,8 @@ struct Parts {
     Pictures pictures;
     PointerProbe probe;
     Dialog dialog;
-    Watch watch; // of the model's file
+    Watch watch;                      // of all files that are shown
+    std::vector<std::string> watched; // what they were named after
     bool quits = false;
 };
 

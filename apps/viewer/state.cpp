@@ -77,6 +77,14 @@ PictureOptions optionsOf(const State& state, bool second)
     return o;
 }
 
+void forgetHotSpots(State& state)
+{
+    state.hotSpots.reset();
+    state.hotSpot.reset();
+    if (state.hotSpotsShown)
+        state.wishes.push_back({Wish::Kind::findHotSpots, {}, {}});
+}
+
 void resetCamera(State& state)
 {
     state.cameraMoved = false;

@@ -95,6 +95,7 @@ struct State {
 
     std::shared_ptr<const Model> model;           // null until the first one is read
     std::optional<std::vector<HotSpot>> hotSpots; // none: nobody has looked yet
+    std::optional<std::size_t> hotSpot;           // of those, the one that was gone to: its triangle is outlined
     std::vector<std::string> recent;              // files, the latest first
 
     bool interfaceShown = true, cheatSheet = false, dark = true, settingsShown = false, hotSpotsShown = false;
@@ -122,6 +123,9 @@ struct State {
 
     std::vector<Wish> wishes;
 };
+
+// The hot spots are those of another model or moment; finds them again where they are listed.
+void forgetHotSpots(State& state);
 
 // The animation of the model that picture.animation names; null where there is none.
 const GltfAnimation* animationOf(const State& state);

@@ -135,16 +135,22 @@ void loadWished(Parts& parts)
 void watchShown(Parts& parts)
 {
     const State& s = parts.state;
+    const OwnMaps& maps = s.picture.maps;
+    std::vector<std::string> named{fmt::format("{}", s.loads), s.picture.model};
+    for (const std::string* file : {&maps.normal, &maps.baseColor, &maps.metallicRoughness, &maps.occlusion,
+                                    &s.a.normalMap, &s.b.normalMap, &s.picture.environment})
+        named.push_back(*file);
+    if (named == parts.watched)
+        return;
+    parts.watched = named;
     std::vector<std::string> pictures;
     if (s.model)
         for (const Image& image : s.model->scene.images)
             pictures.push_back(image.name);
     std::vector<std::filesystem::path> files = filesOf(s.picture.model, pictures);
-    const OwnMaps& maps = s.picture.maps;
-    for (const std::string* file : {&maps.normal, &maps.baseColor, &maps.metallicRoughness, &maps.occlusion,
-                                    &s.a.normalMap, &s.b.normalMap, &s.picture.environment})
-        if (std::filesystem::path(*file).has_extension())
-            files.emplace_back(*file);
+    for (std::size_t i = 2; i < named.size(); ++i)
+        if (std::filesystem::path(named[i]).has_extension()) // others are names of lights, or nothing
+            files.emplace_back(named[i]);
     parts.watch.on(files);
 }
 
@@ -161,6 +167,7 @@ Status fulfil(Parts& parts)
         parts.state.problem = chosen.error().message;
     else if (!chosen->empty())
         apply(parts.state, {0, EventKind::drop, 0, 0, *chosen});
+    watchShown(parts);
     if (parts.watch.changed(secondsNow()))
         parts.state.wishes.push_back({Wish::Kind::load, parts.state.picture.model, {}});
     return first;

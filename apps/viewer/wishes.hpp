@@ -12,7 +12,7 @@ void loadWished(Parts& parts);
 // be done becomes state.problem. Errors: the first of those.
 Status fulfil(Parts& parts);
 
-// All files that are shown: the model with its own, maps and surroundings. Watches them.
+// Watches all files that are shown: the model with its own, maps and surroundings, as soon as they are chosen.
 void watchShown(Parts& parts);
 
 } // namespace cotan::viewer

@@ -63,11 +63,18 @@ ConvertModelOptions optionsFor(const cotan_convert_options& o, const ModelFiles&
 {
     require(o.threads >= 0, "options.threads: expected 0 or more");
     ConvertModelOptions convert;
-    convert.frames = {frameOr(o.from, Frame::mikktspace, "options.from"), frameOr(o.to, Frame::cotangent, "options.to"),
+    convert.frames = {frameOr(o.from, Frame::mikktspace, "options.from"),
+                      frameOr(o.to, o.keep_maps != 0 ? Frame::orthonormal : Frame::cotangent, "options.to"),
                       o.generate_tangents != 0 ? TangentOrigin::generated : TangentOrigin::stored,
                       TangentOrigin::generated};
     convert.bits = o.bits;
     convert.keepTangents = o.keep_tangents != 0;
+    convert.keepMaps = o.keep_maps != 0;
+    if (convert.keepMaps && readsTangents(convert.frames.to))
+        fail(ErrorKind::usage,
+             "options.to: expected a frame without tangents for maps that are kept, found "
+                 + std::string(name(convert.frames.to)));
+    require(!convert.keepMaps || convert.bits == 0, "options.bits: expected 0 where maps are kept");
     const std::string_view expansion = o.expansion ? o.expansion : "biased";
     require(expansion == "biased" || expansion == "exact", "options.expansion: expected biased or exact");
     convert.expansion = expansion == "biased" ? Expansion::biased : Expansion::exact;

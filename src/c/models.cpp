@@ -2,6 +2,7 @@
 #include "models.hpp"
 
 #include "cotan/scene/geometry.hpp"
+#include "cotan/scene/up.hpp"
 
 using namespace cotan;
 using namespace cotan::c;
@@ -9,6 +10,18 @@ using namespace cotan::c;
 void cotan_model_free(cotan_model* model) { delete model; }
 
 const char* cotan_model_warnings(const cotan_model* model) { return model ? model->warnings.c_str() : ""; }
+
+cotan_status cotan_model_up(cotan_model* model, const char* up, char* message, size_t message_size)
+{
+    return call(message, message_size, [&] {
+        require(model, "model: expected one, found null");
+        const std::string_view axis = word(up, "up");
+        if (axis == "z")
+            turnZUp(model->scene);
+        else if (axis != "y")
+            fail(ErrorKind::usage, "up: expected y or z, found '" + std::string(axis) + "'");
+    });
+}
 
 cotan_status cotan_model_of_meshes(size_t count, const cotan_mesh* const* meshes, const char* const* names,
                                    cotan_model** model, char* message, size_t message_size)

@@ -96,6 +96,41 @@ float addCorner(const Edges& e, glm::vec3 n, Sum& sum)
     return weight;
 }
 
+bool isUsual(float squared) { return squared > 1e-12f && squared < 1e12f; }
+
+// The same as sideAt and addCorner for a corner of a triangle that is neither thin nor tiny nor huge, in space or uv:
+// to the bit, since what is left out there scales by powers of two and changes no sign. False for any other, of which
+// nothing is done. unit: n at length 1.
+bool addUsualCorner(const MeshView& mesh, std::size_t c, glm::vec3 n, glm::vec3 unit, Sum (&sums)[2],
+                    float (&weights)[2])
+{
+    constexpr float kThin = 1e-6f; // of a squared sine; floats are sure of the sign of one from 1e-12
+    const std::size_t k = c % 3;
+    const std::uint32_t at = mesh.indices[c], next = mesh.indices[k == 2 ? c - 2 : c + 1],
+                        previous = mesh.indices[k == 0 ? c + 2 : c - 1];
+    const glm::vec3 dp1 = mesh.positions[next] - mesh.positions[at],
+                    dp2 = mesh.positions[previous] - mesh.positions[at];
+    const glm::vec2 duv1 = mesh.texcoords[next] - mesh.texcoords[at],
+                    duv2 = mesh.texcoords[previous] - mesh.texcoords[at];
+    const float p1 = glm::dot(dp1, dp1), p2 = glm::dot(dp2, dp2), uv1 = glm::dot(duv1, duv1),
+                uv2 = glm::dot(duv2, duv2);
+    const glm::vec3 acrossNext = glm::cross(dp2, unit), acrossPrevious = glm::cross(unit, dp1);
+    const float facing = glm::dot(dp1, acrossNext), uvArea = duv1.x * duv2.y - duv1.y * duv2.x;
+    const bool usual = isUsual(p1) & isUsual(p2) & isUsual(uv1) & isUsual(uv2) & (facing * facing > kThin * p1 * p2)
+        & (uvArea * uvArea > kThin * uv1 * uv2)
+        & (facing * facing > kThin * kThin * std::max(p1, p2) * std::max(p1, p2));
+    if (!usual)
+        return false;
+    const std::size_t side = std::size_t((facing > 0) == (uvArea > 0) ? Side::mirrored : Side::unmirrored);
+    const float weight = projectedAngle(glm::vec3(0), dp1, dp2, n), scale = 1 / facing;
+    Sum& sum = sums[side];
+    sum.u += (acrossNext * duv1.x + acrossPrevious * duv2.x) * scale * weight;
+    sum.v += (acrossNext * duv1.y + acrossPrevious * duv2.y) * scale * weight;
+    sum.weight += weight;
+    weights[side] += weight;
+    return true;
+}
+
 // The averages of vertices that are equal.
 class Averaging {
 public:
@@ -107,6 +142,7 @@ public:
     void average(std::uint32_t first)
     {
         Sum sums[2]; // by side
+        unit_ = f32::cotan_normalize_or(mesh_.normals[first], glm::vec3(0));
         for (std::uint32_t v = first; v != kNone; v = chains_.equalVertex[v])
             sides_[v] = addVertex(v, sums);
         const auto isEmpty = [&](std::size_t slot) { return sums[slot % 2].isEmpty(); };
@@ -136,6 +172,8 @@ private:
         const glm::vec3 n = mesh_.normals[vertex];
         float weights[2] = {0, 0};
         for (std::uint32_t c = chains_.firstCorner[vertex]; c != kNone; c = chains_.nextCorner[c]) {
+            if (addUsualCorner(mesh_, c, n, unit_, sums, weights))
+                continue;
             const Edges e = edgesAt(mesh_, c / 3, c % 3);
             if (const Side side = sideAt(e, n); side != Side::none)
                 weights[std::size_t(side)] += addCorner(e, n, sums[std::size_t(side)]);
@@ -161,22 +199,27 @@ private:
     const Chains& chains_;
     std::vector<Side>& sides_;
     const Averages& averages_;
+    glm::vec3 unit_{0}; // normal of the equal vertices, at length 1
 };
 
 } // namespace
 
-CornerGroups groupCorners(const MeshView& mesh, std::size_t threads, const Averages& averages)
+CornerGroups groupCorners(const MeshView& mesh, std::size_t threads, const Averages& averages, const Listener& listener)
 {
+    constexpr double kWelded = 0.3, kChained = 0.4; // of the time
     const std::size_t count = mesh.positions.size();
     CornerGroups groups{weld(mesh, threads), std::vector<Side>(count)};
+    if (!listener(kWelded))
+        return {};
     const Chains chains = chainsOf(mesh, groups.first);
-    runParts(count, threads, [&](std::size_t begin, std::size_t end) {
-        Averaging averaging(mesh, chains, groups.sides, averages);
-        for (std::size_t v = begin; v != end; ++v)
-            if (groups.first[v] == v)
-                averaging.average(std::uint32_t(v));
-    });
-    return groups;
+    const bool done = listener(kChained)
+        && runToldParts(count, threads, listener, kChained, 1, [&](std::size_t begin, std::size_t end) {
+                          Averaging averaging(mesh, chains, groups.sides, averages);
+                          for (std::size_t v = begin; v != end; ++v)
+                              if (groups.first[v] == v)
+                                  averaging.average(std::uint32_t(v));
+                      });
+    return done ? std::move(groups) : CornerGroups{};
 }
 
 } // namespace cotan::tangents

@@ -10,6 +10,7 @@
 
 #include "cotan/tangents.hpp"
 #include "large_array.hpp"
+#include "parallel.hpp"
 
 namespace cotan::tangents {
 
@@ -57,7 +58,12 @@ struct Averages {
     std::span<const std::uint32_t> copies;
 };
 
-// mesh: usable. The result does not depend on the number of threads.
-CornerGroups groupCorners(const MeshView& mesh, std::size_t threads = 1, const Averages& averages = {});
+// mesh: usable. The result does not depend on the number of threads. Without `first` where the listener has said to
+// stop.
+CornerGroups groupCorners(const MeshView& mesh, std::size_t threads = 1, const Averages& averages = {},
+                          const Listener& listener = {});
+
+// smoothCotangents of a usable mesh, into `made`. Returns false where the listener has said to stop.
+bool averageCotangents(const MeshView& mesh, int threads, const Listener& listener, Cotangents& made);
 
 } // namespace cotan::tangents

@@ -200,25 +200,30 @@ struct ManyCorners {
     }
 };
 
+// Shares of the time after which each step is done.
+constexpr double kWelded = 0.2, kDerived = 0.5, kListed = 0.6;
+
 // Where every triangle has a direction, the groups of a vertex are nobody else's business.
-void averageByVertex(const Triangles& t, const CornersAt& at, std::size_t threads, std::span<glm::vec4> out)
+bool averageByVertex(const Triangles& t, const CornersAt& at, std::size_t threads, const Listener& listener,
+                     std::span<glm::vec4> out)
 {
-    runParts(t.mesh.positions.size(), threads, [&](std::size_t begin, std::size_t end) {
-        Members members;
-        ManyCorners many;
-        std::vector<std::uint32_t> all;
-        std::array<std::uint32_t, 16> few;
-        std::uint32_t count = 0;
-        for (std::size_t v = begin; v < end; ++v)
-            if (at.list(v, few, count) != kNone) {
-                at.list(v, all);
-                many.average(t, all, members, out);
-            } else if (count > 8) {
-                averageFew<16>(t, std::span(few).first(count), members, out);
-            } else if (count > 0) { // not welded to another
-                averageFew<8>(t, std::span(few).first(count), members, out);
-            }
-    });
+    return runToldParts(t.mesh.positions.size(), threads, listener, kListed, 1,
+                        [&](std::size_t begin, std::size_t end) {
+                            Members members;
+                            ManyCorners many;
+                            std::vector<std::uint32_t> all;
+                            std::array<std::uint32_t, 16> few;
+                            std::uint32_t count = 0;
+                            for (std::size_t v = begin; v < end; ++v)
+                                if (at.list(v, few, count) != kNone) {
+                                    at.list(v, all);
+                                    many.average(t, all, members, out);
+                                } else if (count > 8) {
+                                    averageFew<16>(t, std::span(few).first(count), members, out);
+                                } else if (count > 0) { // not welded to another
+                                    averageFew<8>(t, std::span(few).first(count), members, out);
+                                }
+                        });
 }
 
 // left and right by corner: Ring for all vertices. left takes the place of at.next.
@@ -262,12 +267,14 @@ bool join(Triangles& t, std::size_t corner, bool preserving)
 
 // Which group a triangle without a direction joins depends on the order of the corners: one after the
 // other. What no group reaches gets kNoGroup.
-void averageInOrder(Triangles& t, CornersAt& at, std::span<glm::vec4> out)
+bool averageInOrder(Triangles& t, CornersAt& at, const Listener& listener, std::span<glm::vec4> out)
 {
     const auto [left, right] = allRings(t, at);
     Members members;
     std::vector<std::uint32_t> group;
     for (std::uint32_t c = 0; c < t.corners(); ++c) {
+        if (c % 65536 == 0 && !listener(kListed + (1 - kListed) * c / double(t.corners())))
+            return false;
         if (t.has(c / 3, takenFlag(c) | kJoinsAny))
             continue;
         const bool preserving = t.has(c / 3, kPreserving);
@@ -283,6 +290,7 @@ void averageInOrder(Triangles& t, CornersAt& at, std::span<glm::vec4> out)
     for (std::size_t c = 0; c < out.size(); ++c)
         if (!t.has(c / 3, takenFlag(c)))
             out[c] = kNoGroup;
+    return true;
 }
 
 // A triangle with two equal positions takes over what the first sound triangle at each vertex has.
@@ -308,12 +316,9 @@ constexpr std::size_t kTrianglesPerThread = 8192;
 
 } // namespace
 
-std::vector<glm::vec4> mikktspaceTangents(const MeshView& mesh, int threads)
+bool mikktspace::makeTangents(const MeshView& mesh, int threads, const Listener& listener, std::vector<glm::vec4>& out)
 {
     const std::size_t used = threadsFor(mesh.indices.size() / 3, kTrianglesPerThread, threads);
-    if (!tangents::usable(mesh, used))
-        return {};
-    std::vector<glm::vec4> out;
     CornersAt at;
     auto makeRoom = [&] { // fresh memory takes half as long
         out = zeros(mesh.indices.size());
@@ -321,15 +326,28 @@ std::vector<glm::vec4> mikktspaceTangents(const MeshView& mesh, int threads)
     };
     const tangents::Task beside{[](void* room) { (*static_cast<decltype(makeRoom)*>(room))(); }, &makeRoom};
     LargeArray<std::uint32_t> firstVertex = tangents::weld(mesh, used, beside);
+    if (!listener(kWelded))
+        return false;
     Triangles t = makeTriangles(mesh, std::move(firstVertex), used, out);
+    if (!listener(kDerived))
+        return false;
     addCorners(t, used, at);
+    if (!listener(kListed))
+        return false;
     const int flags = std::reduce(t.flags.get(), t.flags.get() + t.count, std::uint8_t(0), std::bit_or<std::uint8_t>());
-    if ((flags & kJoinsAny) != 0) {
-        averageInOrder(t, at, out);
-        inheritAtDegenerate(t, at, out);
-    } else {
-        averageByVertex(t, at, used, out);
-    }
+    if ((flags & kJoinsAny) == 0)
+        return averageByVertex(t, at, used, listener, out);
+    if (!averageInOrder(t, at, listener, out))
+        return false;
+    inheritAtDegenerate(t, at, out);
+    return listener(1);
+}
+
+std::vector<glm::vec4> mikktspaceTangents(const MeshView& mesh, int threads)
+{
+    std::vector<glm::vec4> out;
+    if (tangents::usable(mesh, threadsFor(mesh.indices.size() / 3, kTrianglesPerThread, threads)))
+        mikktspace::makeTangents(mesh, threads, {}, out);
     return out;
 }
 

@@ -47,6 +47,9 @@ constexpr std::size_t previousCorner(std::size_t corner) { return corner % 3 == 
 Triangles makeTriangles(const MeshView& mesh, LargeArray<std::uint32_t> firstVertex, std::size_t threads,
                         std::span<glm::vec4> contributions);
 
+// mikktspaceTangents of a usable mesh, into `out`. Returns false where the listener has said to stop.
+bool makeTangents(const MeshView& mesh, int threads, const Listener& listener, std::vector<glm::vec4>& out);
+
 // Unit dP/du of a triangle, or zero.
 glm::vec3 alongU(const Triangles& t, std::size_t triangle);
 

@@ -79,4 +79,33 @@ template<class Run> void runParts(std::size_t count, std::size_t threads, const 
     runTasks(parts, threads, [&](std::size_t i) { run(partBegin(count, i, parts), partBegin(count, i + 1, parts)); });
 }
 
+// Whom to tell the share that is done, if anyone; they return whether to go on. A plain pointer, since std::function
+// weighs more than what it is for here.
+struct Listener {
+    bool (*hear)(const void* who, double share) = nullptr;
+    const void* who = nullptr;
+
+    bool operator()(double share) const { return !hear || hear(who, share); }
+};
+
+// As runParts, and tells the shares between `from` and `to` after each of at most 65536 items, from any thread. Returns
+// false where the listener has said to stop; the rest is not done then.
+template<class Run>
+bool runToldParts(std::size_t count, std::size_t threads, const Listener& listener, double from, double to,
+                  const Run& run)
+{
+    const std::size_t usual = threads == 1 ? 1 : std::min(count, threads * 8);
+    const std::size_t parts = listener.hear ? std::max(usual, count / 65536) : usual;
+    std::atomic<std::size_t> done{0};
+    std::atomic<bool> stopped{false};
+    runTasks(parts, threads, [&](std::size_t i) {
+        if (stopped)
+            return;
+        run(partBegin(count, i, parts), partBegin(count, i + 1, parts));
+        if (!listener(from + (to - from) * double(++done) / double(parts)))
+            stopped = true;
+    });
+    return !stopped;
+}
+
 } // namespace cotan

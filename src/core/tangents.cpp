@@ -52,13 +52,19 @@ std::vector<glm::vec4> vertexTangents(const MeshView& mesh)
     return out;
 }
 
+bool tangents::averageCotangents(const MeshView& mesh, int threads, const Listener& listener, Cotangents& made)
+{
+    const std::size_t count = mesh.positions.size();
+    made = {std::vector<glm::vec3>(count), std::vector<glm::vec3>(count)};
+    const std::size_t all = threadsFor(mesh.indices.size(), kLeastCorners, threads);
+    return count == 0 || groupCorners(mesh, all, {&made, {}, {}}, listener).first;
+}
+
 Cotangents smoothCotangents(const MeshView& mesh, int threads)
 {
-    const std::size_t all = threadsFor(mesh.indices.size(), kLeastCorners, threads);
-    if (!tangents::usable(mesh, all))
-        return {};
-    Cotangents made{std::vector<glm::vec3>(mesh.positions.size()), std::vector<glm::vec3>(mesh.positions.size())};
-    tangents::groupCorners(mesh, all, {&made, {}, {}});
+    Cotangents made;
+    if (tangents::usable(mesh, threadsFor(mesh.indices.size(), kLeastCorners, threads)))
+        tangents::averageCotangents(mesh, threads, {}, made);
     return made;
 }
 

@@ -9,6 +9,7 @@
 #include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
 
+#include "cotan/inspect/pick.hpp"
 #include "cotan/lint/lint.hpp"
 #include "cotan/lint/stored_corner.hpp"
 #include "cotan/lint/triangle_uv.hpp"
@@ -36,11 +37,23 @@ struct Worst {
     }
 };
 
-Camera lookingAt(const Scene& scene, const Instance& instance, const Mesh& mesh, std::size_t triangle)
+std::array<glm::vec3, 3> cornersOf(const Instance& instance, const Mesh& mesh, std::size_t triangle)
 {
     std::array<glm::vec3, 3> p;
     for (std::size_t k = 0; k < 3; ++k)
         p[k] = glm::vec3(instance.toWorld * glm::vec4(mesh.positions[mesh.indices[3 * triangle + k]], 1));
+    return p;
+}
+
+float longestEdge(const std::array<glm::vec3, 3>& p)
+{
+    return std::max({glm::length(p[1] - p[0]), glm::length(p[2] - p[0]), glm::length(p[2] - p[1])});
+}
+
+// Pictures of this camera are 0.83 of its distance high: the triangle is a third of that at most, and an eighth of the
+// model is seen around a small one.
+Camera lookingAt(const Scene& scene, const Instance& instance, const std::array<glm::vec3, 3>& p)
+{
     const glm::vec3 middle = (p[0] + p[1] + p[2]) / 3.0f;
     glm::vec3 normal = glm::cross(p[1] - p[0], p[2] - p[0]);
     if (glm::determinant(glm::mat3(instance.toWorld)) < 0)
@@ -49,7 +62,7 @@ Camera lookingAt(const Scene& scene, const Instance& instance, const Mesh& mesh,
     normal = length > 0 ? normal / length : glm::vec3(0, 0, 1);
     const Bounds box = bounds(scene);
     const float whole = glm::length(box.high - box.low);
-    const float size = std::max({glm::length(p[1] - p[0]), glm::length(p[2] - p[0]), whole / 40});
+    const float size = std::max(longestEdge(p), whole / 24);
     Camera camera;
     camera.target = middle;
     camera.eye = middle + normal * size * 4.0f;
@@ -58,21 +71,46 @@ Camera lookingAt(const Scene& scene, const Instance& instance, const Mesh& mesh,
     return camera;
 }
 
+// Goes nearer until nothing stands between the eye and the target; not at all where the triangle would not fit into the
+// picture from there.
+void getPastOthers(const Scene& scene, const std::array<glm::vec3, 3>& corners, Camera& camera)
+{
+    constexpr glm::ivec2 kSize{2, 2};
+    const float least = 2 * longestEdge(corners);
+    Camera nearer = camera;
+    for (int tries = 0; tries < 4; ++tries) {
+        const glm::vec3 back = nearer.eye - nearer.target;
+        const float distance = glm::length(back);
+        const auto hit = pick(scene, nearer, kSize, {1, 1}); // its middle
+        if (!hit || hit->depth > 0.99f * distance) {
+            camera = nearer;
+            return;
+        }
+        const float next = 0.9f * (distance - hit->depth);
+        if (next < least)
+            return;
+        nearer.eye = nearer.target + back * (next / distance);
+    }
+}
+
 // What lint counts, in its words.
 struct Kind {
     std::string words;
     const char* here; // the value at the worst triangle; empty: it has none
     double bad = 0;   // of a value of one
+    std::string_view view;
+    bool storedTangents = false;
 };
 
 const std::array<Kind, 5>& kinds()
 {
     static const std::array<Kind, 5> all = {
-        {{"uv without area", "", 3},
-         {fmt::format("stretched over {:.1f}", kStretched), ", here {:.3g}", 0.5},
-         {fmt::format("sheared over {:.0f} degrees", kSheared), ", here {:.0f}", 1 / 45.0},
-         {"stored w against the uv", "", 3},
-         {fmt::format("stored tangents turned over {:.0f} degrees", kTurned), ", here {:.0f}", 1 / 45.0}}};
+        {{"uv without area", "", 3, "mirrored"},
+         {fmt::format("stretched over {:.1f}", kStretched), ", here {:.3g}", 0.5, "stretch"},
+         {fmt::format("sheared over {:.0f} degrees", kSheared), ", here {:.0f}", 1 / 45.0, "shear"},
+         {"stored w against the uv", "", 3, "w"},
+         {fmt::format("stored tangents turned over {:.0f} degrees", kTurned), ", here {:.0f}", 1 / 45.0, "tangent",
+          true}}};
     return all;
 }
 
@@ -142,12 +180,15 @@ std::vector<HotSpot> hotSpots(const Scene& scene, std::size_t most)
             const Kind& kind = kinds()[k];
             const std::string text = fmt::format("{}: {:.1f} % of {}", kind.words, share * 100, name)
                 + fmt::format(fmt::runtime(kind.here), worst.value);
-            spots.push_back(
-                {text, m, share, kind.bad * worst.value * share, lookingAt(scene, *instance, mesh, worst.triangle)});
+            const auto corners = cornersOf(*instance, mesh, worst.triangle);
+            spots.push_back({text, m, share, kind.bad * worst.value * share, lookingAt(scene, *instance, corners),
+                             corners, kind.view, kind.storedTangents});
         }
     }
     std::ranges::stable_sort(spots, std::greater(), &HotSpot::badness);
     spots.resize(std::min(spots.size(), most));
+    for (HotSpot& spot : spots)
+        getPastOthers(scene, spot.corners, spot.camera);
     return spots;
 }
 

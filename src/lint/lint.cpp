@@ -84,7 +84,28 @@ FrameSet framesOfLint(const Material& material)
     return frames.set(std::size_t(madeFor(material)));
 }
 
-PrimitiveLint lintPrimitive(const Scene& scene, const Mesh& mesh, const MappedSurface& surface, double distance)
+// Tells how much is done, in triangles, and remembers a wish to stop.
+struct Told {
+    const Progress& progress;
+    double all = 1, done = 0;
+    bool stopped = false;
+
+    // Returns whether to go on.
+    bool add(double triangles)
+    {
+        done += triangles;
+        stopped = stopped || (progress && !progress(std::min(done / all, 1.0)));
+        return !stopped;
+    }
+};
+
+// Shares of the time of one mesh: its surface, each of three looks at one of its placings, and what is done for all
+// meshes together in three steps.
+constexpr double kOfSurface = 0.4, kOfLook = 0.15, kOfWhole = 0.05;
+
+// Not whole where `told` has said to stop; tells three looks of that many triangles.
+PrimitiveLint lintPrimitive(const Scene& scene, const Mesh& mesh, const MappedSurface& surface, double distance,
+                            Told& told, double triangles)
 {
     const Material& material = scene.materials[std::size_t(mesh.material)];
     PrimitiveLint p;
@@ -105,8 +126,12 @@ PrimitiveLint lintPrimitive(const Scene& scene, const Mesh& mesh, const MappedSu
     p.triangles = mesh.triangleCount();
     p.hasUv = surface.hasUv();
     p.uv = lint::uvQuality(surface);
+    if (!told.add(kOfLook * triangles))
+        return p;
     p.steps = lint::edgeSteps(surface);
     p.stored = lint::storedTangents(surface);
+    if (!told.add(kOfLook * triangles))
+        return p;
     if (material.greenReversed) // w of the file, not of the scene
         p.stored.reversedW = 1 - p.stored.reversedW;
     addPrecision(p, distance);
@@ -118,6 +143,7 @@ PrimitiveLint lintPrimitive(const Scene& scene, const Mesh& mesh, const MappedSu
         p.unread = !hasPixels(scene.images[std::size_t(image)]);
         p.notJudged = whyNotJudged(p, scene.images[std::size_t(image)]);
     }
+    told.add(kOfLook * triangles);
     return p;
 }
 
@@ -240,9 +266,10 @@ Result<LintReport> lintScene(const Scene& scene, const LintOptions& options, con
     std::vector<MapUse> uses;
     std::vector<CoatUse> coats;
     const auto placed = placings(scene);
-    std::size_t all = 0, done = 0; // triangles
+    std::size_t triangles = 0;
     for (const Mesh& mesh : scene.meshes)
-        all += mesh.triangleCount();
+        triangles += mesh.triangleCount();
+    Told told{progress, double(std::max<std::size_t>(triangles, 1))};
     for (std::size_t i = 0; i < scene.meshes.size(); ++i) {
         const Mesh& mesh = scene.meshes[i];
         const Material& material = scene.materials[std::size_t(mesh.material)];
@@ -254,10 +281,16 @@ Result<LintReport> lintScene(const Scene& scene, const LintOptions& options, con
         if (material.coat.normalMap.present())
             ofCoat =
                 makeCoatSurface(held, material.normalMap, material.coat.normalMap, asItStands, framesOfLint(material));
-        for (std::size_t k = 0; k < std::min(placed[i].size(), kMostPlacings); ++k) {
+        const std::size_t count = std::min(placed[i].size(), kMostPlacings);
+        const double share = double(mesh.triangleCount()) / double(std::max<std::size_t>(count, 1));
+        if (!told.add(kOfSurface * double(mesh.triangleCount())))
+            return stoppedError();
+        for (std::size_t k = 0; k < count; ++k) {
             uses.push_back({placedBy(own, placed[i][k]), material.normalFormat, double(material.normalScale),
                             sampler.wrapU, sampler.wrapV});
-            PrimitiveLint p = lintPrimitive(scene, mesh, uses.back().surface, report.distance);
+            PrimitiveLint p = lintPrimitive(scene, mesh, uses.back().surface, report.distance, told, share);
+            if (told.stopped)
+                return stoppedError();
             p.placing = k;
             p.placings = placed[i].size();
             report.primitives.push_back(std::move(p));
@@ -266,13 +299,17 @@ Result<LintReport> lintScene(const Scene& scene, const LintOptions& options, con
                                  {placedBy(ofCoat, placed[i][k]), material.coat.normalFormat,
                                   double(material.coat.normalScale), coat.sampler.wrapU, coat.sampler.wrapV}});
         }
-        done += mesh.triangleCount();
-        if (progress && !progress(double(done) / double(std::max<std::size_t>(all, 1))))
-            return stoppedError();
     }
     addOverlaps(report, uses);
+    if (!told.add(kOfWhole * told.all))
+        return stoppedError();
     addMaps(report, scene);
+    if (!told.add(kOfWhole * told.all))
+        return stoppedError();
     addFits(report, scene, uses, coats);
+    told.done = told.all; // also where there are no triangles
+    if (!told.add(0))
+        return stoppedError();
     if (const auto named = namedFrame(scene))
         report.named = named->frame;
     lint::recommend(report);

@@ -135,10 +135,7 @@ std::string brokenMaps(const LintReport& report)
         if (faults.empty())
             continue;
         text += text.empty() ? "" : " ";
-        text += g.name.empty() ? fmt::format("Image {}: ", g.image) : g.name + ": ";
-        for (const maps::Fault& fault : faults)
-            text += fault.text + "; ";
-        text += fmt::format("cotan map convert {} mends it.", maps::mendingOptions(faults));
+        text += maps::sentenceOf(g.name.empty() ? fmt::format("Image {}", g.image) : g.name, faults);
     }
     return text;
 }

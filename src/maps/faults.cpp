@@ -85,4 +85,14 @@ std::string mendingOptions(const std::vector<Fault>& faults)
     return options;
 }
 
+std::string sentenceOf(const std::string& name, const std::vector<Fault>& faults)
+{
+    if (faults.empty())
+        return {};
+    std::string text = name + ": ";
+    for (const Fault& fault : faults)
+        text += fault.text + "; ";
+    return text + "cotan map convert " + mendingOptions(faults) + " mends it.";
+}
+
 } // namespace cotan::maps

@@ -67,6 +67,30 @@ def test_arrays_and_files_bake_what_the_command_line_bakes_to_the_bit(options, c
         assert (baked.map == expected).all() and (baked.mask == became).all()
 
 
+def lying(mesh):
+    """The mesh as a program stores it whose z is up: what was along y is along z."""
+    turned = [np.c_[v[:, 0], -v[:, 2], v[:, 1]].astype(np.float32) for v in (mesh.positions, mesh.normals)]
+    return cotan.Mesh(turned[0], mesh.indices, turned[1], mesh.texcoords)
+
+
+def test_meshes_whose_z_is_up_bake_what_they_bake_when_they_stand(command, tmp_path):
+    low, high = square(), bumps()
+    options = {"size": 32, "kind": "object-normal"}
+    standing = cotan.bake(low, high, **options).map
+    write_obj(tmp_path / "low.obj", lying(low))
+    write_obj(tmp_path / "high.obj", high)
+    both = cotan.bake(lying(low), lying(high), up="z", **options).map
+    one = cotan.bake(tmp_path / "low.obj", high, up="z", high_up="y", **options).map
+    loaded = cotan.bake(cotan.load(tmp_path / "low.obj", up="z"), cotan.Model(lying(high), up="z"), **options).map
+    for turned in (both, one, loaded):
+        assert np.abs(turned.astype(int) - standing).max() <= 1  # a quarter turn rounds
+    with pytest.raises(cotan.UsageError, match="up: expected y or z, found 'x'"):
+        cotan.load(tmp_path / "low.obj", up="x")
+    command("bake", "--low", tmp_path / "low.obj", "--high", tmp_path / "high.obj", "-o", tmp_path / "map.png", "--up",
+            "z", "--high-up", "y", "--size", 32, "--kind", "object-normal")  # fmt: skip
+    assert (cotan.read_picture(tmp_path / "map.png") == one).all()
+
+
 def test_a_cage_and_names_do_what_they_do_on_the_command_line(command, tmp_path):
     # Two squares side by side in uv, one over the other in space: without names both see the nearer surface.
     def half(name, z, offset):

@@ -90,7 +90,7 @@ def test_convert_makes_the_texel_twice_as_steep_and_drops_tangents(model, tmp_pa
 @pytest.mark.parametrize(
     "options",
     [{"to_frame": "smooth"}, {"to_frame": "cotangent", "bits": 16}, {"to_frame": "orthonormal", "tangents": "generated"},
-     {"to_frame": "cotangent", "keep_tangents": True}],
+     {"to_frame": "cotangent", "keep_tangents": True}, {"keep_maps": True}],
     ids=lambda o: " ".join(map(str, o.values())),
 )  # fmt: skip
 def test_convert_writes_what_the_command_line_writes_to_the_bit(options, model, command, tmp_path):
@@ -101,6 +101,19 @@ def test_convert_writes_what_the_command_line_writes_to_the_bit(options, model, 
     cotan.convert(model, tmp_path / "out.glb", **options)
     assert (tmp_path / "out.glb").read_bytes() == (tmp_path / "expected.glb").read_bytes()
     assert cotan.convert(model, **options).glb == (tmp_path / "expected.glb").read_bytes()
+
+
+def test_maps_that_are_kept_cost_nothing_and_need_a_frame_without_tangents(model):
+    converted = cotan.convert(model, keep_maps=True)
+    assert (converted.maps_converted, converted.maps_kept) == (0, 1)
+    assert converted.tangent_bytes_dropped > 0
+    assert cotan.Conversion(model, keep_maps=True).pictures == []
+    for wrong, message in (
+        ({"to_frame": "mikktspace"}, "to: expected a frame without tangents"),
+        ({"bits": 16}, "bits: expected 0 where maps are kept"),
+    ):
+        with pytest.raises(cotan.UsageError, match=message):
+            cotan.convert(model, keep_maps=True, **wrong)
 
 
 def test_nothing_is_replaced_that_is_read_unless_it_is_said(model, tmp_path):

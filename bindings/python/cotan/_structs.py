@@ -127,6 +127,7 @@ class ConvertOptions(Struct):
         (Progress, "progress"),
         (pointer, "user"),
         (text, "expansion"),
+        (integer, "keep_maps"),
     )
 
 
@@ -193,6 +194,7 @@ _STATUS = {
         handle, size_t, c.POINTER(handle), BakeOptions, Picture, BakeResult, c.POINTER(handle),
     ),
     "cotan_model_open": (text, integer, integer, c.POINTER(handle)),
+    "cotan_model_up": (handle, text),
     "cotan_model_of_meshes": (size_t, c.POINTER(c.POINTER(CMesh)), c.POINTER(text), c.POINTER(handle)),
     "cotan_set_reader": (size_t, c.POINTER(text)),
     "cotan_lint_model": (handle, LintOptions, LintResult, c.POINTER(handle)),

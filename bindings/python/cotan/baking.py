@@ -17,7 +17,7 @@ from .geometry import Mesh
 from .maps import Map
 from .models import Model, Progress, load
 from .pictures import Path, pixels_of
-from .words import BakeKind, Convention, Frame, HighNormals, Search, TangentOrigin
+from .words import BakeKind, Convention, Frame, HighNormals, Search, TangentOrigin, Up
 
 Geometry = Union[Mesh, Path, Model]
 
@@ -56,16 +56,16 @@ class Baked:
     warnings: list[str]
 
 
-def _model(given, field, pictures=False, memory=640):
+def _model(given, field, up, pictures=False, memory=640):
     """One model of a mesh, a file, a model or several meshes."""
     if isinstance(given, Model):
         return given
     if is_path(given):
-        return load(given, pictures, memory)
+        return load(given, pictures, memory, up)
     if isinstance(given, Mesh) or (
         isinstance(given, Sequence) and len(given) > 0 and all(isinstance(mesh, Mesh) for mesh in given)
     ):
-        return Model(given)
+        return Model(given, up)
     raise arrays.wrong(field, "a cotan.Mesh, a path or a cotan.Model", type(given).__name__)
 
 
@@ -105,6 +105,8 @@ def bake(
     threads: int = 0,
     out: Optional[NDArray[np.generic]] = None,
     progress: Optional[Progress] = None,
+    up: Up = "y",
+    high_up: Optional[Up] = None,
 ) -> Baked:
     """The map of detailed meshes for a simple one. Words and defaults are those of `cotan bake`.
 
@@ -143,6 +145,8 @@ def bake(
         out: (height, width, 4) of the dtype of `bits`, to write into.
         progress: called on this thread, about twenty times a second, with the share that is done, 0 to 1; False
             stops. Ctrl-C stops, too.
+        up: which axis of meshes and files is up, "y" or "z"; a Model stands as it was loaded. high_up: of the high ones,
+            where it is another.
 
     Raises UsageError for words, numbers, shapes; InputError for what is wrong in meshes and files; UnavailableError
     where the library was built without Embree; StoppedError where `progress` stopped it, which leaves `out` as it was.
@@ -177,9 +181,9 @@ def bake(
     warnings: list[str] = []
 
     def work(told):
-        simple = _model(low, "low", memory=memory)
-        enclosing = None if cage is None else _model(cage, "cage")
-        detailed = [_model(h, "high", high_normals == "map", memory) for h in _several(high)]
+        simple = _model(low, "low", up, memory=memory)
+        enclosing = None if cage is None else _model(cage, "cage", up)
+        detailed = [_model(h, "high", high_up or up, high_normals == "map", memory) for h in _several(high)]
         for model in (simple, *detailed):
             warnings.extend(w for w in model.warnings if w not in warnings)
         handles = (structs.handle * len(detailed))(*(model._handle for model in detailed))

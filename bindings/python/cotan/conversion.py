@@ -60,7 +60,7 @@ class Conversion:
     def __init__(
         self,
         model: Union[Path, Bytes],
-        to_frame: Frame = "cotangent",
+        to_frame: Optional[Frame] = None,
         from_frame: Optional[Frame] = None,
         tangents: TangentOrigin = "stored",
         keep_tangents: bool = False,
@@ -70,6 +70,7 @@ class Conversion:
         beside: Optional[Mapping[str, bytes]] = None,
         decode: Optional[Decode] = None,
         unsigned: Expansion = "biased",
+        keep_maps: bool = False,
     ) -> None:
         """Arguments and errors are those of `convert`."""
         check_tangents(tangents)
@@ -77,7 +78,9 @@ class Conversion:
         self._result, self._handle = structs.ConvertResult(), structs.handle()
 
         def work(told):
-            options = convert_options(to_frame, from_frame, tangents, keep_tangents, bits, threads, told, unsigned)
+            options = convert_options(
+                to_frame, from_frame, tangents, keep_tangents, bits, threads, told, unsigned, keep_maps
+            )
             source.call("cotan_convert_begin", options, self._result, self._handle)
 
         long_call(work, progress)

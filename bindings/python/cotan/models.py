@@ -19,7 +19,7 @@ from ._work import long_call
 from .errors import InputError, MissingFileError, OutputError, UsageError
 from .geometry import Mesh
 from .pictures import Path
-from .words import Expansion, Frame, Reading, TangentOrigin
+from .words import Expansion, Frame, Reading, TangentOrigin, Up
 
 Bytes = Union[bytes, bytearray, memoryview]
 Progress = Callable[[float], Any]
@@ -32,9 +32,11 @@ class Model:
 
     Attributes:
         warnings: what was odd about it, one line each.
+
+    up: which axis of the meshes is up, "y" or "z"; a model whose z is up is turned by 90 degrees about x.
     """
 
-    def __init__(self, meshes: Union[Mesh, Sequence[Mesh]]) -> None:
+    def __init__(self, meshes: Union[Mesh, Sequence[Mesh]], up: Up = "y") -> None:
         meshes = [meshes] if isinstance(meshes, Mesh) else list(meshes)
         for i, mesh in enumerate(meshes):
             if not isinstance(mesh, Mesh):
@@ -44,25 +46,26 @@ class Model:
         names = (ctypes.c_char_p * len(given))(*(arrays.encoded(mesh.name, "name") for mesh in meshes))
         made = structs.handle()
         call("cotan_model_of_meshes", len(given), pointers, names, made)
-        self._hold(made)
+        self._hold(made, up)
 
-    def _hold(self, made):
+    def _hold(self, made, up):
         self._handle = made
         weakref.finalize(self, library().cotan_model_free, made.value)
+        call("cotan_model_up", made, arrays.encoded(up, "up"))
         self.warnings = [w for w in library().cotan_model_warnings(made).decode("utf-8", "replace").split("\n") if w]
 
 
-def load(file: Path, pictures: bool = True, memory: int = 640) -> Model:
+def load(file: Path, pictures: bool = True, memory: int = 640, up: Up = "y") -> Model:
     """Reads a model file: .glb, .gltf, .obj, .ply, .stl, .dae, .fbx or .3ds. Missing normals are made.
 
     pictures: False leaves those of its materials out, which is enough to bake by its shape. memory: of the largest
-    picture, in MiB. Formats other than glTF are read by a child process.
+    picture, in MiB. up: "z" turns the model by 90 degrees about x, for PLY and STL of Blender and CAD. Formats other than glTF are read by a child process.
     Raises InputError for a missing or broken file or one over a limit.
     """
     made = structs.handle()
     call("cotan_model_open", arrays.encoded(file, "file"), int(pictures), arrays.memory_of(memory), made, files=(file,))
     model = Model.__new__(Model)
-    model._hold(made)
+    model._hold(made, up)
     return model
 
 
@@ -287,7 +290,7 @@ def check_tangents(tangents):
 def convert(
     model: Union[Path, Bytes],
     out: Optional[Path] = None,
-    to_frame: Frame = "cotangent",
+    to_frame: Optional[Frame] = None,
     from_frame: Optional[Frame] = None,
     tangents: TangentOrigin = "stored",
     keep_tangents: bool = False,
@@ -299,6 +302,7 @@ def convert(
     decode: Optional[Decode] = None,
     encode: Optional[Encode] = None,
     unsigned: Expansion = "biased",
+    keep_maps: bool = False,
 ) -> Converted:
     """A glTF model's normal maps made for another frame, and its tangents dropped.
 
@@ -306,7 +310,8 @@ def convert(
         model: a path to .glb or .gltf, or the bytes of one.
         out: .glb to write, whole or not at all; None: the bytes are in the result.
         to_frame, from_frame: names of frames. "mikktspace" and "vertex" write TANGENT, all others drop it.
-            from_frame None: the frame that the file names for its maps, else "mikktspace".
+            to_frame None: "cotangent", with keep_maps "orthonormal". from_frame None: the frame that the file names
+            for its maps, else "mikktspace".
         tangents: "stored" (generated where missing) or "generated", for from_frame.
         keep_tangents: TANGENT stays where the new frame does not read it.
         bits: of the new maps, 8 or 16, and all are written anew; 0: as the old ones, which stay where they fit.
@@ -317,6 +322,7 @@ def convert(
         decode: decode(name, bytes) gives a picture for a PNG or JPEG file, in place of the library's own readers.
         encode: encode(picture) gives the PNG file of a picture of uint8 or uint16, in place of its own writer.
         unsigned: how engines take the numbers of the maps: "biased" (2c - 1, as stock engines do) or "exact".
+        keep_maps: leaves all maps byte for byte as they are, to be read with to_frame, and drops tangents only.
 
     Raises UsageError, InputError for a broken or missing file, OutputError, StoppedError; nothing is written then.
     """
@@ -327,7 +333,7 @@ def convert(
     result, glb, text = structs.ConvertResult(), structs.handle(), structs.handle()
 
     def work(told):
-        options = convert_options(to_frame, from_frame, tangents, keep_tangents, bits, threads, told, unsigned)
+        options = convert_options(to_frame, from_frame, tangents, keep_tangents, bits, threads, told, unsigned, keep_maps)
         source.call("cotan_convert_gltf", options, result, glb, text)
 
     long_call(work, progress)
@@ -337,16 +343,17 @@ def convert(
     return converted_of(result, made if out is None else None, report)
 
 
-def convert_options(to_frame, from_frame, tangents, keep_tangents, bits, threads, told, unsigned="biased"):
+def convert_options(to_frame, from_frame, tangents, keep_tangents, bits, threads, told, unsigned, keep_maps):
     """The struct of the C API."""
     options = structs.ConvertOptions(
-        to=arrays.encoded(to_frame, "to_frame"),
+        to=None if to_frame is None else arrays.encoded(to_frame, "to_frame"),
         bits=arrays.integer(bits, "bits", 0, 16),
         keep_tangents=int(keep_tangents),
         generate_tangents=int(tangents == "generated"),
         threads=arrays.threads_of(threads),
         progress=told,
         expansion=arrays.encoded(unsigned, "unsigned"),
+        keep_maps=int(keep_maps),
     )
     if from_frame is not None:
         setattr(options, "from", arrays.encoded(from_frame, "from_frame"))

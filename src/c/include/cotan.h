@@ -22,7 +22,7 @@
 extern "C" {
 #endif
 
-#define COTAN_API_VERSION 4
+#define COTAN_API_VERSION 5
 /* clang-format off */
 #ifdef __cplusplus
 #define COTAN_INIT(type) cotan_init<type>()
@@ -268,6 +268,12 @@ int cotan_reader_process(void);
 cotan_status cotan_model_of_meshes(size_t count, const cotan_mesh* const* meshes, const char* const* names,
                                    cotan_model** model, char* message, size_t message_size);
 
+/* Which axis of the model is up: "y", as everything here has it, or "z", as in PLY and STL of Blender and CAD: then it
+ * is turned by 90 degrees about x. Once for each model, before it is used; a second "z" turns it further. Since
+ * version 5.
+ */
+cotan_status cotan_model_up(cotan_model* model, const char* up, char* message, size_t message_size);
+
 /* What was odd about it, one line each, "" where nothing was; gone with the model. Since version 3. */
 const char* cotan_model_warnings(const cotan_model* model);
 
@@ -405,6 +411,9 @@ typedef struct cotan_convert_options {
     cotan_progress progress; /* may be null */
     void* user;
     const char* expansion; /* how engines take the numbers of the maps: "biased" (2c - 1) or "exact"; null: "biased" */
+    /* Since version 5. */
+    int keep_maps; /* not 0: all maps stay, byte for byte, to be read with `to`, which may not read tangents; only
+                      tangents go. `to` null: "orthonormal" then */
 } cotan_convert_options;
 
 typedef struct cotan_convert_result {

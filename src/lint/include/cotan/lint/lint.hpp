@@ -149,8 +149,8 @@ std::size_t lintBytes(const Scene& scene);
 // with what is known; of a scene that does not hold together (checkScene) only `defects` says so. options.memory is not
 // asked.
 LintReport lintScene(const Scene& scene, const LintOptions& options = {});
-// The same with progress, on the thread of the caller. Errors: ErrorKind::stopped; ErrorKind::input, before anything is
-// done, where lintBytes are more than options.memory.
+// The same with progress, on the thread of the caller: four times for each mesh, and at the end. Errors:
+// ErrorKind::stopped; ErrorKind::input, before anything is done, where lintBytes are more than options.memory.
 Result<LintReport> lintScene(const Scene& scene, const LintOptions& options, const Progress& progress);
 
 } // namespace cotan

@@ -24,4 +24,7 @@ std::vector<Fault> faultsOf(const NormalStatistics& statistics, const GreenVerdi
 // The options of `cotan map convert` that mend them all, such as "--from directx,srgb --to gltf"; empty without faults.
 std::string mendingOptions(const std::vector<Fault>& faults);
 
+// "NAME: FAULT; FAULT; cotan map convert OPTIONS mends it."; empty without faults.
+std::string sentenceOf(const std::string& name, const std::vector<Fault>& faults);
+
 } // namespace cotan::maps

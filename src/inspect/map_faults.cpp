@@ -1,0 +1,31 @@
+#include "cotan/inspect/map_faults.hpp"
+
+#include <set>
+
+#include <fmt/format.h>
+
+#include "cotan/maps/faults.hpp"
+
+namespace cotan {
+
+std::vector<std::string> mapFaults(const Scene& scene)
+{
+    std::vector<std::string> sentences;
+    std::set<int> seen;
+    for (const Material& m : scene.materials) {
+        const int image = m.normalMap.image;
+        if (!m.normalMap.present() || std::size_t(image) >= scene.images.size() || !seen.insert(image).second)
+            continue;
+        const Image& map = scene.images[std::size_t(image)];
+        if (!hasPixels(map))
+            continue;
+        const maps::GreenVerdict verdict = maps::greenOf(map);
+        const bool declaredUp = m.normalFormat.greenUp != m.greenReversed;
+        const auto faults = maps::faultsOf(verdict.statistics, declaredUp ? &verdict : nullptr);
+        if (!faults.empty())
+            sentences.push_back(maps::sentenceOf(map.name.empty() ? fmt::format("Image {}", image) : map.name, faults));
+    }
+    return sentences;
+}
+
+} // namespace cotan
