@@ -36,7 +36,8 @@ struct Worst {
     }
 };
 
-Camera lookingAt(const Scene& scene, const Instance& instance, const Mesh& mesh, std::size_t triangle)
+// whole: the diagonal of the scene.
+Camera lookingAt(float whole, const Instance& instance, const Mesh& mesh, std::size_t triangle)
 {
     std::array<glm::vec3, 3> p;
     for (std::size_t k = 0; k < 3; ++k)
@@ -47,8 +48,6 @@ Camera lookingAt(const Scene& scene, const Instance& instance, const Mesh& mesh,
         normal = -normal;
     const float length = glm::length(normal);
     normal = length > 0 ? normal / length : glm::vec3(0, 0, 1);
-    const Bounds box = bounds(scene);
-    const float whole = glm::length(box.high - box.low);
     const float size = std::max({glm::length(p[1] - p[0]), glm::length(p[2] - p[0]), whole / 40});
     Camera camera;
     camera.target = middle;
@@ -121,10 +120,16 @@ Found findOn(const MappedSurface& surface)
 std::vector<HotSpot> hotSpots(const Scene& scene, std::size_t most)
 {
     std::vector<HotSpot> spots;
+    const Bounds box = bounds(scene);
+    const float whole = glm::length(box.high - box.low);
+    std::vector<const Instance*> firstOf(scene.meshes.size()); // instances
+    for (const Instance& instance : scene.instances)
+        if (const Instance*& first = firstOf[std::size_t(instance.mesh)]; !first)
+            first = &instance;
     for (std::size_t m = 0; m < scene.meshes.size(); ++m) {
         const Mesh& mesh = scene.meshes[m];
-        const auto instance = std::ranges::find(scene.instances, int(m), &Instance::mesh);
-        if (instance == scene.instances.end())
+        const Instance* const instance = firstOf[m];
+        if (!instance)
             continue;
         const Material& material = scene.materials[std::size_t(mesh.material)];
         const std::shared_ptr<const Mesh> held(std::shared_ptr<void>(), &mesh); // the scene outlives the surface
@@ -143,7 +148,7 @@ std::vector<HotSpot> hotSpots(const Scene& scene, std::size_t most)
             const std::string text = fmt::format("{}: {:.1f} % of {}", kind.words, share * 100, name)
                 + fmt::format(fmt::runtime(kind.here), worst.value);
             spots.push_back(
-                {text, m, share, kind.bad * worst.value * share, lookingAt(scene, *instance, mesh, worst.triangle)});
+                {text, m, share, kind.bad * worst.value * share, lookingAt(whole, *instance, mesh, worst.triangle)});
         }
     }
     std::ranges::stable_sort(spots, std::greater(), &HotSpot::badness);
