@@ -165,7 +165,6 @@ def ktx2(r):
     size = width * height * 4
     data = zstd(size) if scheme == 2 else deflated([(b"\0" * (1 << 20), min(size >> 20, 800))])
     samples = b"".join(struct.pack("<HBBII2I"[:0] + "<HBBIII", 8 * k, 7, 15 if k == 3 else k, 0, 0, 255) for k in range(4))
-    del words
     block = struct.pack("<HHHHBBBB4B8B", 0, 0, 2, 24 + 16 * 4, 1, 1, 1, 0, 0, 0, 0, 0, 4, 0, 0, 0, 0, 0, 0, 0) + samples
     described = struct.pack("<I", 4 + len(block)) + block
     at = 12 + 36 + 32 + 24
