@@ -104,8 +104,7 @@ namespace {
 // What may be read row by row of a file of so many bytes, in bytes of pixels: each takes its time.
 Status checkRows(const RowReader& rows, std::size_t fileBytes, const LoadLimits& limits)
 {
-    constexpr double kBeyond = double(1 << 30), kOfEachByte = 128;
-    const double most = std::max(kBeyond, double(limits.imageBytes)) + kOfEachByte * double(fileBytes);
+    const double most = double(limits.imageBytes) + 128 * double(fileBytes);
     const double bytes = 4.0 * double(bytesPerComponent(rows.type)) * rows.width * rows.height;
     if (bytes > most)
         return inputError(

@@ -100,6 +100,12 @@ int TextureReader::normalMap(const std::string& path, const std::string& materia
     const int source = image(path, material);
     if (source < 0 || !looksLikeHeight(scene_.images[std::size_t(source)]))
         return source;
+    const Image& heights = scene_.images[std::size_t(source)];
+    if (withinBudget(0).imageBytes < heights.pixelCount() * 4) {
+        scene_.warnings.push_back(
+            fmt::format("material {}: texture {}: the images are over their limit; left out", material, path));
+        return -1;
+    }
     converted = true;
     const auto [entry, isNew] = known_.try_emplace(fmt::format("bump\n{}\n{}", source, strength), -1);
     if (isNew) {
