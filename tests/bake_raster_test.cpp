@@ -1,6 +1,8 @@
 // The raster in uv: which triangles a texel shows.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -151,6 +153,65 @@ TEST(UvRaster, firstsAreTheFirstOfEachTexel)
             EXPECT_EQ(again.count({x, y}) > 0, row.places[i].covers);
         }
     }
+}
+
+TEST(UvRaster, spansAreTheTexelsWhoseCentresAreCovered)
+{
+    const Layout l = jitteredGrid(9);
+    const UvRaster raster(l.view(), 61, 43);
+    std::set<std::array<int, 3>> spanned, covered; // triangle, row, column
+    for (int block = 0; block < raster.blocks(); ++block)
+        raster.eachSpan(block, [&](const UvSpan& s) {
+            for (int x = s.first; x <= s.last; ++x)
+                spanned.insert({int(s.triangle), s.y, x});
+        });
+    UvRow row;
+    for (int y = 0; y < 43; ++y) {
+        raster.row(y, UvReach::centres, row);
+        for (int x = 0; x < 61; ++x)
+            for (std::uint32_t i = row.first[std::size_t(x)]; i < row.first[std::size_t(x) + 1]; ++i)
+                covered.insert({int(row.places[i].triangle), y, x});
+    }
+    EXPECT_EQ(spanned, covered);
+}
+
+TEST(UvRaster, aFewPlacesAreSomeOfAllAndOneIsTheFirst)
+{
+    Layout l = jitteredGrid(9);
+    for (int layer = 0; layer < 5; ++layer) // 6 layers of all triangles
+        l.indices.insert(l.indices.end(), l.indices.begin(), l.indices.begin() + 9 * 9 * 6);
+    const UvRaster raster(l.view(), 61, 43);
+    UvRow all, one, few, many;
+    for (int y = 0; y < 43; ++y) {
+        raster.row(y, UvReach::gaps, all);
+        raster.row(y, UvReach::gaps, one, {.most = 1});
+        raster.row(y, UvReach::gaps, few, {.most = 4});
+        raster.row(y, UvReach::gaps, many, {.most = 20});
+        for (std::size_t x = 0; x < 61; ++x) {
+            const auto of = [&](const UvRow& row) {
+                std::vector<std::uint32_t> triangles;
+                for (std::uint32_t i = row.first[x]; i < row.first[x + 1]; ++i)
+                    triangles.push_back(row.places[i].triangle);
+                return triangles;
+            };
+            ASSERT_EQ(of(all).size(), 6u);
+            EXPECT_EQ(of(one), std::vector(1, of(all).front()));
+            ASSERT_EQ(of(few).size(), 4u);
+            EXPECT_TRUE(std::ranges::includes(of(all), of(few)));
+            EXPECT_EQ(of(many), of(all));
+        }
+    }
+}
+
+TEST(UvRaster, aTriangleOfThousandsOfCopiesIsDrawnInSixteenThatAreInsideIt)
+{
+    const Layout l{{{0.3f, 0.1f}, {3000, 700}, {900, 2500}}, {0, 1, 2}};
+    const UvCoverage c = coverage(UvRaster(l.view(), 16, 16, {0, 0}, /*wrap*/ true));
+    EXPECT_EQ(c.covered, 256u);
+    UvRow row;
+    const UvRaster raster(l.view(), 16, 16, {0, 0}, /*wrap*/ true);
+    raster.row(5, UvReach::centres, row);
+    EXPECT_EQ(row.places.size(), 16u * 16u);
 }
 
 TEST(UvRaster, overlapsAreCounted)

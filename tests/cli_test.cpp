@@ -1,4 +1,6 @@
 // The command line as a user meets it: right words, wrong words, exit codes, files.
+#include <algorithm>
+#include <filesystem>
 #include <fstream>
 #include <set>
 
@@ -94,6 +96,23 @@ TEST(CommandLine, aReportGoesIntoAPipeAndDoesNotReplaceIt)
     EXPECT_EQ(::read(reader, &first, 1), 1);
     EXPECT_EQ(first, '{');
     ::close(reader);
+}
+
+TEST(CommandLine, anEqualsSignBehindAShortOptionIsNoPartOfTheName)
+{
+    TemporaryFolder folder;
+    ASSERT_EQ(runTool(with({"render", "-o=a.png"}, kSmall), folder.path()).code, 0);
+    EXPECT_TRUE(std::filesystem::exists(folder / "a.png"));
+    EXPECT_FALSE(std::filesystem::exists(folder / "=a.png"));
+}
+
+TEST(CommandLine, controlCharactersOfNamesAreEscaped)
+{
+    TemporaryFolder folder;
+    const ToolRun run = runTool({"lint", "a\nb\x1b[31m\xc2\x9b\xc3\xa9.glb"}, folder.path());
+    EXPECT_EQ(run.code, 2);
+    EXPECT_NE(run.err.find("a\\nb\\x1b[31m\\x9b\xc3\xa9.glb"), std::string::npos) << run.err;
+    EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1) << run.err;
 }
 
 TEST(CommandLine, missingModelExitsTwoAndNamesIt)

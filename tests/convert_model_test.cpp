@@ -265,7 +265,6 @@ TEST(ConvertModel, refusalsAreOneLineAndChangeNothing)
                     "depends on the view");
         }
     refused(documentOf(2, map), {.frames = kThere, .bits = 12}, ErrorKind::usage, "found 12");
-    refused(documentOf(2, map, 1e5f), {.frames = kThere}, ErrorKind::input, "repeat the map");
     ConvertModelOptions small{.frames = kThere};
     small.limits.imageSide = 8;
     refused(documentOf(2, map), small, ErrorKind::input, "16 x 16");

@@ -12,8 +12,8 @@
 #include "cotan/lint/texel.hpp"
 #include "cotan/surface/padding.hpp"
 #include "judgement_cases.hpp"
+#include "place_finder.hpp"
 #include "tally.hpp"
-#include "use_raster.hpp"
 
 namespace cotan {
 namespace {
@@ -210,14 +210,17 @@ TEST(Tally, ofNothingIsNotZeroAndOfZerosIs)
 std::vector<std::vector<glm::dvec2>> placesUnder(glm::vec2 low, glm::vec2 high, Wrap wrapU, Wrap wrapV, int row)
 {
     MapUse use{surfaceOf(rectangle({low.x, -high.y}, high - low, low, high)), kAsMeant, 1, wrapU, wrapV};
-    const convert::UseRaster raster(use, 4, 2);
-    std::vector<std::vector<convert::Place>> texels(4);
-    raster.addRow(row, 7, texels);
+    MapUse flat = use;
+    flat.strength = 0;
+    const MapUse uses[] = {flat, use}; // the first shows nothing
+    const convert::PlaceFinder finder(uses, 4, 2);
+    std::vector<std::vector<convert::Place>> texels;
+    finder.row(row, texels);
     std::vector<std::vector<glm::dvec2>> uv(4);
     for (std::size_t x = 0; x < 4; ++x)
         for (const convert::Place& p : texels[x])
             if (p.covers) {
-                EXPECT_EQ(p.use, 7u);
+                EXPECT_EQ(p.use, 1u);
                 uv[x].push_back(uvAt(use.surface, p.triangle, p.barycentric));
             }
     return uv;
@@ -234,7 +237,7 @@ void expectAt(const std::vector<glm::dvec2>& found, std::vector<glm::dvec2> expe
         EXPECT_LT(glm::length(sorted[i] - expected[i]), 1e-5);
 }
 
-TEST(UseRaster, aTexelIsSeenWhereItsCentreIsInEachCopy)
+TEST(PlaceFinder, aTexelIsSeenWhereItsCentreIsInEachCopy)
 {
     const auto once = placesUnder({0, 0}, {1, 1}, Wrap::repeat, Wrap::repeat, 1);
     expectAt(once[0], {{0.125, 0.75}});
@@ -243,7 +246,7 @@ TEST(UseRaster, aTexelIsSeenWhereItsCentreIsInEachCopy)
     expectAt(repeated[1], {{0.375, 0.25}, {1.375, 0.25}});
 }
 
-TEST(UseRaster, mirroredAxesRunBackInEverySecondCopy)
+TEST(PlaceFinder, mirroredAxesRunBackInEverySecondCopy)
 {
     const auto u = placesUnder({0, 0}, {2, 1}, Wrap::mirror, Wrap::repeat, 0);
     expectAt(u[1], {{0.375, 0.25}, {1.625, 0.25}});
@@ -253,7 +256,7 @@ TEST(UseRaster, mirroredAxesRunBackInEverySecondCopy)
     expectAt(both[0], {{0.125, 0.75}, {1.875, 0.75}, {0.125, 1.25}, {1.875, 1.25}});
 }
 
-TEST(UseRaster, beyondAClampedAxisThereIsNothing)
+TEST(PlaceFinder, beyondAClampedAxisThereIsNothing)
 {
     expectAt(placesUnder({0, 0}, {2, 1}, Wrap::clamp, Wrap::repeat, 0)[1], {{0.375, 0.25}});
     expectAt(placesUnder({0, 0}, {1, 2}, Wrap::repeat, Wrap::clamp, 0)[1], {{0.375, 0.25}});
@@ -395,24 +398,43 @@ TEST(Reencode, paddingTakesTheNearestPlaceAndEmptyTexelsStay)
     EXPECT_EQ(r.padded, 64u - 12u - 8u);
 }
 
-TEST(Copies, areCountedByTheAreaOfBoxesWhateverTheNumberOfTriangles)
+// Rows of a map of 64 under a rectangle of two triangles, in uv.
+double rowsUnderRectangle(glm::vec2 low, glm::vec2 high)
 {
-    EXPECT_EQ(copiesUnder(surfaceOf(rectangle({0, 0}, {1, 1}, {0.25f, 0.25f}, {0.75f, 0.75f}))), 2 * 0.25);
-    std::vector<Corner> fine;
-    for (int i = 0; i < 64; ++i)
-        for (int k = 0; k < 64; ++k)
-            fine = fine
-                + rectangle({i, k}, {1, 1}, {float(i) / 64, float(k) / 64}, {float(i + 1) / 64, float(k + 1) / 64});
-    EXPECT_EQ(copiesUnder(surfaceOf(fine)), 2); // 8,192 triangles on one chart
+    return rowsUnder(surfaceOf(rectangle({0, 0}, {1, 1}, low, high)), 64);
 }
 
-TEST(Copies, areThoseThatATriangleTouchesWhereItIsNarrow)
+TEST(RowsUnder, areThoseOfEachTriangleAndCopy)
 {
-    EXPECT_EQ(copiesUnder(surfaceOf(rectangle({0, 0}, {1, 1}, {0, 0}, {4, 2}))), 2 * 8);
-    // 3 by 2 in area; 4 by 2 are touched, 7 more than one.
-    EXPECT_EQ(copiesUnder(surfaceOf(rectangle({0, 0}, {1, 1}, {0.5f, 0}, {3.5f, 2}))), 2 * 7);
-    EXPECT_EQ(copiesUnder(surfaceOf(rectangle({0, 0}, {1, 1}, {0, 0.5f}, {1000, 0.5f}))), 2 * 999);
-    EXPECT_EQ(copiesUnder(surfaceOf(rectangle({0, 0}, {1, 1}, {0, 0}, {2e6f, 1}))), 0); // not drawn
+    // Two triangles of 32 rows, and one more each where a row is cut.
+    EXPECT_EQ(rowsUnderRectangle({0.25f, 0.25f}, {0.75f, 0.75f}), 2 * (32 + 1));
+    // Four columns of copies, each of two whole rows of them.
+    EXPECT_EQ(rowsUnderRectangle({0, 0}, {4, 2}), 2 * 4 * (2 * 64 + 2));
+    EXPECT_EQ(rowsUnderRectangle({0, 0}, {2e6f, 1}), 0); // not drawn
+}
+
+TEST(RowsUnder, ofATriangleWithRoomForWholeCopiesAreThoseOfSixteen)
+{
+    EXPECT_EQ(rowsUnderRectangle({0, 0}, {100, 100}), 2 * 4 * (4 * 64 + 4));
+    EXPECT_EQ(rowsUnderRectangle({0, 0}, {3000, 3000}), 2 * 4 * (4 * 64 + 4));
+}
+
+TEST(PlaceFinder, placesAreNoMoreThanSixteenOfATexelHoweverManyTrianglesShowIt)
+{
+    std::vector<Corner> many;
+    for (int i = 0; i < 300; ++i)
+        many = many + rectangle({i, 0}, {1, 1}, {0, 0}, {1, 1});
+    const MapUse use = unormUse(many);
+    const convert::PlaceFinder finder({&use, 1}, 8, 8);
+    std::vector<std::vector<convert::Place>> texels;
+    finder.row(3, texels);
+    for (const auto& places : texels) {
+        ASSERT_EQ(places.size(), kMostPlaces);
+        EXPECT_LT(places.front().triangle, 100u); // of 600: they are from all over the list
+        EXPECT_GT(places.back().triangle, 500u);
+        EXPECT_TRUE(std::ranges::is_sorted(places, {}, &convert::Place::triangle));
+        EXPECT_TRUE(std::ranges::all_of(places, &convert::Place::covers));
+    }
 }
 
 } // namespace

@@ -252,7 +252,6 @@ TEST(Convert, mirroredWrappingFoldsAndRepeatingStacks)
     const Reencoded clamped = reencode(map, {&clamp, 1}, kToCotangent, 8);
     EXPECT_EQ(clamped.several, 0u);
     EXPECT_EQ(clamped.covered, 32u * 32u);
-    EXPECT_EQ(copiesUnder(repeat.surface), 4.0); // two boxes to a square of uv
 }
 
 TEST(Convert, aNodeThatStretchesIsPartOfThePlace)

@@ -173,4 +173,47 @@ TEST(GltfMaterial, layersWithoutStrengthAskForNoPictures)
         << refused.error().message;
 }
 
+// A square whose base colour and normal map are two images of the same bytes, in two views.
+Gltf squareOfEqualImages()
+{
+    Gltf g = square();
+    const std::string png = flatPng();
+    for (int k = 0; k < 2; ++k) {
+        g.add("images", {{"mimeType", "image/png"}, {"bufferView", g.view(std::vector<char>(png.begin(), png.end()))}});
+        g.add("textures", {{"source", k}});
+    }
+    g.root["materials"][0]["normalTexture"] = {{"index", 0}};
+    g.root["materials"][0]["pbrMetallicRoughness"] = {{"baseColorTexture", {{"index", 1}}}};
+    return g;
+}
+
+TEST(GltfImages, ofEqualBytesAreHeldOnce)
+{
+    COTAN_LOADED(scene, squareOfEqualImages().load());
+    ASSERT_EQ(scene.images.size(), 1u);
+    EXPECT_EQ(scene.materials.at(0).normalMap.image, 0);
+    EXPECT_EQ(scene.materials.at(0).baseColorMap.image, 0);
+    Gltf other = squareOfEqualImages();
+    other.bytes.back() = char(other.bytes.back() ^ 1); // the checksum of the last chunk of the second
+    const auto refused = other.load();
+    ASSERT_FALSE(refused);
+    EXPECT_NE(refused.error().message.find("images[1]"), std::string::npos) << refused.error().message;
+}
+
+TEST(GltfImages, ofAModelShareABudgetThatGrowsWithItsFile)
+{
+    Gltf g = square();
+    addNormalMap(g); // 16 bytes of pixels
+    EXPECT_TRUE(g.load());
+    LoadLimits none;
+    none.imageBytesBeyond = 0; // 128 times its own size are enough
+    EXPECT_TRUE(g.load(none));
+    none.allImageBytes = 15;
+    const auto refused = g.load(none);
+    ASSERT_FALSE(refused);
+    EXPECT_NE(refused.error().message.find("the limit is 15"), std::string::npos) << refused.error().message;
+    EXPECT_EQ(imageBudget({}, 1'000'000), (std::size_t(192) << 20) + 128'000'000);
+    EXPECT_EQ(imageBudget({}, std::uint64_t(1) << 40), LoadLimits{}.allImageBytes);
+}
+
 } // namespace

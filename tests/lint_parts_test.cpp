@@ -397,8 +397,20 @@ TEST(Overlap, uvThatRepeatTheImageTooOftenCountAsOverlapping)
     };
     EXPECT_EQ(often(1), 0);
     EXPECT_NEAR(often(2), 1, 1e-9); // repeated: each texel four times
-    EXPECT_EQ(often(3000), 1);      // beyond what is drawn
-    EXPECT_EQ(often(1e7f), 0);      // out of range: not drawn at all
+    EXPECT_NEAR(often(3000), 1, 1e-9);
+    EXPECT_EQ(often(1e7f), 0); // out of range: not drawn at all
+}
+
+TEST(Overlap, ofManyTrianglesInOnePlaceIsFoundOnACoarserRaster)
+{
+    // In rows of 512 texels these are 10 times what is looked at.
+    Mesh mesh = *surfaceOf(rectangle({0, 0}, {1, 1}, {0, 0}, {1, 1})).shared->mesh;
+    const std::vector<std::uint32_t> once = mesh.indices;
+    for (int i = 0; i < 100'000; ++i)
+        mesh.indices.insert(mesh.indices.end(), once.begin(), once.end());
+    const MappedSurface surface = makeSurface(mesh, Texture{}, glm::dmat3(1), {});
+    EXPECT_GT(rowsUnder(surface, 512), 1e8);
+    EXPECT_NEAR(overlapsOf({surface}, 512)[0].overlapping, 1, 1e-9);
 }
 
 // ---- texels ---------------------------------------------------------------------------------

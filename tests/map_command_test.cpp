@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <fstream>
+#include <iterator>
 #include <limits>
 
 #include <glm/vec3.hpp>
@@ -339,6 +341,20 @@ TEST(MapCommand, textures_hold_the_same_normals_plain_and_in_blocks)
         ASSERT_TRUE(image);
         EXPECT_EQ(image->bytes8()[3], 255);
     }
+}
+
+TEST(MapCommand, mips_appear_all_or_none)
+{
+    TemporaryFolder folder;
+    ASSERT_TRUE(writeImage(folder / "map.png", makeReliefMap(Relief::waves, 8)));
+    std::ofstream(folder / "level_0.png") << "older";
+    fs::create_directory(folder / "level_roughness_2.png"); // the sixth of eight cannot be written
+    const ToolRun run = runTool({"map", "mips", "map.png", "-o", "level.png"}, folder.path());
+    EXPECT_EQ(run.code, 4) << run.err;
+    EXPECT_EQ(fs::file_size(folder / "level_0.png"), 5u);
+    for (const char* name : {"level_roughness_0.png", "level_1.png", "level_2.png"})
+        EXPECT_FALSE(fs::exists(folder / name)) << name;
+    EXPECT_EQ(std::distance(fs::directory_iterator(folder.path()), {}), 3); // and no part
 }
 
 TEST(MapCommand, mips_in_blocks_have_their_roughness_in_a_second_file)

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "cotan/scene/objects.hpp"
+#include "cotan/scene/parts.hpp"
 #include "cotan/scene/up.hpp"
 
 namespace cotan {
@@ -60,6 +61,84 @@ TEST(SceneObjects, haveTheNamesOfInstancesElseOfMeshesAndComeApart)
     EXPECT_EQ(split.others.meshes[0].name, "handle"); // both have it
     EXPECT_EQ(split.others.meshes[0].material, 0);
     EXPECT_TRUE(splitObject(scene, "window").object.instances.empty());
+}
+
+// A scene of one right triangle in the plane z = 0, of opaque material 0 and 1.
+Scene triangleScene()
+{
+    Scene scene;
+    scene.materials.resize(2);
+    Mesh mesh;
+    mesh.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+    mesh.normals.assign(3, {0, 0, 1});
+    mesh.tangents.assign(3, {1, 0, 0, 1});
+    mesh.texcoords[0] = {{0, 0}, {1, 0}, {0, 1}};
+    mesh.indices = {0, 1, 2};
+    scene.meshes = {mesh, mesh};
+    scene.meshes[1].material = 1;
+    return scene;
+}
+
+TEST(SceneParts, ofOneMaterialAreJoinedWhereInstancesPlaceThem)
+{
+    Scene scene = triangleScene();
+    glm::mat4 moved(1), mirrored(1);
+    moved[3] = {5, 6, 7, 1};
+    mirrored[0] = {-2, 0, 0, 0};
+    scene.instances = {{"a", 0, moved}, {"b", 1, glm::mat4(1)}, {"c", 0, mirrored}};
+    Scene few = scene;
+    joinParts(few, 3); // not more than that
+    EXPECT_EQ(few.instances.size(), 3u);
+    joinParts(scene, 2);
+    ASSERT_EQ(scene.instances.size(), 2u); // one of each material
+    ASSERT_EQ(scene.meshes.size(), 2u);
+    const Mesh& mesh = scene.meshes[0];
+    EXPECT_EQ(mesh.material, 0);
+    EXPECT_EQ(mesh.positions,
+              (std::vector<glm::vec3>{{5, 6, 7}, {6, 6, 7}, {5, 7, 7}, {0, 0, 0}, {-2, 0, 0}, {0, 1, 0}}));
+    EXPECT_EQ(mesh.indices, (std::vector<std::uint32_t>{0, 1, 2, 3, 5, 4})); // still counter-clockwise from +z
+    EXPECT_EQ(mesh.normals, std::vector<glm::vec3>(6, {0, 0, 1}));
+    EXPECT_EQ(mesh.tangents[1], glm::vec4(1, 0, 0, 1));
+    EXPECT_EQ(mesh.tangents[4], glm::vec4(-1, 0, 0, -1));
+    EXPECT_EQ(mesh.texcoords[0][4], glm::vec2(1, 0));
+    EXPECT_EQ(scene.meshes[1].material, 1);
+    EXPECT_EQ(scene.meshes[1].positions.size(), 3u);
+}
+
+TEST(SceneParts, trianglesThatLieOnAnEarlierOneOfTheirMeshGoFromOpaqueOnes)
+{
+    Scene scene = triangleScene();
+    scene.materials[1].alphaMode = AlphaMode::blend;
+    for (Mesh& mesh : scene.meshes)
+        mesh.indices = {0, 1, 2, 1, 2, 0, 0, 2, 1, 0, 1, 2}; // the third is seen from the other side
+    dropRepeated(scene);
+    EXPECT_EQ(scene.meshes[0].indices, (std::vector<std::uint32_t>{0, 1, 2, 0, 2, 1}));
+    EXPECT_EQ(scene.meshes[1].indices.size(), 12u);
+}
+
+TEST(SceneParts, thatCoverThePictureTooOftenAreRefusedUnlessTheyAreTheSame)
+{
+    Scene scene = triangleScene();
+    scene.name = "model";
+    scene.instances = {{"", 0, glm::mat4(1)}};
+    View view;
+    view.width = view.height = 100;
+    view.camera.orthographic = true;
+    view.camera.verticalExtent = 1;
+    view.camera.eye = {0.5f, 0.5f, 5};
+    view.camera.target = {0.5f, 0.5f, 0};
+    EXPECT_NEAR(pixelsCovered(scene, view), 5000, 1e-3); // half of it
+    for (int i = 0; i < 1000; ++i)
+        scene.meshes[0].indices.insert(scene.meshes[0].indices.end(), {0, 1, 2});
+    Scene other = scene;
+    EXPECT_TRUE(settleCovered(scene, view));
+    EXPECT_EQ(scene.meshes[0].triangleCount(), 1u);
+    other.materials[0].alphaMode = AlphaMode::mask;
+    const Status refused = settleCovered(other, view);
+    ASSERT_FALSE(refused);
+    EXPECT_EQ(refused.error().message,
+              "model: its triangles cover the picture 501 times over, expected at most 250: look from further away, or "
+              "leave some out");
 }
 
 } // namespace

@@ -11,6 +11,7 @@
 #include "cotan/image/format_table.hpp"
 #include "cotan/parallel/loops.hpp"
 #include "cotan/report/report_format.hpp"
+#include "cotan/terminal/printable.hpp"
 #include "cotan/terminal/progress_line.hpp"
 
 namespace cotan::app {
@@ -100,7 +101,7 @@ void say(const CommonOptions& options, const std::string& line)
     if (options.quiet || options.json == "-")
         return;
     wipeProgress();
-    print(line + "\n");
+    print(printable(line) + "\n");
 }
 
 void warn(const CommonOptions& options, const std::string& line)
@@ -108,7 +109,7 @@ void warn(const CommonOptions& options, const std::string& line)
     if (options.quiet)
         return;
     wipeProgress();
-    std::fputs(fmt::format("cotan: warning: {}\n", line).c_str(), stderr);
+    std::fputs(fmt::format("cotan: warning: {}\n", printable(line)).c_str(), stderr);
 }
 
 void warnIfLossy(const CommonOptions& options, const std::filesystem::path& map)

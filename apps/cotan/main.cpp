@@ -4,6 +4,7 @@
 #include <exception>
 #include <filesystem>
 #include <string>
+#include <system_error>
 #include <vector>
 
 #include <fmt/format.h>
@@ -18,6 +19,7 @@
 #include "cotan/files/sandbox.hpp"
 #include "cotan/model/reader.hpp"
 #include "cotan/terminal/help_files.hpp"
+#include "cotan/terminal/printable.hpp"
 #include "view_command.hpp"
 
 namespace {
@@ -25,7 +27,7 @@ namespace {
 // Not fmt::print, which throws where standard error cannot be written.
 int fail(const cotan::Error& error)
 {
-    std::fputs(fmt::format("cotan: error: {}\n", error.message).c_str(), stderr);
+    std::fputs(fmt::format("cotan: error: {}\n", cotan::printable(error.message)).c_str(), stderr);
     return int(error.kind);
 }
 
@@ -82,6 +84,11 @@ int main(int argc, char** argv)
         return runCommandLine({argv + std::min(argc, 1), argv + argc});
     } catch (const std::bad_alloc&) {
         return fail({cotan::ErrorKind::unavailable, "not enough memory"});
+    } catch (const std::system_error& e) { // of threads, too
+        return fail({cotan::ErrorKind::unavailable,
+                     e.code() == std::errc::resource_unavailable_try_again
+                         ? "no more threads or processes are allowed here (ulimit -u)"
+                         : std::string("unexpected: ") + e.what()});
     } catch (const std::exception& e) {
         return fail({cotan::ErrorKind::unavailable, std::string("unexpected: ") + e.what()});
     }

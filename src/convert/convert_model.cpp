@@ -14,8 +14,8 @@ namespace cotan {
 
 namespace {
 
-constexpr double kSeen = 0.5;       // degrees on average over a map: below, nobody sees a difference
-constexpr double kMostCopies = 2e6; // of the image under all triangles together
+constexpr double kSeen = 0.5;     // degrees on average over a map: below, nobody sees a difference
+constexpr double kMostRows = 1e8; // of texels under all triangles together
 
 class ModelConverter {
 public:
@@ -45,6 +45,8 @@ public:
                 map.name, map.format, map.advice));
         if (Status fits = checkMemory(*jobs); !fits)
             return fits;
+        for (const MapJob& job : *jobs)
+            surfaces_ += surfacesOf(job);
         if (jobs->empty())
             report_.notes.push_back("no primitive has a normal map and uv: nothing to convert");
         for (std::size_t k = 0; k < jobs->size(); ++k) {
@@ -151,9 +153,11 @@ private:
                                                 job.name, name(options_.frames.to), done.figures.unconverted.mean));
         if (done.kept)
             return done;
-        if (const double copies = copiesOf(job); !(copies <= kMostCopies))
-            return inputError(fmt::format("{}: the uv repeat the map {:.3g} times in all, expected at most {:.0f}",
-                                          field, copies, kMostCopies));
+        if (const double rows = rowsOf(*uses, map->height); !(rows <= kMostRows))
+            return inputError(
+                fmt::format("{}: its triangles are in {:.3g} rows of its texels, each in its own; expected at "
+                            "most {:.3g}: fewer triangles that repeat the map, or a smaller map",
+                            field, rows, kMostRows));
         done.bits = options_.bits != 0 ? options_.bits : map->type == PixelType::unorm8 ? 8 : 16;
         CountedSteps rows(share, std::size_t(map->height));
         Reencoded r = reencode(*map, *uses, options_.frames, done.bits, options_.threads, &rows, expansions.written);
@@ -177,16 +181,17 @@ private:
         std::vector<const MapUse*> all;
         for (const MapUse& use : uses)
             all.push_back(&use);
-        return mapError(map, map, all, options_.frames);
+        return mapErrors(map, map, all, {&options_.frames, 1}, {}, pointsOfEach(surfaces_)).front();
     }
 
-    // Of the image under all triangles together.
-    static double copiesOf(const MapJob& job)
+    // Rows of texels under all triangles, those of a surface once.
+    static double rowsOf(const std::vector<MapUse>& uses, int height)
     {
-        double copies = 0;
-        for (const MapReader& reader : job.readers)
-            copies += reader.copies * double(reader.placed.size());
-        return copies;
+        double rows = 0;
+        for (std::size_t i = 0; i < uses.size(); ++i)
+            if (i == 0 || uses[i].surface.shared != uses[i - 1].surface.shared)
+                rows += rowsUnder(uses[i].surface, height);
+        return rows;
     }
 
     void noteWhatStaysOff(const ConvertedMap& map)
@@ -232,7 +237,8 @@ private:
     const ConvertModelOptions& options_;
     GltfDocument document_; // a copy, so that an error leaves the caller's as it was
     ConvertModelReport report_;
-    bool named_ = false; // the materials say for which frame their maps are
+    std::size_t surfaces_ = 0; // of all maps
+    bool named_ = false;       // the materials say for which frame their maps are
 };
 
 } // namespace

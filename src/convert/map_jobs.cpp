@@ -17,14 +17,17 @@ using Json = nlohmann::ordered_json;
 
 namespace {
 
-bool readElsewhere(const Json& root, std::size_t image)
+// The images that materials read in other slots than those of normal maps.
+std::set<int> imagesReadElsewhere(const Json& root)
 {
     std::set<std::size_t> textures;
     for (std::size_t m = 0; m < countOf(root, "materials"); ++m)
         textures.merge(texturesBesideNormalMaps(root["materials"][m]));
-    return std::any_of(textures.begin(), textures.end(), [&](std::size_t t) {
-        return t < countOf(root, "textures") && textureAt(root, int(t)).image == int(image);
-    });
+    std::set<int> images;
+    for (const std::size_t t : textures)
+        if (t < countOf(root, "textures"))
+            images.insert(textureAt(root, int(t)).image);
+    return images;
 }
 
 // Makes the image, which is a PNG now, a texture's own, and takes those that extensions name in its place.
@@ -70,14 +73,15 @@ const char* whatOf(NormalSlot slot) { return slot == NormalSlot::coat ? "its coa
 
 // The primitive's mesh with the uv of its own normal map as set 0 and those of a coat's, where asked for, as set 1.
 // Without triangles or the uv of the map: no mesh, and `why`.
-Result<Mesh> meshFor(const GltfDocument& document, std::size_t m, std::size_t p, NormalSlot slot, std::string& why)
+Result<Mesh> meshFor(const GltfDocument& document, std::size_t m, std::size_t p, MapPlace place, std::string& why)
 {
-    auto geometry = gltfGeometry(document, m, p);
+    const NormalSlot slot = place.slot;
+    auto geometry = gltfGeometry(document, m, p, NormalSlot::surface, place.material);
     if (!geometry)
         return geometry.error();
     Mesh mesh = gltfMesh(std::move(*geometry));
     if (slot == NormalSlot::coat) {
-        auto coat = gltfGeometry(document, m, p, slot);
+        auto coat = gltfGeometry(document, m, p, slot, place.material);
         if (!coat)
             return coat.error();
         mesh.texcoords[1] = std::move(gltfMesh(std::move(*coat)).texcoords[0]);
@@ -99,7 +103,6 @@ MappedSurface surfaceFor(const std::shared_ptr<const Mesh>& mesh, NormalSlot slo
 }
 
 // One primitive with one of its materials, added to the job of a normal map of that material.
-// document: with the material in the primitive's place, for its uv.
 Status addUse(const GltfDocument& document, std::size_t m, std::size_t p, MapPlace place, bool foreign,
               const std::vector<glm::dmat3>& placed, std::map<std::size_t, MapJob>& jobs,
               std::vector<std::string>& notes)
@@ -114,7 +117,7 @@ Status addUse(const GltfDocument& document, std::size_t m, std::size_t p, MapPla
         return Done{};
     }
     std::string why;
-    const auto mesh = meshFor(document, m, p, place.slot, why);
+    const auto mesh = meshFor(document, m, p, place, why);
     if (!mesh)
         return mesh.error();
     if (!why.empty()) {
@@ -141,8 +144,6 @@ Status addUse(const GltfDocument& document, std::size_t m, std::size_t p, MapPla
     reader.vertices = mesh->vertexCount();
     reader.triangles = mesh->triangleCount();
     reader.stored = !mesh->tangents.empty();
-    const std::shared_ptr<const Mesh> held(std::shared_ptr<void>(), &*mesh);
-    reader.copies = copiesUnder(surfaceFor(held, place.slot, {}));
     return Done{};
 }
 
@@ -215,14 +216,12 @@ Result<std::vector<MapJob>> mapJobs(const GltfDocument& document, std::vector<st
     const auto placed = gltfPlacings(root);
     const std::vector<MapPlace> foreign = foreignNormalMaps(document);
     std::map<std::size_t, MapJob> jobs;
-    GltfDocument seen = document; // each primitive with the material it is seen with
     const Status status = forEachPrimitive(root, [&](std::size_t m, std::size_t p) -> Status {
         for (const std::size_t material : materialsOf(root, root["meshes"][m]["primitives"][p])) {
-            seen.root["meshes"][m]["primitives"][p]["material"] = material;
             for (const NormalSlot slot : kNormalSlots) {
                 const MapPlace place{material, slot};
-                const bool unread = std::ranges::find(foreign, place) != foreign.end();
-                if (Status added = addUse(seen, m, p, place, unread, placed[m], jobs, notes); !added)
+                const bool unread = std::ranges::binary_search(foreign, place);
+                if (Status added = addUse(document, m, p, place, unread, placed[m], jobs, notes); !added)
                     return added;
             }
         }
@@ -230,9 +229,13 @@ Result<std::vector<MapJob>> mapJobs(const GltfDocument& document, std::vector<st
     });
     if (!status)
         return status.error();
+    const std::set<int> elsewhere = imagesReadElsewhere(root);
+    for (std::size_t t = 0; t < countOf(root, "textures"); ++t)
+        if (const auto job = jobs.find(std::size_t(textureAt(root, int(t)).image)); job != jobs.end())
+            job->second.textures.push_back(t);
     std::vector<MapJob> result;
     for (auto& [image, job] : jobs) {
-        job.alsoElsewhere = readElsewhere(root, image);
+        job.alsoElsewhere = elsewhere.contains(int(image));
         result.push_back(std::move(job));
     }
     return result;
@@ -248,12 +251,10 @@ std::size_t surfacesOf(const MapJob& job)
 
 Result<std::vector<MapUse>> usesOf(const GltfDocument& document, const MapJob& job, const FramePair& frames)
 {
-    GltfDocument seen = document; // each primitive with the material it is seen with
     std::vector<MapUse> uses;
     for (const MapReader& r : job.readers) {
-        seen.root["meshes"][r.mesh]["primitives"][r.primitive]["material"] = r.place.material;
         std::string why;
-        auto mesh = meshFor(seen, r.mesh, r.primitive, r.place.slot, why);
+        auto mesh = meshFor(document, r.mesh, r.primitive, r.place, why);
         if (!mesh)
             return mesh.error();
         const MappedSurface surface =
@@ -276,7 +277,8 @@ std::size_t bytesOf(const MapJob& job, const FramePair& frames)
     }
     std::size_t rasters = 0; // once all surfaces are made
     for (const MapReader& r : job.readers)
-        rasters += kRasterBytes * r.triangles * r.placed.size();
+        rasters +=
+            kRasterBytes * r.triangles + sizeof(glm::vec2) * r.vertices + 3 * sizeof(std::uint32_t) * r.triangles;
     return kept + std::max(most, rasters);
 }
 
@@ -284,10 +286,8 @@ void replaceMap(GltfDocument& document, const MapJob& job, std::vector<std::byte
 {
     if (!job.alsoElsewhere) {
         replaceGltfImage(document, job.image, std::move(png), "image/png");
-        for (std::size_t t = 0; t < countOf(document.root, "textures"); ++t) {
-            if (textureAt(document.root, int(t)).image == int(job.image))
-                dropOtherForms(document.root, t, job.image, notes);
-        }
+        for (const std::size_t t : job.textures)
+            dropOtherForms(document.root, t, job.image, notes);
         return;
     }
     const std::size_t image = addGltfImage(document, std::move(png), "image/png", job.name);

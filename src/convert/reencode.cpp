@@ -12,15 +12,15 @@
 #include "cotan/scene/normal_format.hpp"
 #include "cotan/scene/texture_sample.hpp"
 #include "cotan/surface/padding.hpp"
+#include "place_finder.hpp"
 #include "tally.hpp"
-#include "use_raster.hpp"
 
 namespace cotan {
 
 namespace {
 
 using convert::Place;
-using convert::UseRaster;
+using convert::PlaceFinder;
 
 // Along green: 1 where it points along +v, else -1.
 double greenOf(const MapUse& use) { return greenAlongV(use.stored) ? 1 : -1; }
@@ -39,15 +39,14 @@ class Reencoder {
 public:
     Reencoder(const Image& map, std::span<const MapUse> uses, const FramePair& frames, int bits,
               std::optional<Expansion> expansion)
-        : map_(map), uses_(uses), frames_(frames), rows_(std::size_t(map.height)), owner_(map.pixelCount(), kNoTexel)
+        : map_(map), uses_(uses), frames_(frames), finder_(uses, map.width, map.height), rows_(std::size_t(map.height)),
+          owner_(map.pixelCount(), kNoTexel)
     {
         Convention stored = uses.empty() ? Convention{} : uses.front().stored;
         plain_ = toFormat<f64::cotan_normal_format>(stored, map.type);
         expansion_ = stored.expansion = expansion.value_or(stored.expansion);
         written_ = toFormat<f64::cotan_normal_format>(stored, 1, bits);
         plain_.green = written_.green = 1;
-        for (const MapUse& use : uses)
-            rasters_.emplace_back(use, map.width, map.height);
         result_.image = makeImage(map.width, map.height, bits == 16 ? PixelType::unorm16 : PixelType::unorm8, map.name);
         nearest_.resize(std::size_t(map.height));
     }
@@ -89,26 +88,6 @@ public:
     }
 
 private:
-    std::vector<std::vector<Place>> placesOf(int y) const
-    {
-        std::vector<std::vector<Place>> texels(std::size_t(map_.width));
-        for (std::size_t i = 0; i < rasters_.size(); ++i)
-            if (std::abs(uses_[i].strength) > kFlattened)
-                rasters_[i].addRow(y, std::uint32_t(i), texels);
-        for (std::vector<Place>& places : texels) {
-            const bool covered = std::any_of(places.begin(), places.end(), [](const Place& p) { return p.covers; });
-            if (covered)
-                std::erase_if(places, [](const Place& p) { return !p.covers; });
-            if (places.size() > kMostPlaces) {
-                std::vector<Place> chosen;
-                for (std::size_t k = 0; k < kMostPlaces; ++k)
-                    chosen.push_back(places[k * places.size() / kMostPlaces]);
-                places = std::move(chosen);
-            }
-        }
-        return texels;
-    }
-
     // The stored direction, along (red, green, blue), whatever green means.
     glm::dvec3 oldTexel(int x, int y) const { return f64::cotan_decode(storedTexel(map_, x, y), plain_); }
 
@@ -159,7 +138,8 @@ private:
 
     void solveRow(int y)
     {
-        const auto texels = placesOf(y);
+        std::vector<std::vector<Place>> texels;
+        finder_.row(y, texels);
         RowCounts& counts = rows_[std::size_t(y)];
         std::vector<Demand> demands;
         for (int x = 0; x < map_.width; ++x) {
@@ -225,7 +205,8 @@ private:
         auto& lent = nearest_[std::size_t(y)];
         if (lent.empty())
             return;
-        const auto texels = placesOf(y);
+        std::vector<std::vector<Place>> texels;
+        finder_.row(y, texels);
         for (Lent& l : lent)
             l.place = texels[std::size_t(l.x)].front();
     }
@@ -261,7 +242,7 @@ private:
     FramePair frames_;
     f64::cotan_normal_format plain_{}, written_{}; // of the map and the result, without what differs between the uses
     Expansion expansion_ = Expansion::exact;       // of the result
-    std::vector<UseRaster> rasters_;
+    PlaceFinder finder_;
     std::vector<RowCounts> rows_;
     std::vector<std::uint32_t> owner_;
     std::vector<std::vector<Lent>> nearest_; // per row, by column

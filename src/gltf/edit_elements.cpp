@@ -90,9 +90,12 @@ void readTexcoords(const GltfDocument& document, const gltf::Primitive& primitiv
     }
 }
 
-GltfGeometry readGeometry(const GltfDocument& document, const Json& source, const std::string& field, NormalSlot slot)
+GltfGeometry readGeometry(const GltfDocument& document, const Json& source, const std::string& field, NormalSlot slot,
+                          std::optional<std::size_t> material)
 {
-    const gltf::Primitive primitive = gltf::readPrimitive(source);
+    gltf::Primitive primitive = gltf::readPrimitive(source);
+    if (material)
+        primitive.material = int(*material);
     const gltf::TextureUse map =
         primitive.material < 0 ? gltf::TextureUse{} : normalMapOf(document.root, std::size_t(primitive.material), slot);
     const int positions = gltf::accessorOf(primitive.attributes, "POSITION");
@@ -113,11 +116,11 @@ GltfGeometry readGeometry(const GltfDocument& document, const Json& source, cons
 } // namespace
 
 Result<GltfGeometry> gltfGeometry(const GltfDocument& document, std::size_t mesh, std::size_t primitive,
-                                  NormalSlot slot)
+                                  NormalSlot slot, std::optional<std::size_t> material)
 {
     return caughtGltf(document.source->path, [&] {
         return readGeometry(document, document.root["meshes"][mesh]["primitives"][primitive],
-                            primitiveField(mesh, primitive), slot);
+                            primitiveField(mesh, primitive), slot, material);
     });
 }
 

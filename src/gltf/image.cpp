@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "cotan/files/bytes.hpp"
+#include "cotan/files/folder.hpp"
 #include "cotan/image/convert.hpp"
 #include "cotan/image/file.hpp"
 #include "cotan/parallel/loops.hpp"
@@ -80,7 +81,10 @@ Image decode(const GltfFile& model, ImageSource source, const LoadLimits& limits
 // The bytes that the images of one model may take together.
 class Budget {
 public:
-    explicit Budget(const LoadLimits& limits) : limits_(limits), left_(limits.allImageBytes) {}
+    Budget(const LoadLimits& limits, std::uint64_t fileBytes)
+        : limits_(limits), all_(imageBudget(limits, fileBytes)), left_(all_)
+    {
+    }
 
     // The limits for the next image: no more than what is left. Images that are decoded at the
     // same time see the same rest, so the total may be overdrawn by one image a thread until
@@ -97,16 +101,48 @@ public:
         std::size_t left = left_.load();
         do {
             if (bytes > left)
-                failGltf("all images together take more than the limit of {} bytes", limits_.allImageBytes);
+                failGltf("all images together take more than the limit of {} bytes", all_);
         } while (!left_.compare_exchange_weak(left, left - bytes));
     }
 
 private:
     const LoadLimits& limits_;
+    std::size_t all_;
     std::atomic<std::size_t> left_;
 };
 
 } // namespace
+
+// Of the model with its buffers, and of the images beside it.
+std::uint64_t GltfMaterials::bytesOfFiles() const
+{
+    std::uint64_t bytes = model_.file.size;
+    for (const auto& [image, slot] : slots_) {
+        const gltf::Image& entry = model_.structure.images[static_cast<std::size_t>(image)];
+        if (!entry.uri || entry.uri->starts_with("data:") || model_.file.readFile)
+            continue;
+        bool outside = false;
+        std::error_code error;
+        if (const auto file = findInFolder(model_.file.folder, std::string(*entry.uri), outside))
+            if (const std::uintmax_t size = fs::file_size(*file, error); !error)
+                bytes += size;
+    }
+    return bytes;
+}
+
+// The first image of the file that has the same bytes in a view; those with a URI stand for themselves.
+int GltfMaterials::firstEqual(int image)
+{
+    const gltf::Image& entry = model_.structure.images[static_cast<std::size_t>(image)];
+    if (entry.uri || entry.view < 0)
+        return image;
+    const std::span<const std::byte> bytes = model_.views[static_cast<std::size_t>(entry.view)].bytes;
+    const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+    const auto [known, isNew] = imagesAt_.try_emplace({text.data(), text.size()}, image);
+    if (isNew)
+        known->second = imagesLike_.try_emplace({text.size(), text}, image).first->second;
+    return known->second;
+}
 
 void GltfMaterials::decodeImages()
 {
@@ -115,7 +151,7 @@ void GltfMaterials::decodeImages()
     const std::vector<std::pair<int, int>> jobs(slots_.begin(), slots_.end());
     std::vector<GltfProblem> problems(jobs.size());
     std::vector<std::string> foreign(jobs.size());
-    Budget budget(model_.limits);
+    Budget budget(model_.limits, bytesOfFiles());
     const auto decodeOne = [&](std::size_t i) {
         const auto [image, slot] = jobs[i];
         try {

@@ -18,6 +18,7 @@ int GltfMaterials::imageOf(const gltf::Texture& texture) const
 
 int GltfMaterials::imageSlot(int image)
 {
+    image = firstEqual(image);
     const auto [slot, isNew] = slots_.emplace(image, static_cast<int>(scene_.images.size()));
     if (isNew)
         scene_.images.emplace_back();

@@ -1,7 +1,9 @@
 // glTF materials and the images they use.
 #pragma once
 
+#include <cstdint>
 #include <map>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -34,11 +36,16 @@ private:
     Material make(int material, const Mesh& mesh);
     int imageOf(const gltf::Texture& texture) const;
     int imageSlot(int image);
+    int firstEqual(int image);
+    std::uint64_t bytesOfFiles() const;
 
     GltfModel& model_;
     Scene& scene_;
     std::map<std::pair<int, int>, int> made_; // (material, which uv sets) to scene material
     std::map<int, int> slots_;                // image of the file to Scene::images
+    // Images in views: by where their bytes are, and by size and bytes.
+    std::map<std::pair<const char*, std::size_t>, int> imagesAt_;
+    std::map<std::pair<std::size_t, std::string_view>, int> imagesLike_;
 };
 
 // The uv set that the material's normal map uses; -1 if it has none.

@@ -10,6 +10,7 @@
 #include "cotan/files/output.hpp"
 #include "cotan/image/convert.hpp"
 #include "cotan/image/format_table.hpp"
+#include "cotan/image/pending.hpp"
 #include "formats.hpp"
 #include "jpeg.hpp"
 #include "ktx2.hpp"
@@ -82,7 +83,11 @@ Result<Image> decode(std::span<const std::byte> bytes, const std::string& name, 
 Result<Image> decodeImage(std::span<const std::byte> bytes, const std::string& name, const LoadLimits& limits)
 {
     try {
-        return limits.decode ? limits.decode(bytes, name) : decode(bytes, name, limits);
+        if (limits.decode)
+            return limits.decode(bytes, name);
+        LoadLimits own = limits;
+        own.imageBytes = std::min(limits.imageBytes, imageBudget(limits, bytes.size()));
+        return decode(bytes, name, own);
     } catch (const std::bad_alloc&) {
         return inputError(fmt::format("{}: not enough memory for the image", name));
     }
@@ -114,15 +119,25 @@ Status write(const std::filesystem::path& file, const Image& image, const std::s
 
 } // namespace
 
-Status writeImage(const std::filesystem::path& file, const Image& image)
+Result<OutputFile> writePending(const std::filesystem::path& file, const Image& image)
 {
     const std::string name = file.string();
     if (Status writable = checkImageName(file); !writable)
-        return writable;
+        return writable.error();
     if (image.width <= 0 || image.height <= 0 || image.data.size() != image.pixelCount() * image.bytesPerPixel())
         return usageError(fmt::format("{}: there is no image to write ({} x {}, {} bytes)", name, image.width,
                                       image.height, image.data.size()));
-    return writeBeside(file, [&](const std::filesystem::path& beside) { return write(beside, image, name); });
+    auto output = OutputFile::begin(file);
+    if (output)
+        if (Status written = write(output->path(), image, name); !written)
+            return output->failed(written.error());
+    return output;
+}
+
+Status writeImage(const std::filesystem::path& file, const Image& image)
+{
+    auto output = writePending(file, image);
+    return output ? output->commit() : output.error();
 }
 
 } // namespace cotan

@@ -99,7 +99,21 @@ private:
 
 } // namespace
 
-Result<std::unique_ptr<RowReader>> openRows(const fs::path& file, const LoadLimits& limits)
+namespace {
+
+// What may be read row by row of a file of so many bytes, in bytes of pixels: each takes its time.
+Status checkRows(const RowReader& rows, std::size_t fileBytes, const LoadLimits& limits)
+{
+    const double most = double(limits.imageBytes) + 128 * double(fileBytes);
+    const double bytes = 4.0 * double(bytesPerComponent(rows.type)) * rows.width * rows.height;
+    if (bytes > most)
+        return inputError(
+            fmt::format("{}: {} x {} pixels take {:.0f} bytes, the limit is {:.0f} for a file of {} bytes", rows.name,
+                        rows.width, rows.height, bytes, most, fileBytes));
+    return Done{};
+}
+
+Result<std::unique_ptr<RowReader>> openAnyRows(const fs::path& file, const LoadLimits& limits)
 {
     const auto size = usableFileSize(file, SIZE_MAX); // no more than a strip is held
     if (!size)
@@ -121,6 +135,18 @@ Result<std::unique_ptr<RowReader>> openRows(const fs::path& file, const LoadLimi
         return (*formats)->openRows(file, head, limits);
     }
     return openWhole(file, limits);
+}
+
+} // namespace
+
+Result<std::unique_ptr<RowReader>> openRows(const fs::path& file, const LoadLimits& limits)
+{
+    auto rows = openAnyRows(file, limits);
+    const auto size = usableFileSize(file, SIZE_MAX);
+    if (rows && size)
+        if (Status fits = checkRows(**rows, *size, limits); !fits)
+            return fits.error();
+    return rows;
 }
 
 Result<std::unique_ptr<RowWriter>> createRows(const fs::path& file, const RowFormat& format, int threads)

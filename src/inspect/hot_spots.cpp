@@ -51,8 +51,8 @@ float longestEdge(const std::array<glm::vec3, 3>& p)
 }
 
 // Pictures of this camera are 0.83 of its distance high: the triangle is a third of that at most, and an eighth of the
-// model is seen around a small one.
-Camera lookingAt(const Scene& scene, const Instance& instance, const std::array<glm::vec3, 3>& p)
+// model is seen around a small one. whole: the diagonal of the scene.
+Camera lookingAt(float whole, const Instance& instance, const std::array<glm::vec3, 3>& p)
 {
     const glm::vec3 middle = (p[0] + p[1] + p[2]) / 3.0f;
     glm::vec3 normal = glm::cross(p[1] - p[0], p[2] - p[0]);
@@ -60,8 +60,6 @@ Camera lookingAt(const Scene& scene, const Instance& instance, const std::array<
         normal = -normal;
     const float length = glm::length(normal);
     normal = length > 0 ? normal / length : glm::vec3(0, 0, 1);
-    const Bounds box = bounds(scene);
-    const float whole = glm::length(box.high - box.low);
     const float size = std::max(longestEdge(p), whole / 24);
     Camera camera;
     camera.target = middle;
@@ -159,10 +157,16 @@ Found findOn(const MappedSurface& surface)
 std::vector<HotSpot> hotSpots(const Scene& scene, std::size_t most)
 {
     std::vector<HotSpot> spots;
+    const Bounds box = bounds(scene);
+    const float whole = glm::length(box.high - box.low);
+    std::vector<const Instance*> firstOf(scene.meshes.size()); // instances
+    for (const Instance& instance : scene.instances)
+        if (const Instance*& first = firstOf[std::size_t(instance.mesh)]; !first)
+            first = &instance;
     for (std::size_t m = 0; m < scene.meshes.size(); ++m) {
         const Mesh& mesh = scene.meshes[m];
-        const auto instance = std::ranges::find(scene.instances, int(m), &Instance::mesh);
-        if (instance == scene.instances.end())
+        const Instance* const instance = firstOf[m];
+        if (!instance)
             continue;
         const Material& material = scene.materials[std::size_t(mesh.material)];
         const std::shared_ptr<const Mesh> held(std::shared_ptr<void>(), &mesh); // the scene outlives the surface
@@ -181,7 +185,7 @@ std::vector<HotSpot> hotSpots(const Scene& scene, std::size_t most)
             const std::string text = fmt::format("{}: {:.1f} % of {}", kind.words, share * 100, name)
                 + fmt::format(fmt::runtime(kind.here), worst.value);
             const auto corners = cornersOf(*instance, mesh, worst.triangle);
-            spots.push_back({text, m, share, kind.bad * worst.value * share, lookingAt(scene, *instance, corners),
+            spots.push_back({text, m, share, kind.bad * worst.value * share, lookingAt(whole, *instance, corners),
                              corners, kind.view, kind.storedTangents});
         }
     }

@@ -105,14 +105,14 @@ constexpr double kOfSurface = 0.4, kOfLook = 0.15, kOfWhole = 0.05;
 
 // Not whole where `told` has said to stop; tells three looks of that many triangles.
 PrimitiveLint lintPrimitive(const Scene& scene, const Mesh& mesh, const MappedSurface& surface, double distance,
-                            Told& told, double triangles)
+                            std::size_t pointCount, Told& told, double triangles)
 {
     const Material& material = scene.materials[std::size_t(mesh.material)];
     PrimitiveLint p;
     p.mesh = mesh.name;
     p.material = material.name;
     p.tangentsFor = material.tangentsFor;
-    const std::vector<SurfacePoint> points = pointsOver(surface, kPointsOfSurface);
+    const std::vector<SurfacePoint> points = pointsOver(surface, pointCount);
     if (!p.tangentsFor.empty())
         eachAdvised(p.turned, [&](Frame frame) {
             return directionTurn(surface, points, {.from = Frame::mikktspace, .to = frame});
@@ -160,8 +160,10 @@ void addOverlaps(LintReport& report, const std::vector<MapUse>& uses)
         groups[key].first.push_back(&uses[i].surface);
         groups[key].second.push_back(&primitives[i].uv);
     }
+    // Of very many groups each gets a coarser raster: all together take no more than 64 fine ones.
+    const double part = std::sqrt(64 / std::max(double(groups.size()), 64.0));
     for (const auto& [key, group] : groups)
-        lint::countOverlaps(group.first, group.second);
+        lint::countOverlaps(group.first, group.second, int(512 * part));
     for (std::size_t i = 0; i < uses.size(); ++i)
         if (primitives[i].placing > 0) {
             primitives[i].uv.overlapping = primitives[i - 1].uv.overlapping;
@@ -171,13 +173,12 @@ void addOverlaps(LintReport& report, const std::vector<MapUse>& uses)
 
 void addMaps(LintReport& report, const Scene& scene)
 {
-    std::vector<int> done;
+    std::vector<bool> done(scene.images.size());
     for (const Material& m : scene.materials) {
         const int image = m.normalMap.image;
-        if (!m.normalMap.present() || std::size_t(image) >= scene.images.size()
-            || std::find(done.begin(), done.end(), image) != done.end())
+        if (!m.normalMap.present() || std::size_t(image) >= scene.images.size() || done[std::size_t(image)])
             continue;
-        done.push_back(image);
+        done[std::size_t(image)] = true;
         const Image& map = scene.images[std::size_t(image)];
         GreenEvidence e{image, map.name, m.normalFormat.greenUp != m.greenReversed, {}};
         if (hasPixels(map))
@@ -192,13 +193,14 @@ struct CoatUse {
     MapUse use;
 };
 
-// The frame that the normal maps of an image are for: that of the first material with it.
-Frame madeFor(const Scene& scene, int image)
+// The frames that the normal maps of the images are for: that of the first material with each.
+std::map<int, Frame> framesOfImages(const Scene& scene)
 {
+    std::map<int, Frame> frames;
     for (const Material& m : scene.materials)
-        if (m.normalMap.image == image || m.coat.normalMap.image == image)
-            return madeFor(m);
-    return Frame::mikktspace;
+        for (const Texture* const texture : {&m.normalMap, &m.coat.normalMap})
+            frames.emplace(texture->image, madeFor(m));
+    return frames;
 }
 
 // How each map would do as it is with the frames that may be advised.
@@ -211,6 +213,7 @@ void addFits(LintReport& report, const Scene& scene, const std::vector<MapUse>& 
     for (const CoatUse& coat : coats)
         readers[coat.image].push_back(&coat.use);
     const TangentOrigin from = lint::distrustStored(report) ? TangentOrigin::generated : TangentOrigin::stored;
+    const std::map<int, Frame> frames = framesOfImages(scene);
     for (const auto& [image, users] : readers) {
         const Image& map = scene.images[std::size_t(image)];
         MapFit fit{{}, image, map.name};
@@ -220,12 +223,12 @@ void addFits(LintReport& report, const Scene& scene, const std::vector<MapUse>& 
         if (hasPixels(map)) {
             std::vector<FramePair> pairs;
             FrameSpreads order; // of the frames, as eachAdvised has it
-            const Frame made = madeFor(scene, image);
+            const Frame made = frames.at(image);
             eachAdvised(order, [&](Frame frame) {
                 pairs.push_back({made, frame, from, TangentOrigin::generated});
                 return Spread{};
             });
-            const std::vector<Spread> errors = mapErrors(map, map, shown, pairs);
+            const std::vector<Spread> errors = mapErrors(map, map, shown, pairs, {}, pointsOfEach(uses.size()));
             std::size_t next = 0;
             eachAdvised(fit, [&](Frame) { return errors[next++]; });
         }
@@ -270,6 +273,10 @@ Result<LintReport> lintScene(const Scene& scene, const LintOptions& options, con
     for (const Mesh& mesh : scene.meshes)
         triangles += mesh.triangleCount();
     Told told{progress, double(std::max<std::size_t>(triangles, 1))};
+    std::size_t surfaces = 0;
+    for (const auto& ways : placed)
+        surfaces += std::min(ways.size(), kMostPlacings);
+    const std::size_t points = pointsOfEach(surfaces);
     for (std::size_t i = 0; i < scene.meshes.size(); ++i) {
         const Mesh& mesh = scene.meshes[i];
         const Material& material = scene.materials[std::size_t(mesh.material)];
@@ -288,7 +295,7 @@ Result<LintReport> lintScene(const Scene& scene, const LintOptions& options, con
         for (std::size_t k = 0; k < count; ++k) {
             uses.push_back({placedBy(own, placed[i][k]), material.normalFormat, double(material.normalScale),
                             sampler.wrapU, sampler.wrapV});
-            PrimitiveLint p = lintPrimitive(scene, mesh, uses.back().surface, report.distance, told, share);
+            PrimitiveLint p = lintPrimitive(scene, mesh, uses.back().surface, report.distance, points, told, share);
             if (told.stopped)
                 return stoppedError();
             p.placing = k;

@@ -12,7 +12,8 @@ namespace cotan {
 namespace {
 
 constexpr std::size_t kMostPoints = 65536; // over all uses of a map, while each has kLeast
-constexpr std::size_t kMost = kPointsOfSurface, kLeast = 64;
+constexpr std::size_t kLeast = 64;
+constexpr std::size_t kMostUses = kMostPoints / kLeast; // of more, evenly chosen ones are measured
 
 // The normal that a frame makes of a map at a place.
 glm::dvec3 normalOf(const Image& map, const MapUse& use, const Convention& stored, Frame frame, TangentOrigin tangents,
@@ -71,11 +72,15 @@ std::vector<SurfacePoint> pointsOver(const MappedSurface& s, std::size_t count, 
 }
 
 std::vector<Spread> mapErrors(const Image& before, const Image& after, const std::vector<const MapUse*>& uses,
-                              std::span<const FramePair> frames, std::optional<Expansion> expansionAfter)
+                              std::span<const FramePair> frames, std::optional<Expansion> expansionAfter,
+                              std::size_t most)
 {
-    const std::size_t count = std::clamp(kMostPoints / std::max<std::size_t>(uses.size(), 1), kLeast, kMost);
+    const std::size_t each = std::clamp(kMostPoints / std::max<std::size_t>(uses.size(), 1), kLeast, kPointsOfSurface);
+    const std::size_t count = std::min(each, most);
     std::vector<std::vector<std::pair<double, double>>> errors(frames.size());
-    for (const MapUse* use : uses) {
+    const std::size_t step = (uses.size() + kMostUses - 1) / kMostUses;
+    for (std::size_t k = 0; k < uses.size(); k += step) {
+        const MapUse* const use = uses[k];
         if (!(std::abs(use->strength) > kFlattened))
             continue;
         double area = 0;
@@ -93,6 +98,12 @@ std::vector<Spread> mapErrors(const Image& before, const Image& after, const std
     for (auto& of : errors)
         spreads.push_back(spreadOf(std::move(of)));
     return spreads;
+}
+
+std::size_t pointsOfEach(std::size_t surfaces)
+{
+    constexpr std::size_t kAll = 128 * kPointsOfSurface, kFewest = 16;
+    return std::clamp(kAll / std::max<std::size_t>(surfaces, 1), kFewest, kPointsOfSurface);
 }
 
 Spread mapError(const Image& before, const Image& after, const std::vector<const MapUse*>& uses,

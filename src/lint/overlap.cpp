@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 
 #include <glm/common.hpp>
@@ -10,23 +11,53 @@ namespace cotan::lint {
 
 namespace {
 
-constexpr double kMostCopies = 2e6; // of the image under all triangles together
+constexpr double kMostRows = 1e7; // of texels under all triangles; where there are more the raster is coarser
+constexpr int kCoarsest = 16;
 
-// Calls use(texel, triangle) for every texel whose centre a triangle covers; uv repeat the image.
-template<class Use> void forEachTexel(const UvRaster& raster, const Use& use)
-{
-    std::vector<std::pair<glm::ivec2, UvPlace>> covered;
-    for (int block = 0; block < raster.blocks(); ++block) {
-        raster.centres(block, covered);
-        for (const auto& [texel, place] : covered)
-            use(std::size_t(texel.y) * std::size_t(raster.width()) + std::size_t(texel.x), std::size_t(place.triangle));
-    }
-}
-
-// How often a texel is used, up to 3, by each orientation.
-struct Uses {
-    std::uint8_t plain = 0, mirrored = 0;
+// For each texel, whether its centre is covered more than once, and whether by both orientations; as sums along each
+// row, so that a triangle asks once in each of its rows.
+struct Covers {
+    std::vector<std::uint32_t> shared, turned; // width + 1 a row: how many of the texels before it
 };
+
+// How many more triangles cover a texel than the one before it in its row: plain, mirrored.
+class CoverCounter {
+public:
+    explicit CoverCounter(int side) : width_(std::size_t(side) + 1), begins_(width_ * std::size_t(side)) {}
+
+    void add(const UvSpan& span, bool mirrored)
+    {
+        glm::ivec2* const row = &begins_[std::size_t(span.y) * width_];
+        ++row[span.first][mirrored];
+        --row[span.last + 1][mirrored];
+    }
+
+    Covers covers() const
+    {
+        Covers result;
+        result.shared.resize(begins_.size());
+        result.turned.resize(begins_.size());
+        for (std::size_t start = 0; start < begins_.size(); start += width_) {
+            glm::ivec2 n(0); // plain, mirrored
+            for (std::size_t x = start; x + 1 < start + width_; ++x) {
+                n += begins_[x];
+                result.shared[x + 1] = result.shared[x] + (n.x + n.y > 1);
+                result.turned[x + 1] = result.turned[x] + (n.x > 0 && n.y > 0);
+            }
+        }
+        return result;
+    }
+
+private:
+    std::size_t width_;
+    std::vector<glm::ivec2> begins_;
+};
+
+void eachSpan(const UvRaster& raster, const std::function<void(const UvSpan&)>& use)
+{
+    for (int block = 0; block < raster.blocks(); ++block)
+        raster.eachSpan(block, use);
+}
 
 struct Covered {
     std::uint32_t texels = 0, shared = 0, turned = 0;
@@ -54,33 +85,38 @@ void countOverlaps(const std::vector<const MappedSurface*>& surfaces, const std:
 {
     if (std::ranges::all_of(surfaces, [](const MappedSurface* s) { return !s->hasUv(); }))
         return;
-    double copies = 0;
-    for (const MappedSurface* s : surfaces)
-        copies += copiesUnder(*s);
-    if (copies > kMostCopies) {
+    const auto rowsAt = [&](int height) {
+        double rows = 0;
+        for (const MappedSurface* s : surfaces)
+            rows += rowsUnder(*s, height);
+        return rows;
+    };
+    while (side > kCoarsest && rowsAt(side) > kMostRows)
+        side /= 2;
+    if (rowsAt(side) > kMostRows) {
         for (UvQuality* q : qualities)
             q->overlapping = 1;
         return;
     }
     std::vector<UvRaster> rasters;
-    std::vector<Uses> uses(std::size_t(side) * std::size_t(side));
+    CoverCounter counter(side);
     for (const MappedSurface* s : surfaces) {
         std::vector<bool> mirrored(s->triangleCount());
         for (std::size_t i = 0; i < mirrored.size(); ++i)
             mirrored[i] = orientationOf(*s, i) < 0;
         rasters.push_back(repeatedRaster(*s, side, side));
-        forEachTexel(rasters.back(), [&](std::size_t texel, std::size_t triangle) {
-            std::uint8_t& n = mirrored[triangle] ? uses[texel].mirrored : uses[texel].plain;
-            n = std::uint8_t(std::min(n + 1, 3));
-        });
+        eachSpan(rasters.back(), [&](const UvSpan& span) { counter.add(span, mirrored[span.triangle]); });
     }
+    const Covers covers = counter.covers();
     for (std::size_t k = 0; k < surfaces.size(); ++k) {
         std::vector<Covered> triangles(surfaces[k]->triangleCount());
-        forEachTexel(rasters[k], [&](std::size_t texel, std::size_t triangle) {
-            Covered& c = triangles[triangle];
-            ++c.texels;
-            c.shared += uses[texel].plain + uses[texel].mirrored > 1;
-            c.turned += uses[texel].plain > 0 && uses[texel].mirrored > 0;
+        eachSpan(rasters[k], [&](const UvSpan& span) {
+            const std::size_t row = std::size_t(span.y) * (std::size_t(side) + 1);
+            const std::size_t first = row + std::size_t(span.first), after = row + std::size_t(span.last) + 1;
+            Covered& c = triangles[span.triangle];
+            c.texels += std::uint32_t(after - first);
+            c.shared += covers.shared[after] - covers.shared[first];
+            c.turned += covers.turned[after] - covers.turned[first];
         });
         addOverlaps(*surfaces[k], triangles, *qualities[k]);
     }

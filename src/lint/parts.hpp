@@ -10,8 +10,8 @@ namespace cotan::lint {
 UvQuality uvQuality(const MappedSurface& surface);
 
 // The two overlaps, for surfaces that read the same image: by counting how often each texel of a
-// raster is used. Triangles that cover no texel centre do not count; where uv repeat the image millions
-// of times all counts as overlapping. side: of the raster.
+// raster is used. Triangles that cover no texel centre do not count. side: of the raster; where very many triangles
+// cover much of it, it is coarser, down to 16, and beyond that all counts as overlapping.
 void countOverlaps(const std::vector<const MappedSurface*>& surfaces, const std::vector<UvQuality*>& qualities,
                    int side = 512);
 

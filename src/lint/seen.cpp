@@ -13,15 +13,16 @@ namespace cotan::lint {
 
 namespace {
 
-constexpr std::size_t kWays = 14, kSide = 512; // depth pictures, and their pixels
-constexpr double kLeastCosine = 0.05;          // flatter faces show next to nothing
+constexpr std::size_t kWays = 14, kMostSide = 512, kLeastSide = 16; // depth pictures, and their pixels
+constexpr double kMostDrawn = 2e8;                                  // pixels of all triangles in all pictures
+constexpr double kLeastCosine = 0.05;                               // flatter faces show next to nothing
 
 struct DepthPicture {
     glm::dvec3 across, up, toEye; // unit, at right angles
     glm::dvec2 low;
     double pixel = 1;
-    std::vector<double> depth = std::vector<double>(kSide * kSide,
-                                                    -std::numeric_limits<double>::infinity()); // largest: nearest
+    std::size_t side = 0;
+    std::vector<double> depth; // largest: nearest
 
     // In pixels, with the depth in units of the surface.
     glm::dvec3 projected(glm::dvec3 p) const
@@ -30,8 +31,8 @@ struct DepthPicture {
     }
     std::size_t at(double x, double y) const
     {
-        const auto cell = [](double c) { return std::size_t(std::clamp(c, 0.0, double(kSide - 1))); };
-        return cell(y) * kSide + cell(x);
+        const auto cell = [&](double c) { return std::size_t(std::clamp(c, 0.0, double(side - 1))); };
+        return cell(y) * side + cell(x);
     }
     void put(double x, double y, double z)
     {
@@ -52,20 +53,22 @@ glm::dvec3 outwards(const MappedSurface& s, std::size_t triangle)
     return (glm::dot(n, s.normal(a) + s.normal(a + 1) + s.normal(a + 2)) < 0 ? -n : n) / length;
 }
 
-DepthPicture pictureFrom(glm::dvec3 toEye, glm::dvec3 middle, double radius)
+DepthPicture pictureFrom(glm::dvec3 toEye, glm::dvec3 middle, double radius, std::size_t side)
 {
     DepthPicture picture;
+    picture.side = side;
+    picture.depth.assign(side * side, -std::numeric_limits<double>::infinity());
     picture.toEye = glm::normalize(toEye);
     const glm::dvec3 other = std::abs(picture.toEye.y) > 0.8 ? glm::dvec3(0, 0, 1) : glm::dvec3(0, 1, 0);
     picture.across = glm::normalize(glm::cross(other, picture.toEye));
     picture.up = glm::cross(picture.toEye, picture.across);
-    picture.pixel = 2 * radius / double(kSide);
+    picture.pixel = 2 * radius / double(side);
     picture.low = glm::dvec2(glm::dot(middle, picture.across), glm::dot(middle, picture.up)) - radius;
     return picture;
 }
 
 // From the faces and the corners of a cube.
-std::vector<DepthPicture> picturesAround(glm::dvec3 middle, double radius)
+std::vector<DepthPicture> picturesAround(glm::dvec3 middle, double radius, std::size_t side)
 {
     std::vector<DepthPicture> pictures;
     pictures.reserve(kWays);
@@ -74,7 +77,7 @@ std::vector<DepthPicture> picturesAround(glm::dvec3 middle, double radius)
         if (const double squared = glm::dot(way, way); squared != 1 && squared != 3)
             continue; // the edges of the cube
         // A little askew, so that no wall of a house is seen exactly from its edge.
-        pictures.push_back(pictureFrom(way + glm::dvec3(0.05, 0.03, -0.04), middle, radius));
+        pictures.push_back(pictureFrom(way + glm::dvec3(0.05, 0.03, -0.04), middle, radius, side));
     }
     return pictures;
 }
@@ -106,6 +109,16 @@ void draw(const std::array<glm::dvec3, 3>& corners, DepthPicture& picture)
         }
 }
 
+// Eight pixels for a point along each axis; fewer where triangles lie on one another by the hundred, so that drawing
+// them stays within kMostDrawn. area: of all triangles.
+std::size_t sideFor(std::size_t points, double area, double radius)
+{
+    const double wanted = 8 * std::sqrt(double(points));
+    const double drawn = 2 * double(kWays) * area / (4 * radius * radius); // pixels of their boxes at side 1
+    const double side = std::min(wanted, std::sqrt(kMostDrawn / drawn));
+    return std::size_t(std::clamp(side, double(kLeastSide), double(kMostSide)));
+}
+
 // A face that leans meets several depths in a pixel.
 bool shows(const DepthPicture& picture, glm::dvec3 position, double cosine)
 {
@@ -120,6 +133,9 @@ std::vector<double> seen(const MappedSurface& s, const std::vector<SurfacePoint>
 {
     std::vector<double> weights(points.size(), 0);
     glm::dvec3 low(std::numeric_limits<double>::infinity()), high = -low;
+    double area = 0;
+    for (std::size_t f = 0; f < s.triangleCount(); ++f)
+        area += areaOf(s, f);
     for (std::size_t corner = 0; corner < 3 * s.triangleCount(); ++corner) {
         const glm::dvec3 p = s.position(corner);
         low = glm::min(low, p);
@@ -128,7 +144,8 @@ std::vector<double> seen(const MappedSurface& s, const std::vector<SurfacePoint>
     const double radius = glm::length(high - low) / 2 * 1.01;
     if (!(radius > 0) || !std::isfinite(radius))
         return std::vector<double>(points.size(), 1);
-    std::vector<DepthPicture> pictures = picturesAround((low + high) / 2.0, radius);
+    std::vector<DepthPicture> pictures =
+        picturesAround((low + high) / 2.0, radius, sideFor(points.size(), area, radius));
     const auto cosineOf = [&](glm::dvec3 face, const DepthPicture& picture) {
         const double cosine = glm::dot(face, picture.toEye);
         return bothSides ? std::abs(cosine) : cosine;

@@ -1,7 +1,12 @@
 #include "cotan/map_files/mips.hpp"
 
+#include <optional>
+#include <utility>
+#include <vector>
+
 #include <fmt/format.h>
 
+#include "cotan/image/pending.hpp"
 #include "texture_file.hpp"
 
 namespace cotan::maps {
@@ -60,13 +65,25 @@ Status writeChain(const std::filesystem::path& out, const std::vector<MipLevel>&
         for (const char* mark : {"", "_roughness"})
             if (Status may = o.mayWrite(numbered(out, mark, i)); !may)
                 return may;
-    for (std::size_t i = 0; i < chain.size(); ++i) {
-        if (Status w = writeMap(numbered(out, "", i), chain[i].normals, bits); !w)
-            return w;
-        if (Status w = writeMap(numbered(out, "_roughness", i), chain[i].roughness, bits); !w)
-            return w;
-    }
-    return Done{};
+    std::optional<InterruptsHeld> held;
+    if (bits.half) // written by rows, one file after the other
+        held.emplace();
+    std::vector<OutputFile> pending; // all files appear together
+    for (std::size_t i = 0; i < chain.size(); ++i)
+        for (const auto& [mark, image] :
+             {std::pair("", &chain[i].normals), std::pair("_roughness", &chain[i].roughness)}) {
+            const std::filesystem::path file = numbered(out, mark, i);
+            if (bits.half) {
+                if (Status w = writeMap(file, *image, bits); !w)
+                    return w;
+                continue;
+            }
+            auto output = writePending(file, *image);
+            if (!output)
+                return output.error();
+            pending.push_back(std::move(*output));
+        }
+    return commitTogether(pending);
 }
 
 // Of blocks floats, of which they are made.

@@ -39,8 +39,6 @@ int TextureReader::load(const std::string& path, const std::string& material)
         scene_.warnings.push_back(fmt::format("material {}: texture {}: {}; left out", material, path, why));
         return -1;
     };
-    if (bytes_ >= limits_.allImageBytes)
-        return unusable(fmt::format("the images are over the limit of {} bytes", limits_.allImageBytes));
     if (const aiTexture* texture = source_ ? source_->GetEmbeddedTexture(path.c_str()) : nullptr) {
         std::string problem;
         if (auto image = embedded(*texture, fmt::format("{} {}", scene_.name, path), problem))
@@ -60,14 +58,25 @@ int TextureReader::load(const std::string& path, const std::string& material)
     const auto [entry, isNew] = known_.try_emplace(file->string(), -1); // another name for it
     if (!isNew)
         return entry->second;
-    auto image = readImage(*file, limits_);
+    std::error_code error;
+    const std::uintmax_t size = std::filesystem::file_size(*file, error);
+    auto image = readImage(*file, withinBudget(error ? 0 : size));
     if (!image)
         return unusable(image.error().message);
     return entry->second = add(*std::move(image));
 }
 
-std::optional<Image> TextureReader::embedded(const aiTexture& texture, const std::string& name,
-                                             std::string& problem) const
+// The limits for an image of so many bytes: what is left for all of them together.
+LoadLimits TextureReader::withinBudget(std::uint64_t bytes)
+{
+    fileBytes_ += bytes;
+    LoadLimits limits = limits_;
+    const std::size_t all = imageBudget(limits_, fileBytes_);
+    limits.imageBytes = std::min(limits_.imageBytes, all - std::min(all, bytes_));
+    return limits;
+}
+
+std::optional<Image> TextureReader::embedded(const aiTexture& texture, const std::string& name, std::string& problem)
 {
     if (!texture.pcData || texture.mWidth == 0) {
         problem = "the embedded texture is empty";
@@ -78,7 +87,7 @@ std::optional<Image> TextureReader::embedded(const aiTexture& texture, const std
         return std::nullopt;
     }
     auto image = decodeImage(std::as_bytes(std::span(reinterpret_cast<const char*>(texture.pcData), texture.mWidth)),
-                             name, limits_);
+                             name, withinBudget(texture.mWidth));
     if (image)
         return *std::move(image);
     problem = image.error().message;
@@ -91,6 +100,12 @@ int TextureReader::normalMap(const std::string& path, const std::string& materia
     const int source = image(path, material);
     if (source < 0 || !looksLikeHeight(scene_.images[std::size_t(source)]))
         return source;
+    const Image& heights = scene_.images[std::size_t(source)];
+    if (withinBudget(0).imageBytes < heights.pixelCount() * 4) {
+        scene_.warnings.push_back(
+            fmt::format("material {}: texture {}: the images are over their limit; left out", material, path));
+        return -1;
+    }
     converted = true;
     const auto [entry, isNew] = known_.try_emplace(fmt::format("bump\n{}\n{}", source, strength), -1);
     if (isNew) {

@@ -39,7 +39,8 @@ public:
 
 private:
     int load(const std::string& path, const std::string& material);
-    std::optional<Image> embedded(const aiTexture& texture, const std::string& name, std::string& problem) const;
+    std::optional<Image> embedded(const aiTexture& texture, const std::string& name, std::string& problem);
+    LoadLimits withinBudget(std::uint64_t bytes);
     int add(Image image);
 
     Scene& scene_;
@@ -47,6 +48,7 @@ private:
     const std::filesystem::path& folder_;
     const LoadLimits& limits_;
     std::size_t bytes_ = 0;            // of all images
+    std::uint64_t fileBytes_ = 0;      // of their files
     std::map<std::string, int> known_; // what a path, or a conversion, gave
 };
 

@@ -18,6 +18,7 @@
 #include "cotan/picture/words.hpp"
 #include "cotan/scene/geometry.hpp"
 #include "cotan/scene/meant_frame.hpp"
+#include "cotan/scene/parts.hpp"
 #include "cotan/scene/up.hpp"
 #include "cotan/shapes/shapes.hpp"
 #include "cotan/surface/vertex_frames.hpp"
@@ -29,6 +30,8 @@ LoadLimits limitsFor(int memory, Pixels pixels)
     LoadLimits limits;
     limits.imageBytes = std::size_t(memory) << 20;
     limits.allImageBytes = std::max(limits.allImageBytes, limits.imageBytes);
+    if (memory > kDefaultMemory) // the user knows what he has
+        limits.imageBytesBeyond = limits.imageBytes;
     limits.imageSide = 1 << 20; // the memory limit decides
     limits.pixels = pixels;
     return limits;
@@ -249,6 +252,7 @@ Result<Picture> openPicture(const PictureOptions& options, int threads, std::ini
     if (!scene)
         return scene.error();
     picture.scene = std::move(*scene);
+    joinParts(picture.scene);
     if (options.edges != "none")
         picture.edges = surfaceEdges(picture.scene);
     auto prepared = prepareScene(options, options.show, frames, picture.scene);
@@ -259,6 +263,8 @@ Result<Picture> openPicture(const PictureOptions& options, int threads, std::ini
     if (!view)
         return view.error();
     picture.view = std::move(*view);
+    if (Status fits = settleCovered(picture.scene, picture.view); !fits)
+        return fits.error();
     if (!like) {
         auto opened = surroundings.get();
         if (!opened)

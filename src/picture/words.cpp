@@ -35,7 +35,10 @@ Result<FrameChoice> parseFrameChoice(const std::string& text)
 
 void addMemoryOption(Arguments& a, int& memory, const std::string& also)
 {
-    a.option("--memory", memory, "largest picture held in memory at once" + also + ", in MiB")
+    a.option("--memory", memory,
+             "largest picture held in memory at once" + also
+                 + ", in MiB; up to 640 the pictures that are read, together, take no more than 192 MiB and 128 times "
+                   "the size of their files, beyond that this many MiB instead of 192")
         .within(1, 1 << 16)
         .in("MIB");
 }

@@ -13,8 +13,6 @@ namespace cotan {
 
 namespace {
 
-constexpr double kFarthestShown = 1e6; // uv beyond are not drawn, as UvRaster has it
-
 double finiteOrZero(double x) { return std::abs(x) <= 1e30 ? x : 0; }
 
 std::vector<glm::vec2> uvOfMap(const Mesh& mesh, const Texture& map)
@@ -334,18 +332,9 @@ UvRaster repeatedRaster(const MappedSurface& s, int width, int height, glm::ivec
                     height * copies.y, {0, 0}, true);
 }
 
-double copiesUnder(const MappedSurface& s)
+double rowsUnder(const MappedSurface& s, int height)
 {
-    double copies = 0;
-    for (std::size_t i = 0; s.hasUv() && i < s.triangleCount(); ++i) {
-        const glm::dvec2 a = s.uv(3 * i), b = s.uv(3 * i + 1), c = s.uv(3 * i + 2);
-        const glm::dvec2 low = glm::min(a, glm::min(b, c)), high = glm::max(a, glm::max(b, c));
-        if (low.x < -kFarthestShown || low.y < -kFarthestShown || high.x > kFarthestShown || high.y > kFarthestShown)
-            continue;
-        const glm::dvec2 size = high - low, tiles = glm::max(glm::ceil(high) - glm::floor(low), 1.0);
-        copies += std::max(size.x * size.y, tiles.x * tiles.y - 1);
-    }
-    return copies;
+    return s.hasUv() ? rowsUnder(UvTriangles{s.shared->uv, s.shared->mesh->indices}, height) : 0;
 }
 
 double areaOf(const TriangleEdges& e)

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <numbers>
 #include <numeric>
 
 #include <glm/common.hpp>
@@ -15,7 +16,8 @@ namespace {
 constexpr double kFarthest = 1e6;     // uv beyond have no texel of their own in float
 constexpr double kReach = 0.70710678; // half the diagonal of a texel
 constexpr int kTile = 4;              // side of the squares in which first places come
-constexpr int kMostCopies = 64;       // of one triangle that wraps: per axis
+constexpr int kMostCopies = 64;       // of one narrow triangle that wraps: per axis
+constexpr int kSpread = 4;            // copies per axis of one that has room for as many whole ones
 
 double cross(glm::dvec2 a, glm::dvec2 b) { return a.x * b.y - a.y * b.x; }
 
@@ -40,6 +42,72 @@ glm::dvec2 nearestOn(glm::dvec2 a, glm::dvec2 b, glm::dvec2 p)
     const double d2 = glm::dot(d, d);
     return a + d * std::clamp(d2 > 0 ? glm::dot(p - a, d) / d2 : 0, 0.0, 1.0);
 }
+
+// A triangle in uv, scaled, and twice its area. False where it is not drawn.
+bool cornersOf(const UvTriangles& triangles, std::uint32_t triangle, glm::dvec2 (&uv)[3], double& area)
+{
+    bool usable = true;
+    for (std::size_t k = 0; k < 3; ++k) {
+        uv[k] = glm::dvec2(triangles.texcoords[triangles.indices[3 * std::size_t(triangle) + k]] * triangles.scale);
+        usable = usable && std::abs(uv[k].x) <= kFarthest && std::abs(uv[k].y) <= kFarthest;
+    }
+    area = cross(uv[1] - uv[0], uv[2] - uv[0]);
+    return usable && area != 0;
+}
+
+// The copies of the image that a triangle is shown in: every `step`-th from `from` on.
+struct Copies {
+    glm::ivec2 from{0, 0}, count{1, 1};
+    int step = 1;
+};
+
+// All that its box touches; of a triangle with room for a square of 4 by 4 whole ones such a square, spread as far as
+// its inscribed circle goes: these show every texel sixteen times.
+Copies copiesOf(const glm::dvec2 (&uv)[3], double area)
+{
+    const glm::dvec3 sides(glm::length(uv[2] - uv[1]), glm::length(uv[0] - uv[2]), glm::length(uv[1] - uv[0]));
+    const double around = sides.x + sides.y + sides.z, radius = std::abs(area) / around;
+    Copies copies;
+    if (const int step = int((std::numbers::sqrt2 * radius - 2) / (kSpread - 1)); step > 0) {
+        const glm::dvec2 centre = (uv[0] * sides.x + uv[1] * sides.y + uv[2] * sides.z) / around;
+        copies.from = glm::ivec2(glm::ceil(centre - radius / std::numbers::sqrt2));
+        copies.count = {kSpread, kSpread};
+        copies.step = step;
+        return copies;
+    }
+    copies.from = glm::ivec2(glm::floor(glm::min(uv[0], glm::min(uv[1], uv[2]))));
+    const glm::dvec2 high = glm::max(uv[0], glm::max(uv[1], uv[2]));
+    copies.count = glm::clamp(glm::ivec2(glm::ceil(high)) - copies.from, 1, kMostCopies);
+    return copies;
+}
+
+// The first texel from x to last that may get a place; last + 1 where none may. full: null: all may.
+int nextFree(const std::uint8_t* full, int x, int last)
+{
+    if (!full || x > last)
+        return x;
+    const void* const found = std::memchr(full + x, 0, std::size_t(last - x + 1));
+    return found ? int(static_cast<const std::uint8_t*>(found) - full) : last + 1;
+}
+
+// 0 to n - 1, each once, in steps of the golden ratio: the first few are spread evenly over all.
+class Spreading {
+public:
+    explicit Spreading(std::size_t n) : n_(n), step_(std::max<std::size_t>(std::size_t(double(n) * 0.6180339887), 1))
+    {
+        while (std::gcd(step_, n_) > 1)
+            ++step_;
+    }
+    std::size_t next()
+    {
+        const std::size_t here = at_;
+        at_ = (at_ + step_) % n_;
+        return here;
+    }
+
+private:
+    std::size_t n_, step_, at_ = 0;
+};
 
 } // namespace
 
@@ -81,17 +149,6 @@ bool UvRaster::covers(const Shown& t, glm::dvec2 p)
     return true;
 }
 
-bool UvRaster::uvOf(std::uint32_t triangle, glm::dvec2 (&uv)[3], double& area) const
-{
-    bool usable = true;
-    for (std::size_t k = 0; k < 3; ++k) {
-        uv[k] = glm::dvec2(triangles_.texcoords[triangles_.indices[3 * std::size_t(triangle) + k]] * triangles_.scale);
-        usable = usable && std::abs(uv[k].x) <= kFarthest && std::abs(uv[k].y) <= kFarthest;
-    }
-    area = cross(uv[1] - uv[0], uv[2] - uv[0]);
-    return usable && area != 0;
-}
-
 UvRaster::Shown UvRaster::shownAt(const Listed& listed, const glm::dvec2 (&uv)[3], double area) const
 {
     const glm::dvec2 size(width_, height_);
@@ -111,7 +168,7 @@ UvRaster::Shown UvRaster::shownAt(const Listed& listed) const
 {
     glm::dvec2 uv[3];
     double area = 0;
-    uvOf(listed.triangle, uv, area);
+    cornersOf(triangles_, listed.triangle, uv, area);
     return shownAt(listed, uv, area);
 }
 
@@ -120,17 +177,12 @@ template<class Use> void UvRaster::eachPlace(glm::ivec2 tile, bool wrap, const U
     glm::dvec2 uv[3];
     double area = 0;
     for (std::uint32_t i = 0; i < triangles_.indices.size() / 3; ++i) {
-        if (!uvOf(i, uv, area))
+        if (!cornersOf(triangles_, i, uv, area))
             continue;
-        glm::ivec2 from = tile, to = tile;
-        if (wrap) {
-            from = glm::ivec2(glm::floor(glm::min(uv[0], glm::min(uv[1], uv[2]))));
-            const glm::dvec2 high = glm::max(uv[0], glm::max(uv[1], uv[2]));
-            to = glm::max(glm::min(glm::ivec2(glm::ceil(high)) - 1, from + kMostCopies - 1), from);
-        }
-        for (int y = from.y; y <= to.y; ++y)
-            for (int x = from.x; x <= to.x; ++x) {
-                const Listed listed{i, {x, y}};
+        const Copies copies = wrap ? copiesOf(uv, area) : Copies{.from = tile};
+        for (int y = 0; y < copies.count.y; ++y)
+            for (int x = 0; x < copies.count.x; ++x) {
+                const Listed listed{i, copies.from + copies.step * glm::ivec2(x, y)};
                 const Shown t = shownAt(listed, uv, area);
                 if (t.first.x <= t.last.x && t.first.y <= t.last.y)
                     use(listed, t);
@@ -175,11 +227,14 @@ std::pair<int, int> UvRaster::span(const Shown& t, double py, double reach, doub
             int(std::clamp(std::ceil(high - 0.5 + reach), -1.0, double(width_) - 1))};
 }
 
-template<class Emit> void UvRaster::scanCentres(const Shown& t, int y, const Emit& emit) const
+template<class Emit> void UvRaster::scanCentres(const Shown& t, int y, const std::uint8_t* full, const Emit& emit) const
 {
     const double py = y + 0.5;
     double low, high;
     const auto [first, last] = span(t, py, 0, low, high);
+    const int begin = nextFree(full, first, last);
+    if (begin > last)
+        return;
     const Weights weights(t);
     // Well inside needs no test. Where a corner is close to the row an edge may lie along it, and where it meets the
     // row is not known well.
@@ -190,7 +245,7 @@ template<class Emit> void UvRaster::scanCentres(const Shown& t, int y, const Emi
         inner = int(std::clamp(std::ceil(low - 0.5 + 1e-4), double(first), double(last) + 1));
         outer = int(std::clamp(std::floor(high - 0.5 - 1e-4) + 1, double(inner), double(last) + 1));
     }
-    for (int x = first; x <= last; ++x) {
+    for (int x = begin; x <= last; x = nextFree(full, x + 1, last)) {
         const glm::dvec2 p(x + 0.5, py);
         if ((!corner && x >= inner && x < outer) || covers(t, p))
             emit(x, weights.at(t, p, true));
@@ -206,9 +261,7 @@ void UvRaster::scanTouching(const Shown& t, int y, const std::uint8_t* taken, co
     double low, high;
     const auto [first, last] = span(t, py, kReach, low, high);
     const Weights weights(t);
-    for (int x = first; x <= last; ++x) {
-        if (taken && taken[x])
-            continue;
+    for (int x = nextFree(taken, first, last); x <= last; x = nextFree(taken, x + 1, last)) {
         const glm::dvec2 p(x + 0.5, py);
         if (!taken && covers(t, p)) {
             emit(x, weights.at(t, p, true));
@@ -231,37 +284,56 @@ void UvRaster::scanTouching(const Shown& t, int y, const std::uint8_t* taken, co
     }
 }
 
-void UvRaster::row(int y, UvReach reach, UvRow& result) const
+void UvRaster::row(int y, UvReach reach, UvRow& result, const UvFew& few) const
 {
-    std::vector<std::pair<int, UvPlace>>& found = result.scratch.found;
-    std::vector<std::uint8_t>& taken = result.scratch.taken;
-    std::vector<std::uint32_t>& next = result.scratch.next;
+    auto& [found, taken, next, orders, sorted] = result.scratch;
+    const std::span<const Listed> listed = listedIn(y / kBlockRows);
+    const bool limited = few.most < listed.size();
     found.clear();
-    const auto emit = [&found](int x, const UvPlace& place) { found.push_back({x, place}); };
+    orders.clear();
+    next.assign(std::size_t(width_) + 1, 0); // places of each texel, so far
+    std::vector<std::uint8_t>& full = taken;
+    full.assign(std::size_t(width_), 0);
+    std::uint32_t order = 0;
+    const auto emit = [&](int x, const UvPlace& place) {
+        if (few.counts && !few.counts(place))
+            return;
+        found.push_back({x, place});
+        orders.push_back(order);
+        full[std::size_t(x)] = ++next[std::size_t(x)] >= few.most;
+    };
     const auto eachShown = [&](const auto& scan) {
-        for (const Listed& listed : listedIn(y / kBlockRows))
-            if (const Shown t = shownAt(listed); t.first.y <= y && y <= t.last.y)
+        Spreading spreading(std::max<std::size_t>(listed.size(), 1));
+        for (std::size_t i = 0; i < listed.size(); ++i) {
+            order = std::uint32_t(limited && few.most > 1 ? spreading.next() : i);
+            if (const Shown t = shownAt(listed[order]); t.first.y <= y && y <= t.last.y)
                 scan(t);
+        }
     };
     if (reach == UvReach::touching)
         eachShown([&](const Shown& t) { scanTouching(t, y, nullptr, emit); });
     else
-        eachShown([&](const Shown& t) { scanCentres(t, y, emit); });
+        eachShown([&](const Shown& t) { scanCentres(t, y, limited ? full.data() : nullptr, emit); });
     if (reach == UvReach::gaps) {
-        taken.assign(std::size_t(width_), 0);
-        for (const auto& [x, place] : found)
-            taken[std::size_t(x)] = 1;
-        eachShown([&](const Shown& t) { scanTouching(t, y, taken.data(), emit); });
+        for (std::size_t x = 0; x < full.size(); ++x)
+            full[x] = next[x] > 0;
+        eachShown([&](const Shown& t) { scanTouching(t, y, full.data(), emit); });
     }
     result.first.assign(std::size_t(width_) + 1, 0);
-    for (const auto& [x, place] : found)
-        ++result.first[std::size_t(x) + 1];
-    for (std::size_t x = 1; x < result.first.size(); ++x)
-        result.first[x] += result.first[x - 1];
+    std::inclusive_scan(next.begin(), next.end() - 1, result.first.begin() + 1);
+    std::copy(result.first.begin(), result.first.end(), next.begin());
     result.places.resize(found.size());
-    next.assign(result.first.begin(), result.first.end() - 1);
-    for (const auto& [x, place] : found) // in the order of the triangles
-        result.places[next[std::size_t(x)]++] = place;
+    sorted.resize(found.size());
+    for (std::size_t i = 0; i < found.size(); ++i) { // each texel's in the order of the triangles
+        const auto [x, place] = found[i];
+        std::uint32_t at = next[std::size_t(x)]++;
+        for (; at > result.first[std::size_t(x)] && sorted[at - 1] > orders[i]; --at) {
+            result.places[at] = result.places[at - 1];
+            sorted[at] = sorted[at - 1];
+        }
+        result.places[at] = place;
+        sorted[at] = orders[i];
+    }
 }
 
 void UvRaster::firsts(int block, UvFirsts& result) const
@@ -293,7 +365,7 @@ void UvRaster::firsts(int block, UvFirsts& result) const
         ++next[tileOf(texel) + 1];
     };
     eachRow([&](const Shown& t, int y, std::uint8_t* row) {
-        scanCentres(t, y, [&](int x, const UvPlace& place) { take({x, y}, place, row); });
+        scanCentres(t, y, nullptr, [&](int x, const UvPlace& place) { take({x, y}, place, row); });
     });
     eachRow([&](const Shown& t, int y, std::uint8_t* row) {
         scanTouching(t, y, row, [&](int x, const UvPlace& place) { take({x, y}, place, row); });
@@ -308,25 +380,56 @@ void UvRaster::firsts(int block, UvFirsts& result) const
     }
 }
 
-void UvRaster::centres(int block, std::vector<std::pair<glm::ivec2, UvPlace>>& result) const
+void UvRaster::eachSpan(int block, const std::function<void(const UvSpan&)>& use) const
 {
-    result.clear();
     const int top = block * kBlockRows, bottom = std::min(top + kBlockRows, height_) - 1;
     for (const Listed& listed : listedIn(block)) {
         const Shown t = shownAt(listed);
-        for (int y = std::max(top, t.first.y); y <= std::min(bottom, t.last.y); ++y)
-            scanCentres(t, y, [&](int x, const UvPlace& place) { result.push_back({{x, y}, place}); });
+        for (int y = std::max(top, t.first.y); y <= std::min(bottom, t.last.y); ++y) {
+            const double py = y + 0.5;
+            double low, high;
+            auto [first, last] = span(t, py, 0, low, high);
+            while (first <= last && !covers(t, {first + 0.5, py}))
+                ++first;
+            while (first <= last && !covers(t, {last + 0.5, py}))
+                --last;
+            if (first <= last)
+                use({t.triangle, y, first, last});
+        }
     }
+}
+
+double rowsUnder(const UvTriangles& triangles, int height)
+{
+    double rows = 0;
+    glm::dvec2 uv[3];
+    for (std::uint32_t i = 0; i < triangles.indices.size() / 3; ++i) {
+        double area = 0;
+        if (!cornersOf(triangles, i, uv, area))
+            continue;
+        const Copies copies = copiesOf(uv, area);
+        const double high = std::max({uv[0].y, uv[1].y, uv[2].y}) - std::min({uv[0].y, uv[1].y, uv[2].y});
+        // A triangle of several rows of copies is cut into as many, a row of texels at their borders lies in two.
+        rows += copies.count.x * (std::min(high, double(copies.count.y)) * height + copies.count.y);
+    }
+    return rows;
 }
 
 UvCoverage coverage(const UvRaster& raster)
 {
     UvCoverage c;
-    UvRow row;
-    for (int y = 0; y < raster.height(); ++y) {
-        raster.row(y, UvReach::centres, row);
-        for (std::size_t x = 0; x + 1 < row.first.size(); ++x) {
-            const std::uint32_t n = row.first[x + 1] - row.first[x];
+    std::vector<int> begins; // how many more triangles cover a texel than the one before it
+    for (int block = 0; block < raster.blocks(); ++block) {
+        const std::size_t width = std::size_t(raster.width()) + 1;
+        begins.assign(width * UvRaster::kBlockRows, 0);
+        raster.eachSpan(block, [&](const UvSpan& span) {
+            int* const row = &begins[std::size_t(span.y % UvRaster::kBlockRows) * width];
+            ++row[span.first];
+            --row[span.last + 1];
+        });
+        int n = 0; // back at 0 behind each row
+        for (const int begin : begins) {
+            n += begin;
             c.covered += n > 0;
             c.overlapping += n > 1;
         }

@@ -260,9 +260,26 @@ std::string Arguments::name() const { return app_->get_name(); }
 
 CommandHelp Arguments::describe() const { return tool_->describe(*app_); }
 
+namespace {
+
+// "-o=a.png" as "-o" and "a.png": CLI11 takes the sign for the beginning of the name.
+std::vector<std::string> withoutEquals(std::vector<std::string> words)
+{
+    for (std::size_t i = 0; i < words.size() && words[i] != "--"; ++i)
+        if (const std::string word = words[i]; word.size() > 2 && word[0] == '-' && word[1] != '-' && word[2] == '=') {
+            words[i] = word.substr(0, 2);
+            words.insert(words.begin() + std::ptrdiff_t(i) + 1, word.substr(3));
+            ++i;
+        }
+    return words;
+}
+
+} // namespace
+
 // help: the text of --help or --version, where that is asked for.
 Status Arguments::read(std::vector<std::string> words, std::string& help) const
 {
+    words = withoutEquals(std::move(words));
     if (Status known = checkCommandWords(namesOf(*app_), words); !known)
         return known;
     try {

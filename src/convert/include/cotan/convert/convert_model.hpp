@@ -67,9 +67,9 @@ struct ConvertModelReport {
 // surfaces, and encoded with the new one (see reencode). Then gives the primitives TANGENT where the new frame reads
 // it, or drops it where nothing else does. The materials say for which frame their maps are then (named_frame.hpp).
 // Maps in other formats than PNG and JPEG stay as they are, and a note says so. Errors: ErrorKind::usage for a frame
-// that depends on the view and other bits; ErrorKind::input for a picture that cannot be read or is over the limits, uv
-// that repeat a map millions of times, triangles that take more than options.memory, found before anything is done,
-// compressed geometry, and materials that name another frame than frames.from;
+// that depends on the view and other bits; ErrorKind::input for a picture that cannot be read or is over the limits,
+// more than 50,000 triangles that each cover a map of 2048 rows, triangles that take more than options.memory, found
+// before anything is done, compressed geometry, and materials that name another frame than frames.from;
 // ErrorKind::output where there is no memory for a PNG; ErrorKind::stopped. On error the document is unchanged.
 Result<ConvertModelReport> convertModel(GltfDocument& document, const ConvertModelOptions& options);
 

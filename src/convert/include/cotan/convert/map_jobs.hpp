@@ -2,6 +2,7 @@
 // how what comes out goes back in.
 #pragma once
 
+#include <compare>
 #include <cstddef>
 #include <string>
 #include <vector>
@@ -16,7 +17,7 @@ struct MapPlace {
     std::size_t material = 0;
     NormalSlot slot = NormalSlot::surface;
 
-    bool operator==(const MapPlace&) const = default;
+    auto operator<=>(const MapPlace&) const = default;
 };
 
 // A primitive that reads a map, with one of its materials.
@@ -28,7 +29,6 @@ struct MapReader {
     std::vector<glm::dmat3> placed; // each is a surface
     std::size_t vertices = 0, triangles = 0;
     bool stored = false; // it has TANGENT
-    double copies = 0;   // copiesUnder, of one surface
 };
 
 // An image and everything that reads it as its normal map.
@@ -36,8 +36,9 @@ struct MapJob {
     std::size_t image = 0; // index into the file's images
     std::string name;
     std::vector<MapReader> readers;
-    std::vector<MapPlace> places; // where it is read so
-    bool alsoElsewhere = false;   // another slot of a material reads it too: it has to stay as it is
+    std::vector<MapPlace> places;      // where it is read so
+    std::vector<std::size_t> textures; // of the file, that show the image
+    bool alsoElsewhere = false;        // another slot of a material reads it too: it has to stay as it is
 };
 
 // The jobs of a file, in the order of its images. A mesh that nodes show under several maps that are not

@@ -11,7 +11,9 @@
 namespace cotan {
 
 inline constexpr double kDisagree = 0.5;       // degrees: about what rounding to 8 bits costs at worst
-inline constexpr std::size_t kMostPlaces = 16; // of one texel; of more, evenly chosen ones count
+inline constexpr std::size_t kMostPlaces = 16; // of one texel; of more, some that are spread over all count
+inline constexpr std::size_t kMostAllPlaces = std::size_t(1)
+    << 24; // of a map; larger ones have fewer of a texel, 4 at least
 
 // What a conversion did to a map, in texels and degrees.
 struct ReencodeFigures {

@@ -51,9 +51,12 @@ struct LoadLimits {
     std::size_t imageBytes = std::size_t(640) << 20; // decoded, of one image
     std::size_t allImageBytes =
         std::min<std::uint64_t>(std::uint64_t(8) << 30, SIZE_MAX); // decoded, of all images of one model
-    Pixels pixels = Pixels::all;                                   // of a glTF model
-    Pose pose = Pose();    // likewise; other models have none. Written out: else g++ 12 warns in callers
-    Up up = Up::y;         // of a model
+    // What decoded images, of one model or one alone, may take beyond 128 times the size of their files. A few bytes
+    // can ask for any amount; of real pictures a byte rarely stands for more than eight pixels.
+    std::size_t imageBytesBeyond = std::size_t(192) << 20;
+    Pixels pixels = Pixels::all; // of a glTF model
+    Pose pose = Pose();          // likewise; other models have none. Written out: else g++ 12 warns in callers
+    Up up = Up::y;               // of a model
     std::string variant{}; // of a glTF model's materials, its name or number in the file; empty: as the file has them
     Sandbox sandbox = defaultSandbox(); // where models other than glTF, and third-party formats of pictures, are read
     // Told of bytes that are about to be decoded, once their number has been found within the limits: how a reader in
@@ -67,5 +70,12 @@ struct LoadLimits {
     // A picture from the bytes of its file, in place of Cotan's own readers; name: for messages.
     std::function<Result<Image>(std::span<const std::byte> bytes, const std::string& name)> decode{};
 };
+
+// What images may take, decoded, that were so many bytes in their files.
+inline std::size_t imageBudget(const LoadLimits& limits, std::uint64_t fileBytes)
+{
+    const double bytes = double(limits.imageBytesBeyond) + 128 * double(fileBytes);
+    return bytes < double(limits.allImageBytes) ? std::size_t(bytes) : limits.allImageBytes;
+}
 
 } // namespace cotan

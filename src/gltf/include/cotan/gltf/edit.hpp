@@ -12,6 +12,7 @@
 #include <cstddef>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -70,10 +71,12 @@ struct GltfGeometry {
     int texcoordSet = 0;                // which uv set that is
 };
 
-// mesh, primitive: indices into `root`. slot: the map whose uv are read; uv set 0 where there is none. Points and
-// lines, and primitives without POSITION, give an empty geometry. Errors (ErrorKind::input): indices out of range.
+// mesh, primitive: indices into `root`. slot: the map whose uv are read; uv set 0 where there is none. material: in the
+// place of the primitive's own. Points and lines, and primitives without POSITION, give an empty geometry. Errors
+// (ErrorKind::input): indices out of range.
 Result<GltfGeometry> gltfGeometry(const GltfDocument& document, std::size_t mesh, std::size_t primitive,
-                                  NormalSlot slot = NormalSlot::surface);
+                                  NormalSlot slot = NormalSlot::surface,
+                                  std::optional<std::size_t> material = std::nullopt);
 
 // ---- tangents -------------------------------------------------------------------------------
 

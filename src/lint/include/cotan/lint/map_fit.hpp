@@ -46,12 +46,16 @@ std::vector<SurfacePoint> pointsOver(const MappedSurface& surface, std::size_t c
 Spread mapError(const Image& before, const Image& after, const std::vector<const MapUse*>& uses,
                 const FramePair& frames, std::optional<Expansion> expansionAfter = {});
 
-// The same for several pairs of frames, at the same points.
-std::vector<Spread> mapErrors(const Image& before, const Image& after, const std::vector<const MapUse*>& uses,
-                              std::span<const FramePair> frames, std::optional<Expansion> expansionAfter = {});
-
 // The points of one surface by which single figures of a primitive are measured.
 inline constexpr std::size_t kPointsOfSurface = 4096;
+
+// The same for several pairs of frames, at the same points. points: of a surface at most; fewer of many surfaces.
+std::vector<Spread> mapErrors(const Image& before, const Image& after, const std::vector<const MapUse*>& uses,
+                              std::span<const FramePair> frames, std::optional<Expansion> expansionAfter = {},
+                              std::size_t points = kPointsOfSurface);
+
+// How many points each of so many surfaces has: together no more than 128 have at kPointsOfSurface, while each has 16.
+std::size_t pointsOfEach(std::size_t surfaces);
 
 // Degrees between the ways in which frames.from and frames.to stretch highlights (KHR_materials_anisotropy), as lines,
 // at points spread over the surface, weighted by area. Empty where no triangle has area in space and uv, or a frame

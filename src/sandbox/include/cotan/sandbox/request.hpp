@@ -16,7 +16,7 @@ namespace cotan {
 
 inline constexpr char kReaderWord[] = "read-for-parent"; // the reader's only argument
 inline constexpr int kNoMemoryCode = 71;                 // its exit code where memory ended
-inline constexpr std::uint32_t kReaderVersion = 2;       // of what is said; both are the same program, or should be
+inline constexpr std::uint32_t kReaderVersion = 3;       // of what is said; both are the same program, or should be
 
 // The most that the reader may take.
 struct ReaderBudget {
@@ -59,6 +59,7 @@ template<class W, class T> void exchangeLimits(W& w, T& limits)
     w.number(limits.imageSide);
     w.number(limits.imageBytes);
     w.number(limits.allImageBytes);
+    w.number(limits.imageBytesBeyond);
     w.number(limits.sandbox.megabytes);
     w.number(limits.sandbox.seconds);
 }

@@ -160,10 +160,8 @@ UvRaster repeatedRaster(const MappedSurface& surface, int width, int height, glm
 // About how many bytes a triangle such a raster takes where triangles are as large as texels.
 inline constexpr std::size_t kRasterBytes = 20;
 
-// How many copies of the image lie under the boxes of the triangles' uv: by area, or by how many more than one each
-// touches where that is more. What the work of a raster grows with, besides the triangles. Boxes beyond 1e6 are
-// left out, as they are not drawn.
-double copiesUnder(const MappedSurface& surface);
+// rowsUnder of such a raster of so many texels.
+double rowsUnder(const MappedSurface& surface, int height);
 
 // Half the length of the cross product of two edges; 0 where that is not finite.
 double areaOf(const TriangleEdges& edges);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <utility>
 #include <vector>
@@ -33,6 +34,7 @@ template<class Texel> struct UvScratch {
     std::vector<std::pair<Texel, UvPlace>> found; // in the order in which they were found
     std::vector<std::uint8_t> taken;              // texels that have their place
     std::vector<std::uint32_t> next;              // where in the result the next of a group goes
+    std::vector<std::uint32_t> orders, sorted;    // number of the triangle, beside `found` and beside the result
 };
 
 // The places of one row of texels: those of texel x are places[first[x]] to places[first[x + 1] - 1],
@@ -51,6 +53,19 @@ enum class UvReach {
     touching, // all that come within half a texel's diagonal of the centre
 };
 
+// Which places of a texel are wanted, where not all are.
+struct UvFew {
+    std::size_t most = SIZE_MAX; // of each texel, at least 1; of more, some that are spread over the list of triangles;
+                                 // of 1 the first
+    std::function<bool(const UvPlace&)> counts{}; // others are left out; may be empty: all count
+};
+
+// Texels of a row whose centres a triangle covers, `last` included.
+struct UvSpan {
+    std::uint32_t triangle = 0;
+    int y = 0, first = 0, last = 0;
+};
+
 // The texels of a block of rows that show something, each with one place: that of the first triangle that covers its
 // centre; where there is none, of the first that comes within half a texel's diagonal of it. They come square by square
 // of 4 x 4, so that sixteen in a row are close to one another, and in a square triangle by triangle.
@@ -67,22 +82,23 @@ struct UvFirsts {
 class UvRaster {
 public:
     // tile: which unit square of uv the image shows ((0,0) for ordinary layouts; UDIM 1001 + u + 10 v).
-    // wrap: uv outside the unit square show the image repeated; then every triangle is shown in all
-    // places, whatever the tile.
+    // wrap: uv outside the unit square show the image repeated; then every triangle is shown in all places, whatever
+    // the tile; one that has room for 4 by 4 whole copies in its inscribed circle in 16 of them, evenly chosen.
     UvRaster(const UvTriangles& triangles, int width, int height, glm::ivec2 tile = {0, 0}, bool wrap = false);
 
     int width() const { return width_; }
     int height() const { return height_; }
 
-    // The places of the row y, 0 at the top. May be called from several threads.
-    void row(int y, UvReach reach, UvRow& result) const;
+    // The places of the row y, 0 at the top. May be called from several threads. few: not with UvReach::touching. With
+    // few.most it takes time for each triangle that is in the row, but not for each of its texels.
+    void row(int y, UvReach reach, UvRow& result, const UvFew& few = {}) const;
 
     // The first places of the texels in rows from kBlockRows * block on. May be called from several threads.
     static constexpr int kBlockRows = 8;
     int blocks() const { return (height_ + kBlockRows - 1) / kBlockRows; }
     void firsts(int block, UvFirsts& result) const;
-    // All texels of that block whose centre a triangle covers, in the order of the triangles.
-    void centres(int block, std::vector<std::pair<glm::ivec2, UvPlace>>& result) const;
+    // Calls use for every triangle and row of that block, in the order of the triangles. Takes no time for texels.
+    void eachSpan(int block, const std::function<void(const UvSpan&)>& use) const;
 
 private:
     struct Listed { // a triangle in one of the places where the repeated image shows it
@@ -100,13 +116,11 @@ private:
     static bool covers(const Shown& t, glm::dvec2 p);
     // The texels of the line py that a triangle may reach, and where it begins and ends on it.
     std::pair<int, int> span(const Shown& t, double py, double reach, double& low, double& high) const;
-    // Call emit(x, place) for each texel of the row y. `taken`: texels that are not asked about; null: none.
-    template<class Emit> void scanCentres(const Shown& t, int y, const Emit& emit) const;
+    // Call emit(x, place) for each texel of the row y. full, taken: texels that are not asked about; null: none.
+    template<class Emit> void scanCentres(const Shown& t, int y, const std::uint8_t* full, const Emit& emit) const;
     template<class Emit> void scanTouching(const Shown& t, int y, const std::uint8_t* taken, const Emit& emit) const;
     // Calls use(listed, shown) for every triangle and place that may touch a texel, in order.
     template<class Use> void eachPlace(glm::ivec2 tile, bool wrap, const Use& use) const;
-    // A triangle in uv, scaled. False where it is not drawn.
-    bool uvOf(std::uint32_t triangle, glm::dvec2 (&uv)[3], double& area) const;
     Shown shownAt(const Listed& listed, const glm::dvec2 (&uv)[3], double area) const;
     Shown shownAt(const Listed& listed) const;
     // The triangles of a block, in order.
@@ -121,6 +135,10 @@ private:
     std::vector<std::size_t> blockFirst_; // blocks + 1
     std::vector<Listed> listed_;
 };
+
+// About how many rows of texels the triangles are in, in all copies of a repeated image that is so many texels high:
+// what the work of such a raster grows with, besides its texels.
+double rowsUnder(const UvTriangles& triangles, int height);
 
 // Counts over a whole layout.
 struct UvCoverage {

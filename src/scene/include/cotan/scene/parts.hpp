@@ -1,0 +1,26 @@
+// Scenes of very many small parts, and of triangles that lie on one another, made cheaper to draw.
+#pragma once
+
+#include "cotan/result.hpp"
+#include "cotan/scene/scene.hpp"
+#include "cotan/scene/view.hpp"
+
+namespace cotan {
+
+// Puts parts of one material together where there are over mostParts: meshes of up to 256 triangles, placed by their
+// instances in float; larger ones stay, and so does what would be more than 4 million triangles. Instances with
+// matrices that are not finite go; so do the names of parts that are put together. Parts with cotangents stay.
+void joinParts(Scene& scene, std::size_t mostParts = 1000);
+
+// Leaves out triangles of opaque meshes that have the corners of an earlier one of their mesh, in the same order round:
+// the first is what a picture shows.
+void dropRepeated(Scene& scene);
+
+// How many pixels of a picture the triangles cover, all that lie behind one another.
+double pixelsCovered(const Scene& scene, const View& view);
+
+// Makes the scene fit to be drawn in this view: dropRepeated where triangles cover the picture over 50 times.
+// Errors (ErrorKind::input): after that they cover it over 250 times.
+Status settleCovered(Scene& scene, const View& view);
+
+} // namespace cotan

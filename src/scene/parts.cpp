@@ -1,0 +1,229 @@
+#include "cotan/scene/parts.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <string>
+#include <tuple>
+#include <unordered_set>
+#include <utility>
+
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+
+#include "cotan/covector.hpp"
+#include "cotan/scene/geometry.hpp"
+#include "cotan/scene/view.hpp"
+
+namespace cotan {
+
+namespace {
+
+constexpr std::size_t kSmall = 256;          // triangles of a mesh that is put together with others
+constexpr std::size_t kMostJoined = 4 << 20; // triangles
+constexpr double kMostCovered = 250;         // times that triangles may cover a picture
+constexpr double kOftenCovered = 50;         // times from which on it is worth looking for triangles that repeat
+
+// ---- parts ----------------------------------------------------------------------------------
+
+// Meshes with the same key have the same arrays.
+auto keyOf(const Mesh& mesh)
+{
+    return std::tuple(mesh.material, mesh.normals.empty(), mesh.tangents.empty(), mesh.texcoords[0].empty(),
+                      mesh.texcoords[1].empty(), mesh.colors.empty());
+}
+
+// Adds a mesh as an instance places it: tangents along with positions, normals as covectors. A mirroring matrix turns
+// the order of corners round, and the sign of tangents.
+void append(Mesh& whole, const Mesh& part, const glm::mat4& toWorld)
+{
+    const LinearMap<double> map{glm::dmat3(toWorld)};
+    const glm::dmat4 place(toWorld);
+    const bool mirrored = map.determinant() < 0;
+    const auto base = std::uint32_t(whole.positions.size());
+    const auto unit = [](glm::dvec3 v) {
+        const double length = glm::length(v);
+        return length > 0 && std::isfinite(length) ? glm::vec3(v / length) : glm::vec3(0);
+    };
+    for (const glm::vec3& p : part.positions)
+        whole.positions.emplace_back(place * glm::dvec4(glm::dvec3(p), 1));
+    for (const glm::vec3& n : part.normals)
+        whole.normals.push_back(unit(map.planeImage(Covector3d(glm::dvec3(n))).raw()));
+    for (const glm::vec4& t : part.tangents)
+        whole.tangents.emplace_back(unit(map(Vector3d(glm::dvec3(t))).raw()), mirrored ? -t.w : t.w);
+    for (std::size_t set = 0; set < 2; ++set)
+        whole.texcoords[set].insert(whole.texcoords[set].end(), part.texcoords[set].begin(), part.texcoords[set].end());
+    whole.colors.insert(whole.colors.end(), part.colors.begin(), part.colors.end());
+    for (std::size_t i = 0; i + 2 < part.indices.size(); i += 3)
+        for (const std::size_t k : {std::size_t(0), std::size_t(mirrored ? 2 : 1), std::size_t(mirrored ? 1 : 2)})
+            whole.indices.push_back(base + part.indices[i + k]);
+}
+
+bool finite(const glm::mat4& m)
+{
+    float sum = 0;
+    for (int column = 0; column < 4; ++column)
+        for (int row = 0; row < 4; ++row)
+            sum += std::abs(m[column][row]);
+    return std::isfinite(sum);
+}
+
+void joinSmall(Scene& scene)
+{
+    std::map<decltype(keyOf(Mesh{})), Mesh> joined;
+    std::vector<Instance> kept;
+    std::size_t triangles = 0;
+    for (Instance& instance : scene.instances) {
+        if (!finite(instance.toWorld))
+            continue;
+        const Mesh& mesh = scene.meshes[std::size_t(instance.mesh)];
+        const std::size_t count = mesh.triangleCount();
+        if (count > kSmall || triangles + count > kMostJoined || !mesh.cotangentsU.empty()) {
+            kept.push_back(std::move(instance));
+            continue;
+        }
+        triangles += count;
+        Mesh& whole = joined[keyOf(mesh)];
+        whole.material = mesh.material;
+        append(whole, mesh, instance.toWorld);
+    }
+    std::vector<int> number(scene.meshes.size(), -1);
+    std::vector<Mesh> meshes;
+    for (auto& [key, mesh] : joined)
+        meshes.push_back(std::move(mesh));
+    const std::size_t wholes = meshes.size();
+    for (Instance& instance : kept) {
+        int& n = number[std::size_t(instance.mesh)];
+        if (n < 0) {
+            n = int(meshes.size());
+            meshes.push_back(std::move(scene.meshes[std::size_t(instance.mesh)]));
+        }
+        instance.mesh = n;
+    }
+    for (std::size_t i = 0; i < wholes; ++i)
+        kept.push_back({"", int(i), glm::mat4(1)});
+    scene.meshes = std::move(meshes);
+    scene.instances = std::move(kept);
+}
+
+// ---- triangles ------------------------------------------------------------------------------
+
+using Corners = std::array<float, 9>;
+
+struct CornersHash {
+    std::size_t operator()(const Corners& corners) const
+    {
+        std::uint64_t hash = 0x9e3779b97f4a7c15u;
+        for (const float c : corners) {
+            hash = (hash ^ std::hash<float>()(c)) * 0xff51afd7ed558ccdu;
+            hash ^= hash >> 32;
+        }
+        return std::size_t(hash);
+    }
+};
+
+// The corners of a triangle from the least on, in their order round.
+Corners cornersOf(const Mesh& mesh, std::size_t first)
+{
+    std::array<std::array<float, 3>, 3> p{};
+    for (std::size_t k = 0; k < 3; ++k) {
+        const glm::vec3& v = mesh.positions[mesh.indices[first + k]];
+        p[k] = {v.x, v.y, v.z};
+    }
+    std::rotate(p.begin(), std::min_element(p.begin(), p.end()), p.end());
+    return {p[0][0], p[0][1], p[0][2], p[1][0], p[1][1], p[1][2], p[2][0], p[2][1], p[2][2]};
+}
+
+void dropRepeated(Mesh& mesh)
+{
+    std::unordered_set<Corners, CornersHash> known;
+    known.reserve(mesh.triangleCount());
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3)
+        if (known.insert(cornersOf(mesh, i)).second) {
+            std::copy_n(mesh.indices.begin() + std::ptrdiff_t(i), 3, mesh.indices.begin() + std::ptrdiff_t(kept));
+            kept += 3;
+        }
+    mesh.indices.resize(kept);
+}
+
+// ---- pixels ---------------------------------------------------------------------------------
+
+// The area of a triangle on the picture, at most that of its box there; half the picture where it reaches behind the
+// eye.
+double pixelsOf(const std::array<glm::dvec3, 3>& seen, double width, double height)
+{
+    if (seen[0].z <= 0 || seen[1].z <= 0 || seen[2].z <= 0)
+        return seen[0].z <= 0 && seen[1].z <= 0 && seen[2].z <= 0 ? 0 : width * height / 2;
+    std::array<glm::dvec2, 3> p;
+    for (std::size_t k = 0; k < 3; ++k)
+        p[k] = glm::dvec2(seen[k]) / seen[k].z * (height / 2);
+    const glm::dvec2 half(width / 2, height / 2);
+    const glm::dvec2 low = glm::max(glm::min(p[0], glm::min(p[1], p[2])), -half);
+    const glm::dvec2 high = glm::min(glm::max(p[0], glm::max(p[1], p[2])), half);
+    if (!(low.x < high.x && low.y < high.y))
+        return 0;
+    const glm::dvec2 a = p[1] - p[0], b = p[2] - p[0];
+    return std::min(std::abs(a.x * b.y - a.y * b.x) / 2, (high.x - low.x) * (high.y - low.y));
+}
+
+} // namespace
+
+void joinParts(Scene& scene, std::size_t mostParts)
+{
+    if (scene.instances.size() > mostParts)
+        joinSmall(scene);
+}
+
+void dropRepeated(Scene& scene)
+{
+    for (Mesh& mesh : scene.meshes)
+        if (const Material& m = scene.materials[std::size_t(mesh.material)];
+            m.alphaMode == AlphaMode::opaque && !m.translucent())
+            dropRepeated(mesh);
+}
+
+double pixelsCovered(const Scene& scene, const View& view)
+{
+    const Camera& camera = view.camera;
+    const glm::dvec3 eye(camera.eye), forward = glm::normalize(glm::dvec3(camera.target) - eye);
+    const glm::dvec3 right = glm::normalize(glm::cross(forward, glm::dvec3(camera.up)));
+    const glm::dvec3 up = glm::cross(right, forward);
+    const double scale =
+        camera.orthographic ? 2 / double(camera.verticalExtent) : 1 / std::tan(double(camera.verticalFieldOfView) / 2);
+    double pixels = 0;
+    for (const Instance& instance : scene.instances) {
+        const Mesh& mesh = scene.meshes[std::size_t(instance.mesh)];
+        const glm::dmat4 toWorld(instance.toWorld);
+        for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
+            std::array<glm::dvec3, 3> seen;
+            for (std::size_t k = 0; k < 3; ++k) {
+                const glm::dvec3 p =
+                    glm::dvec3(toWorld * glm::dvec4(glm::dvec3(mesh.positions[mesh.indices[i + k]]), 1)) - eye;
+                const double before = glm::dot(p, forward);
+                seen[k] = {glm::dot(p, right) * scale, glm::dot(p, up) * scale,
+                           camera.orthographic ? (before > 0 ? 1 : 0) : before};
+            }
+            if (const double covered = pixelsOf(seen, view.width, view.height); std::isfinite(covered))
+                pixels += covered;
+        }
+    }
+    return pixels;
+}
+
+Status settleCovered(Scene& scene, const View& view)
+{
+    const double picture = double(view.width) * view.height;
+    if (pixelsCovered(scene, view) <= kOftenCovered * picture)
+        return Done{};
+    dropRepeated(scene);
+    const double times = pixelsCovered(scene, view) / picture;
+    if (times > kMostCovered)
+        return inputError(scene.name + ": its triangles cover the picture " + std::to_string(std::llround(times))
+                          + " times over, expected at most " + std::to_string(std::llround(kMostCovered))
+                          + ": look from further away, or leave some out");
+    return Done{};
+}
+
+} // namespace cotan

@@ -1,0 +1,31 @@
+// Text for a terminal, which file names and what files say must not drive.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include <fmt/format.h>
+
+namespace cotan {
+
+// Control characters as they are escaped in C, such as \x1b and \n; those of C1, two bytes in UTF-8, too. All else as
+// it is.
+inline std::string printable(std::string_view text)
+{
+    std::string result;
+    for (std::size_t i = 0; i < text.size(); ++i) {
+        const auto c = static_cast<unsigned char>(text[i]);
+        const bool c1 = c == 0xc2 && i + 1 < text.size() && static_cast<unsigned char>(text[i + 1]) < 0xa0;
+        if (c == '\n')
+            result += "\\n";
+        else if (c < 0x20 || c == 0x7f)
+            result += fmt::format("\\x{:02x}", c);
+        else if (c1)
+            result += fmt::format("\\x{:02x}", static_cast<unsigned char>(text[++i]));
+        else
+            result += text[i];
+    }
+    return result;
+}
+
+} // namespace cotan
