@@ -80,6 +80,7 @@ install(FILES ${made}/METADATA DESTINATION lib/python3/dist-packages/cotan-${PRO
 set(COTAN_1_since 0.2.0)
 set(COTAN_2_since 0.2.0)
 set(COTAN_3_since 0.2.0)
+set(COTAN_5_since 0.2.0)
 file(CONFIGURE OUTPUT ${made}/shlibs CONTENT "libcotan @PROJECT_VERSION_MAJOR@ libcotan0 (>= @PROJECT_VERSION@)\n" @ONLY)
 file(CONFIGURE OUTPUT ${made}/triggers CONTENT "activate-noawait ldconfig\n" @ONLY)
 file(READ src/c/cotan.map script)
