@@ -135,7 +135,10 @@ std::optional<Result<Image>> readJpeg(std::span<const std::byte> bytes, const st
                                       const LoadLimits& limits)
 {
     Decoder decoder;
-    const auto broken = [&] { return inputError(fmt::format("{}: broken JPEG: {}", name, decoder.message)); };
+    const auto broken = [&] {
+        return inputError(
+            fmt::format("{}: broken JPEG: expected data that libjpeg can read, it found: {}", name, decoder.message));
+    };
     if (!readHeader(decoder, reinterpret_cast<const unsigned char*>(bytes.data()), bytes.size()))
         return broken();
     if (auto error = checkScans(decoder.jpeg, bytes, name, limits))
