@@ -37,6 +37,26 @@ TEST(CommandLine, helpNamesEveryCommandAndExitsZero)
     EXPECT_NE(runTool({"--version"}, folder.path()).out.find("cotan"), std::string::npos);
 }
 
+TEST(CommandLine, whatIsNoNumberIsAnsweredWithWhatIsExpected)
+{
+    TemporaryFolder folder;
+    const std::pair<Words, std::string> cases[] = {
+        {{"render", "--samples", "x"}, "--samples: expected 1, 4 or 16; found 'x'"},
+        {{"render", "--samples", "3"}, "--samples: expected 1, 4 or 16; found '3'"},
+        {{"render", "--threads", "x"}, "--threads: expected a whole number from 0 to 1024; found 'x'"},
+        {{"render", "--threads", "1e99"}, "--threads: expected a whole number from 0 to 1024; found '1e99'"},
+        {{"render", "--time", "-1"}, "--time: expected a number from 0 to 1e+06; found '-1'"},
+        {{"render", "--time", "nan"}, "--time: expected a number from 0 to 1e+06; found 'nan'"},
+        {{"lint", "a.glb", "--distance", "x"}, "--distance: expected a number"},
+    };
+    for (const auto& [words, message] : cases) {
+        const ToolRun run = runTool(words, folder.path());
+        EXPECT_EQ(run.code, 1);
+        EXPECT_EQ(lines(run.err), 1) << run.err;
+        EXPECT_NE(run.err.find(message), std::string::npos) << run.err;
+    }
+}
+
 TEST(CommandLine, wrongWordsExitOneWithOneLineAndNoFile)
 {
     const std::vector<Words> wrong = {

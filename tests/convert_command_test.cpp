@@ -188,8 +188,8 @@ TEST(ConvertCommand, otherFormsOfAConvertedMapGo)
     EXPECT_EQ(extensions["VENDOR_other"]["keep"], 1);
 }
 
-// Only the WebP is there, and readers have to know it: afterwards it is a PNG that all know.
-TEST(ConvertCommand, aMapInWebpBecomesAPng)
+// Only the WebP is there, and readers have to know it: so is the new one, with the texels that a PNG has.
+TEST(ConvertCommand, aMapInWebpStaysWebpWithoutLosses)
 {
     TemporaryFolder folder;
     Made m = quad(2);
@@ -210,14 +210,45 @@ TEST(ConvertCommand, aMapInWebpBecomesAPng)
     EXPECT_FALSE(r["maps"][0]["kept"].get<bool>());
     EXPECT_EQ(r["notes"].dump().find("taken out"), std::string::npos) << r["notes"];
     const json out = jsonOfGlb(folder / "out.glb");
-    EXPECT_FALSE(out.contains("extensionsRequired"));
-    EXPECT_FALSE(out["textures"][0].contains("extensions"));
-    EXPECT_EQ(out["images"][0]["mimeType"], "image/png");
+    EXPECT_EQ(out["extensionsRequired"], json({"EXT_texture_webp"}));
+    EXPECT_EQ(out["extensionsUsed"], json({"EXT_texture_webp"}));
+    EXPECT_FALSE(out["textures"][0].contains("source"));
+    EXPECT_EQ(out["textures"][0]["extensions"]["EXT_texture_webp"]["source"], 0);
+    EXPECT_EQ(out["images"][0]["mimeType"], "image/webp");
+    EXPECT_EQ(r["maps"][0]["format"], "WebP");
+    EXPECT_EQ(r["maps"][0]["quality"], nullptr);
+    EXPECT_EQ(r["maps"][0]["degrees_after_rounding"], plain["maps"][0]["degrees_after_rounding"]);
     EXPECT_EQ(normalMapOf(folder / "out.glb").data, normalMapOf(folder / "plain.glb").data);
     EXPECT_EQ(runTool({"render", "quad.gltf", "-o", "x.png", "--device", "reference", "--size", "8x8", "--quiet"},
                       folder.path())
                   .code,
               0);
+}
+
+TEST(ConvertCommand, aMapInJpegStaysJpegAndWhereItCannotANoteSaysWhatItCosts)
+{
+    TemporaryFolder folder;
+    Made m = quad(2);
+    write(m, folder.path());
+    const auto waves = readImage(folder / "waves.png");
+    ASSERT_TRUE(waves && writeImage(folder / "waves.jpg", *waves));
+    m.root["images"][0]["uri"] = "waves.jpg";
+    write(m, folder.path());
+    const std::vector<std::string> words = {"quad.gltf", "--to", "cotangent", "-o", "out.gltf"};
+    const json map = convertJson(folder.path(), words)["maps"][0];
+    EXPECT_EQ(map["format"], "JPEG");
+    EXPECT_GT(map["quality"], 1);
+    EXPECT_LT(map["bytes_after"], 1.5 * map["bytes_before"].get<double>());
+    EXPECT_LT(map["degrees_after_rounding"]["mean"], 2);
+    const json out = json::parse(readWhole(folder / "out.gltf"));
+    const std::string file = out["images"][0]["uri"];
+    EXPECT_EQ(file, "out-waves.jpg");
+    EXPECT_EQ(std::filesystem::file_size(folder / file), map["bytes_after"]);
+    const json wide = convertJson(folder.path(), {"quad.gltf", "--to", "cotangent", "--bits", "16", "-o", "wide.glb"});
+    EXPECT_EQ(wide["maps"][0]["format"], "PNG");
+    EXPECT_NE(wide["notes"].dump().find("waves.jpg: JPEG has 8 bits, and 16 are wanted, so the new map is PNG"),
+              std::string::npos)
+        << wide["notes"];
 }
 
 TEST(ConvertCommand, tangentsStayWhereTheMapCannotBeConverted)

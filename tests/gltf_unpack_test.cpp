@@ -148,7 +148,9 @@ TEST_P(DracoGeometryIs, plainInADocumentThatIsWritten)
     const auto document = openGltfDocument(folder.write("in.gltf", dracoModel(s, dracoStream(s, GetParam())).text()));
     ASSERT_TRUE(document) << document.error().message;
     ASSERT_EQ(document->notes.size(), 1u);
+    const std::string cost = " bytes that were " + std::to_string(dracoStream(s, GetParam()).size()) + "; ";
     EXPECT_NE(document->notes[0].find("KHR_draco_mesh_compression"), std::string::npos);
+    EXPECT_NE(document->notes[0].find(cost), std::string::npos) << document->notes[0];
     ASSERT_TRUE(writeGltf(*document, folder.path / "out.glb"));
     const ReadBack out = readBack(folder.path / "out.glb");
     EXPECT_FALSE(out.root.contains("extensionsUsed"));
@@ -387,6 +389,8 @@ TEST(MeshoptGeometry, isPlainInADocumentThatIsWritten)
         openGltfDocument(folder.write("in.gltf", packedModel(square(), 0, packedVertices(kSquare, 3))));
     ASSERT_TRUE(document) << document.error().message;
     ASSERT_EQ(document->notes.size(), 1u);
+    EXPECT_NE(document->notes[0].find("the geometry is written plain, 48 bytes that were "), std::string::npos)
+        << document->notes[0]; // four positions of three floats
     ASSERT_TRUE(writeGltf(*document, folder.path / "out.glb"));
     const ReadBack out = readBack(folder.path / "out.glb");
     EXPECT_EQ(out.root["extensionsUsed"], json({"KHR_mesh_quantization"}));

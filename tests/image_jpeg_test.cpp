@@ -56,6 +56,17 @@ TEST_F(PictureFile, jpegOfOddSizeIsReadWithEveryNumberOfScans)
     }
 }
 
+// The library's words stand in a sentence of ours.
+TEST_F(PictureFile, aBrokenJpegIsToldByFileExpectedAndFound)
+{
+    const std::string file = makeJpeg(37, 21, false);
+    const auto refused = decodeImage(bytesOf(file.substr(0, file.size() / 2)), "a.jpg");
+    ASSERT_FALSE(refused);
+    EXPECT_TRUE(
+        refused.error().message.starts_with("a.jpg: broken JPEG: expected data that libjpeg can read, it found: "))
+        << refused.error().message;
+}
+
 TEST_F(PictureFile, jpegScansAreCountedBeforeTheyAreDecoded)
 {
     const std::string file = makeJpeg(64, 64, true);

@@ -55,16 +55,24 @@ endforeach()
 # The page of web/, and what holds of it in Chromium.
 add_test(NAME web_page COMMAND ${PROJECT_SOURCE_DIR}/scripts/web-page ${PROJECT_BINARY_DIR}/web)
 set_tests_properties(web_page PROPERTIES FIXTURES_REQUIRED web FIXTURES_SETUP page SKIP_RETURN_CODE 3 TIMEOUT 300)
-foreach(fact firstViewIsBelow200KBWithoutTheLibrary aMapWithGreenTurnedIsSaidToBeAndMended verdictsOnPublishedMapsAreTheirs
-    aMendedMapHasTheTexelsThatTheCommandLineWrites aModelIsDrawnTwiceAndTheAngleBetweenIsSaid
-    whatThePageAdvisesIsWhatItShowsAndSaysOnce theCheckIsTheCommandLinesWithItsReportAsAFile realModelsAreJudgedAndDrawn
-    aConvertedModelIsTheOneThatTheCommandLineWrites mapsInKtx2AreNamedWithWhatToDo badFilesAreAnsweredInOneLineEach
-    theShaderIsTheCommandLinesAndTheAddressKeepsTheChoice theShaderOfTheFrameTriangleIsGivenByStage
-    webGpuAndWebGlDrawTheSamePictures aLostDeviceLeavesThePicturesToWebGl thePatchAnswersKeysAndPointerWithRightDegrees
-    documentsShowTheirPicturesAndTheirLinksLead accessibilityRulesHoldInLightAndDark aPhoneShowsAllWithoutScrollingSideways itWorksWithoutANetworkOnceItWasSeen
-    aModelWithGreenReversedIsMended anOldVerdictGoesWhenANewFileFails whiteKeepsItsBumps itWorksUnderTheContentSecurityPolicyThatItStates
-    aLibraryThatDoesNotLoadIsSaidEachTime whatTakesLongSaysSo facetsAreAnswered)
-  add_test(NAME Page.${fact} COMMAND ${COTAN_NODE} ${CMAKE_CURRENT_SOURCE_DIR}/web/page_test.mjs ${PROJECT_BINARY_DIR}/web/page
-    ${PROJECT_BINARY_DIR}/npm/node_modules $<TARGET_FILE:cotan> ${data} ${fact})
-  set_tests_properties(Page.${fact} PROPERTIES FIXTURES_REQUIRED "page;npm" SKIP_RETURN_CODE 77 TIMEOUT 300)
-endforeach()
+function(cotan_page_test file)
+  foreach(fact ${ARGN})
+    add_test(NAME Page.${fact} COMMAND ${COTAN_NODE} ${CMAKE_CURRENT_SOURCE_DIR}/web/${file}.mjs ${PROJECT_BINARY_DIR}/web/page
+      ${PROJECT_BINARY_DIR}/npm/node_modules $<TARGET_FILE:cotan> ${data} ${fact})
+    set_tests_properties(Page.${fact} PROPERTIES FIXTURES_REQUIRED "page;npm" SKIP_RETURN_CODE 77 TIMEOUT 300)
+  endforeach()
+endfunction()
+cotan_page_test(page_maps_test
+    aMapWithGreenTurnedIsSaidToBeAndMended verdictsOnPublishedMapsAreTheirs
+    aMendedMapHasTheTexelsThatTheCommandLineWrites theShaderIsTheCommandLinesAndTheAddressKeepsTheChoice
+    theShaderOfTheFrameTriangleIsGivenByStage webGpuAndWebGlDrawTheSamePictures aLostDeviceLeavesThePicturesToWebGl
+    thePatchAnswersKeysAndPointerWithRightDegrees)
+cotan_page_test(page_models_test
+    aModelIsDrawnTwiceAndTheAngleBetweenIsSaid whatThePageAdvisesIsWhatItShowsAndSaysOnce
+    theCheckIsTheCommandLinesWithItsReportAsAFile aModelWithGreenReversedIsMended whiteKeepsItsBumps
+    realModelsAreJudgedAndDrawn aConvertedModelIsTheOneThatTheCommandLineWrites mapsInKtx2AreNamedWithWhatToDo)
+cotan_page_test(page_test
+    firstViewIsBelow200KBWithoutTheLibrary anOldVerdictGoesWhenANewFileFails
+    itWorksUnderTheContentSecurityPolicyThatItStates aLibraryThatDoesNotLoadIsSaidEachTime whatTakesLongSaysSo
+    facetsAreAnswered badFilesAreAnsweredInOneLineEach documentsShowTheirPicturesAndTheirLinksLead
+    accessibilityRulesHoldInLightAndDark aPhoneShowsAllWithoutScrollingSideways itWorksWithoutANetworkOnceItWasSeen)

@@ -134,7 +134,7 @@ function checkOf(lint, name, library) {
     over = await library.overLimits(lint, limits());
     const none = Object.values(limits()).every(value => value === undefined);
     verdict.textContent = none ? 'No limit is set.' : over.length === 0 ? 'The check passes.' : `The check fails: ${over.length === 1 ? 'one thing is' : `${over.length} things are`} over the limit.`;
-    lines.replaceChildren(...over.slice(0, 5).map(line => el('li', {}, line)), ...(over.length > 5 ? [el('li', {}, `and ${over.length - 5} more`)] : []));
+    lines.replaceChildren(...over.slice(0, 5).map(({ text }) => el('li', {}, text)), ...(over.length > 5 ? [el('li', {}, `and ${over.length - 5} more`)] : []));
   }
   judge();
   const save = () => download(new TextEncoder().encode(`${JSON.stringify({ model: name, ...lint, limits: limits(), over_limit: over }, null, 2)}\n`), `${name.replace(/\.[^.]*$/, '')}_lint.json`, 'application/json');

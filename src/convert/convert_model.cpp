@@ -8,6 +8,7 @@
 #include "cotan/convert/named_frame.hpp"
 #include "cotan/gltf/tangents.hpp"
 #include "cotan/image/convert.hpp"
+#include "cotan/image/encode_like.hpp"
 #include "cotan/image/file.hpp"
 
 namespace cotan {
@@ -144,6 +145,7 @@ private:
             use.stored.expansion = expansions.read;
         done.alsoElsewhere = job.alsoElsewhere;
         done.bytesBefore = done.bytesAfter = bytes->size();
+        done.format = pictureFormat(*bytes);
         // Where the old map serves as well as a rounded new one, it stays, byte for byte.
         done.figures.unconverted = errorAsItIs(*map, *uses);
         done.kept = options_.keepMaps || done.figures.unconverted.count == 0
@@ -164,15 +166,46 @@ private:
         if (rows.stopped())
             return stoppedError();
         r.image.frame = name(options_.frames.to);
-        auto png = options_.encode ? options_.encode(r.image) : encodePng(r.image);
-        if (!png)
-            return png.error();
+        auto file = encoded(r.image, *bytes);
+        if (!file)
+            return file.error();
         done.figures = r;
-        done.bytesAfter = png->size();
-        replaceMap(document_, job, std::move(*png), report_.notes);
+        done.bytesAfter = file->bytes.size();
+        done.format = file->format;
+        done.quality = file->quality;
+        if (file->format != "PNG") {
+            const auto stored = decodeImage(file->bytes, field, options_.limits);
+            if (!stored)
+                return stored.error();
+            std::vector<const MapUse*> all;
+            for (const MapUse& use : *uses)
+                all.push_back(&use);
+            done.figures.error = mapError(*map, *stored, all, options_.frames, expansions.written);
+        }
+        if (!file->whyNot.empty())
+            report_.notes.push_back(fmt::format("{}: {}, so the new map is PNG: {} bytes, before {}", job.name,
+                                                file->whyNot, done.bytesAfter, done.bytesBefore));
+        replaceMap(document_, job, std::move(file->bytes), file->mime, report_.notes);
         sayExpansion(job, expansions.written);
         noteWhatStaysOff(done);
         return done;
+    }
+
+    // As the old file is, or as the caller encodes.
+    Result<EncodedLike> encoded(const Image& image, std::span<const std::byte> old) const
+    {
+        // WebP that may be left out has a picture beside it for readers without; the new one has to do for all.
+        const auto* const required = gltf::member(document_.root, "extensionsRequired");
+        const bool webp = pictureFormat(old) == "WebP";
+        const bool fallsBack =
+            webp && (!required || std::ranges::find(*required, "EXT_texture_webp") == required->end());
+        if (!options_.encode && !fallsBack)
+            return encodeLike(image, old);
+        auto png = options_.encode ? options_.encode(image) : encodePng(image);
+        if (!png)
+            return png.error();
+        return EncodedLike{*std::move(png), "PNG", "image/png", 0,
+                           fallsBack ? "the model does not require that its readers know WebP" : ""};
     }
 
     // How far the old map is off when it is read with the new frame.

@@ -56,6 +56,17 @@ void dropOtherForms(Json& root, std::size_t index, std::size_t image, std::vecto
             takeOffExtension(root, name);
 }
 
+// A texture whose image is WebP, which readers without EXT_texture_webp cannot read. The document uses and requires it.
+void nameWebp(Json& root, std::size_t texture, std::size_t image)
+{
+    constexpr const char* kName = "EXT_texture_webp";
+    root["textures"][texture].erase("source");
+    root["textures"][texture]["extensions"][kName]["source"] = image;
+    for (const char* list : {"extensionsUsed", "extensionsRequired"})
+        if (std::ranges::find(root[list], kName) == root[list].end())
+            root[list].push_back(kName);
+}
+
 // The factor on the slopes; 0 of a coat that is not there.
 double strengthOf(const Json& material, const gltf::TextureUse& map, NormalSlot slot)
 {
@@ -282,15 +293,20 @@ std::size_t bytesOf(const MapJob& job, const FramePair& frames)
     return kept + std::max(most, rasters);
 }
 
-void replaceMap(GltfDocument& document, const MapJob& job, std::vector<std::byte> png, std::vector<std::string>& notes)
+void replaceMap(GltfDocument& document, const MapJob& job, std::vector<std::byte> bytes, const std::string& mime,
+                std::vector<std::string>& notes)
 {
+    const bool webp = mime == "image/webp";
     if (!job.alsoElsewhere) {
-        replaceGltfImage(document, job.image, std::move(png), "image/png");
-        for (const std::size_t t : job.textures)
+        replaceGltfImage(document, job.image, std::move(bytes), mime);
+        for (const std::size_t t : job.textures) {
             dropOtherForms(document.root, t, job.image, notes);
+            if (webp)
+                nameWebp(document.root, t, job.image);
+        }
         return;
     }
-    const std::size_t image = addGltfImage(document, std::move(png), "image/png", job.name);
+    const std::size_t image = addGltfImage(document, std::move(bytes), mime, job.name);
     std::map<std::size_t, std::size_t> copies;
     for (const MapPlace place : job.places) {
         Json& index = normalSlotOf(document.root, place.material, place.slot)["index"];
@@ -299,6 +315,9 @@ void replaceMap(GltfDocument& document, const MapJob& job, std::vector<std::byte
             copies[texture] = copyGltfTexture(document, texture, image);
         index = copies[texture];
     }
+    for (const auto& [old, copy] : copies)
+        if (webp)
+            nameWebp(document.root, copy, image);
 }
 
 } // namespace cotan

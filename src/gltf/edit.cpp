@@ -2,6 +2,8 @@
 #include <new>
 #include <system_error>
 
+#include <fmt/ranges.h>
+
 #include "cotan/files/bytes.hpp"
 #include "edit_state.hpp"
 #include "mesh.hpp"
@@ -47,6 +49,19 @@ void checkModel(GltfModel& model)
     checkCounts(model);
 }
 
+// What it costs that packed geometry is written plain.
+std::string packedNote(const GltfFile& file, const std::vector<std::string>& extensions)
+{
+    std::size_t plain = 0;
+    for (const std::vector<std::byte>& bytes : file.unpackedBytes)
+        plain += bytes.size();
+    return fmt::format(
+        "{}: decoded; the geometry is written plain, {} bytes that were {}; \"gltf-transform {}\" packs it "
+        "again, glTF-Transform's untangent keeps it packed",
+        fmt::join(extensions, " and "), plain, file.packed,
+        extensions.front().find("draco") != std::string::npos ? "draco" : "meshopt");
+}
+
 GltfDocument open(const std::filesystem::path& path, const LoadLimits& limits)
 {
     GltfModel model;
@@ -66,8 +81,8 @@ GltfDocument open(const std::filesystem::path& path, const LoadLimits& limits)
     document.root = source->root;
     if (!document.root.contains("bufferViews")) // a member that is added later would leave no reference in place
         document.root["bufferViews"] = Json::array();
-    for (const std::string& name : unpacked)
-        document.notes.push_back(fmt::format("{}: decoded; the geometry is written plain", name));
+    if (!unpacked.empty())
+        document.notes.push_back(packedNote(source->file, unpacked));
     document.source = std::move(source);
     return document;
 }

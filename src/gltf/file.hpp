@@ -37,6 +37,7 @@ struct GltfFile {
     std::vector<std::vector<std::byte>> bufferBytes;                     // decoded data URIs
     std::vector<std::vector<std::byte>> unpackedBytes;                   // of buffers that unpackGltf has made
     std::size_t unpacked = 0;                                            // how many bytes those are
+    std::size_t packed = 0;                                              // and how many they were made of
 };
 
 // Reads the file, splits a GLB into chunks and parses the JSON. Every length is checked against

@@ -116,6 +116,7 @@ private:
             failGltf("{}: expected {} bytes, as the view has, found {} elements of {} bytes", field,
                      view["byteLength"].get<std::size_t>(), from.count, from.stride);
         take(decoded, field);
+        file_.packed += length;
         const Json plain = viewOf(gltf::decodeMeshopt(from, field));
         view["buffer"] = plain["buffer"];
         view.erase("byteOffset");
@@ -203,6 +204,8 @@ private:
         auto meshes = decodeDraco(jobs_, "KHR_draco_mesh_compression", limits_);
         if (!meshes)
             throw GltfProblem{meshes.error().message, meshes.error().kind};
+        for (const DracoJob& job : jobs_)
+            file_.packed += job.bytes.size();
         std::set<int> filled;
         for (std::size_t i = 0; i < jobs_.size(); ++i) {
             std::vector<std::vector<std::byte>>& arrays = (*meshes)[i].attributes;

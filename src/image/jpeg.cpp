@@ -1,7 +1,10 @@
 #include "jpeg.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <csetjmp>
 #include <cstdio>
+#include <cstdlib>
 #include <cstring>
 
 #include <fmt/format.h>
@@ -132,7 +135,10 @@ std::optional<Result<Image>> readJpeg(std::span<const std::byte> bytes, const st
                                       const LoadLimits& limits)
 {
     Decoder decoder;
-    const auto broken = [&] { return inputError(fmt::format("{}: broken JPEG: {}", name, decoder.message)); };
+    const auto broken = [&] {
+        return inputError(
+            fmt::format("{}: broken JPEG: expected data that libjpeg can read, it found: {}", name, decoder.message));
+    };
     if (!readHeader(decoder, reinterpret_cast<const unsigned char*>(bytes.data()), bytes.size()))
         return broken();
     if (auto error = checkScans(decoder.jpeg, bytes, name, limits))
@@ -148,6 +154,102 @@ std::optional<Result<Image>> readJpeg(std::span<const std::byte> bytes, const st
     if (!readPixels(decoder, image.bytes8(), std::size_t(width) * 4))
         return broken();
     return image;
+}
+
+namespace {
+
+struct Encoder {
+    jpeg_compress_struct jpeg{};
+    jpeg_error_mgr errors{};
+    std::jmp_buf escape{};
+    unsigned char* bytes = nullptr;
+    unsigned long size = 0;
+
+    Encoder() = default;
+    ~Encoder()
+    {
+        jpeg_destroy_compress(&jpeg);
+        std::free(bytes);
+    }
+    Encoder(const Encoder&) = delete;
+    Encoder& operator=(const Encoder&) = delete;
+};
+
+void onEncoderError(j_common_ptr common) { std::longjmp(static_cast<Encoder*>(common->client_data)->escape, 1); }
+
+// like: after its header. Returns false where there is no memory.
+bool writePixels(Encoder& encoder, const jpeg_decompress_struct& like, const Image& image)
+{
+    jpeg_compress_struct& jpeg = encoder.jpeg;
+    jpeg.err = jpeg_std_error(&encoder.errors);
+    encoder.errors.error_exit = onEncoderError;
+    encoder.errors.output_message = onOutput;
+    jpeg.client_data = &encoder;
+    if (setjmp(encoder.escape))
+        return false;
+    jpeg_create_compress(&jpeg);
+    jpeg_mem_dest(&jpeg, &encoder.bytes, &encoder.size);
+    jpeg.image_width = JDIMENSION(image.width);
+    jpeg.image_height = JDIMENSION(image.height);
+    jpeg.input_components = 4;
+    jpeg.in_color_space = JCS_EXT_RGBA;
+    jpeg_set_defaults(&jpeg);
+    jpeg_set_colorspace(&jpeg, like.jpeg_color_space);
+    for (int slot = 0; slot < NUM_QUANT_TBLS; ++slot)
+        if (const JQUANT_TBL* const table = like.quant_tbl_ptrs[slot]) {
+            unsigned int steps[DCTSIZE2];
+            for (int k = 0; k < DCTSIZE2; ++k)
+                steps[k] = table->quantval[k];
+            jpeg_add_quant_table(&jpeg, slot, steps, 100, TRUE);
+        }
+    for (int c = 0; c < 3; ++c) {
+        jpeg.comp_info[c].h_samp_factor = like.comp_info[c].h_samp_factor;
+        jpeg.comp_info[c].v_samp_factor = like.comp_info[c].v_samp_factor;
+        jpeg.comp_info[c].quant_tbl_no = like.comp_info[c].quant_tbl_no;
+    }
+    jpeg.optimize_coding = TRUE;
+    if (like.progressive_mode)
+        jpeg_simple_progression(&jpeg);
+    jpeg_start_compress(&jpeg, TRUE);
+    while (jpeg.next_scanline < jpeg.image_height) {
+        auto* row = const_cast<JSAMPROW>(image.bytes8()) + std::size_t(jpeg.next_scanline) * jpeg.image_width * 4;
+        jpeg_write_scanlines(&jpeg, &row, 1);
+    }
+    jpeg_finish_compress(&jpeg);
+    return true;
+}
+
+// The number that libjpeg's encoder is given for a table: its steps against those of the standard, which are 50.
+int qualityOf(const JQUANT_TBL& table)
+{
+    constexpr int kStandard = 3688; // sum of the luminance steps: ITU-T T.81, table K.1
+    int sum = 0;
+    for (const UINT16 step : table.quantval)
+        sum += step;
+    const double scale = 100.0 * sum / kStandard;
+    return std::clamp(int(std::lround(scale <= 100 ? (200 - scale) / 2 : 5000 / scale)), 1, 100);
+}
+
+} // namespace
+
+std::optional<Result<std::vector<std::byte>>> writeJpegLike(const Image& image, std::span<const std::byte> old,
+                                                            int& quality)
+{
+    Decoder decoder;
+    if (!readHeader(decoder, reinterpret_cast<const unsigned char*>(old.data()), old.size()))
+        return std::nullopt;
+    const jpeg_decompress_struct& like = decoder.jpeg;
+    if (like.jpeg_color_space != JCS_YCbCr && like.jpeg_color_space != JCS_RGB)
+        return std::nullopt;
+    for (int c = 0; c < 3; ++c)
+        if (!like.quant_tbl_ptrs[like.comp_info[c].quant_tbl_no])
+            return std::nullopt;
+    quality = qualityOf(*like.quant_tbl_ptrs[like.comp_info[0].quant_tbl_no]);
+    Encoder encoder;
+    if (!writePixels(encoder, like, image))
+        return outputError(image.name + ": not enough memory for its JPEG file");
+    const auto* const bytes = reinterpret_cast<const std::byte*>(encoder.bytes);
+    return std::vector<std::byte>(bytes, bytes + encoder.size);
 }
 
 } // namespace cotan

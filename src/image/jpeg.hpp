@@ -6,6 +6,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "cotan/files/limits.hpp"
 #include "cotan/image/file.hpp"
@@ -17,5 +18,10 @@ namespace cotan {
 // As decodeImage, for grey and YCbCr or RGB pictures. Nothing for those in CMYK.
 std::optional<Result<Image>> readJpeg(std::span<const std::byte> bytes, const std::string& name,
                                       const LoadLimits& limits);
+
+// As encodeLike, of an opaque picture of unorm8; quality: of the quantisation tables. Nothing where the old file is
+// grey or no JPEG that is read here.
+std::optional<Result<std::vector<std::byte>>> writeJpegLike(const Image& image, std::span<const std::byte> old,
+                                                            int& quality);
 
 } // namespace cotan

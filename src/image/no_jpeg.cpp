@@ -8,4 +8,9 @@ std::optional<Result<Image>> readJpeg(std::span<const std::byte>, const std::str
     return std::nullopt;
 }
 
+std::optional<Result<std::vector<std::byte>>> writeJpegLike(const Image&, std::span<const std::byte>, int&)
+{
+    return std::nullopt;
+}
+
 } // namespace cotan

@@ -14,6 +14,11 @@ Result<Image> readWebp(std::span<const std::byte>, const std::string& name, cons
     return Error{missing.kind, fmt::format("{}: {}", name, missing.message)};
 }
 
+std::optional<Result<std::vector<std::byte>>> writeWebpLike(const Image&, std::span<const std::byte>, int&)
+{
+    return std::nullopt;
+}
+
 Result<std::unique_ptr<AnimationWriter>> createWebpAnimation(const std::filesystem::path& file, const AnimationFormat&)
 {
     const Error missing = notBuiltWith("libwebp", "libwebp-dev");

@@ -232,12 +232,12 @@ Result<Image> decode(std::span<const std::byte> bytes, const std::string& name, 
         return broken(*problem);
     const auto input = OIIO::ImageInput::create(format);
     if (!input)
-        return broken(OIIO::geterror());
+        return broken(foundByOiio(OIIO::geterror()));
     input->threads(1); // callers decode images side by side
     input->set_ioproxy(&memory);
     OIIO::ImageSpec spec;
     if (!input->open("image." + format, spec, readConfig()))
-        return broken(input->geterror());
+        return broken(foundByOiio(input->geterror()));
     if (auto error = checkSpec(spec, name, limits))
         return *error;
 
@@ -247,7 +247,7 @@ Result<Image> decode(std::span<const std::byte> bytes, const std::string& name, 
                                                               image.data.data(), OIIO::stride_t(image.bytesPerPixel()))
                                           : readScanlines(*input, 0, channels, image);
     if (!done)
-        return broken(input->geterror());
+        return broken(foundByOiio(input->geterror()));
     if (format == "dds" && channels == 2)
         spreadTwo(image);
     else
@@ -263,7 +263,7 @@ Result<Image> readWithOiio(std::span<const std::byte> bytes, const std::string& 
     try {
         return decode(bytes, name, format, limits);
     } catch (const std::exception& e) {
-        return inputError(fmt::format("{}: broken {} image: {}", name, format, oneLine(e.what())));
+        return inputError(fmt::format("{}: broken {} image: {}", name, format, oneLine(foundByOiio(e.what()))));
     }
 }
 
@@ -276,16 +276,16 @@ Status writeWithOiio(const std::filesystem::path& file, const Image& image, cons
     try {
         const auto output = OIIO::ImageOutput::create(std::string(format.openImageIo));
         if (!output)
-            return outputError(fmt::format("{}: {}", name, oneLine(OIIO::geterror())));
+            return notWritten(name, OIIO::geterror());
         output->threads(1);
         const OIIO::ImageSpec spec =
             outputSpec(image.width, image.height, channelsOf(format), type, format, image.frame);
         if (!output->open(file.string(), spec)
             || !output->write_image(typeDesc(image.type), image.data.data(), OIIO::stride_t(image.bytesPerPixel()))
             || !output->close())
-            return outputError(fmt::format("{}: {}", name, oneLine(output->geterror())));
+            return notWritten(name, output->geterror());
     } catch (const std::exception& e) {
-        return outputError(fmt::format("{}: {}", name, oneLine(e.what())));
+        return notWritten(name, e.what());
     }
     return Done{};
 }

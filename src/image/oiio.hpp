@@ -57,6 +57,16 @@ OIIO::TypeDesc typeToWrite(const ImageFormat& format, PixelType type);
 OIIO::ImageSpec outputSpec(int width, int height, int channels, OIIO::TypeDesc type, const ImageFormat& format,
                            const std::string& frame);
 
+// The library's words within a sentence of ours.
+inline std::string foundByOiio(const std::string& words)
+{
+    return "expected data that OpenImageIO can read, it found: " + words;
+}
+inline Error notWritten(const std::string& name, const std::string& words)
+{
+    return outputError(name + ": expected to write the picture, OpenImageIO found: " + oneLine(words));
+}
+
 // Image::frame of a file.
 std::string frameOf(const OIIO::ImageSpec& spec, const std::string& format);
 

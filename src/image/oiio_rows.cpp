@@ -27,9 +27,9 @@ public:
             const bool done =
                 spec_.tile_height > 0 ? fromTiles(strip) : readScanlines(*input_, next_, channels_, strip);
             if (!done)
-                return broken(input_->geterror());
+                return broken(foundByOiio(input_->geterror()));
         } catch (const std::exception& e) {
-            return broken(e.what());
+            return broken(foundByOiio(e.what()));
         }
         next_ += strip.height;
         completeChannels(strip, channels_);
@@ -101,9 +101,9 @@ private:
         try {
             if (work())
                 return Done{};
-            return outputError(fmt::format("{}: {}", name_, oneLine(output_->geterror())));
+            return notWritten(name_, output_->geterror());
         } catch (const std::exception& e) {
-            return outputError(fmt::format("{}: {}", name_, oneLine(e.what())));
+            return notWritten(name_, e.what());
         }
     }
 
@@ -146,10 +146,10 @@ Result<std::unique_ptr<RowReader>> openRows(const std::filesystem::path& file, s
             return broken(*problem);
         Input input = OIIO::ImageInput::create(format);
         if (!input)
-            return broken(OIIO::geterror());
+            return broken(foundByOiio(OIIO::geterror()));
         OIIO::ImageSpec spec;
         if (!input->open(name, spec, readConfig()))
-            return broken(input->geterror());
+            return broken(foundByOiio(input->geterror()));
         if (auto error = checkRows(spec, name, limits))
             return *error;
         auto reader = std::make_unique<Reader>(std::move(input), spec, format);
@@ -162,7 +162,7 @@ Result<std::unique_ptr<RowReader>> openRows(const std::filesystem::path& file, s
         reader->channels = std::min(spec.nchannels, 4);
         return std::unique_ptr<RowReader>(std::move(reader));
     } catch (const std::exception& e) {
-        return broken(e.what());
+        return broken(foundByOiio(e.what()));
     }
 }
 
@@ -173,15 +173,15 @@ Result<std::unique_ptr<RowWriter>> createRows(const std::filesystem::path& file,
     try {
         auto output = OIIO::ImageOutput::create(std::string(stored.openImageIo));
         if (!output)
-            return outputError(fmt::format("{}: {}", name, oneLine(OIIO::geterror())));
+            return notWritten(name, OIIO::geterror());
         output->threads(threads);
         const int channels = std::min(format.alpha ? 4 : 3, channelsOf(stored));
         const auto type = format.half ? OIIO::TypeDesc(OIIO::TypeDesc::HALF) : typeToWrite(stored, format.type);
         if (!output->open(file.string(), outputSpec(format.width, format.height, channels, type, stored, format.frame)))
-            return outputError(fmt::format("{}: {}", name, oneLine(output->geterror())));
+            return notWritten(name, output->geterror());
         return std::unique_ptr<RowWriter>(std::make_unique<Writer>(std::move(output), format, name));
     } catch (const std::exception& e) {
-        return outputError(fmt::format("{}: {}", name, oneLine(e.what())));
+        return notWritten(name, e.what());
     }
 }
 

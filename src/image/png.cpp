@@ -27,7 +27,8 @@ bool readPixels(PngReader& reader, const PngHeader& header, png_bytep pixels, st
 
 Error pngError(const std::string& name, const PngSession& session)
 {
-    return inputError(fmt::format("{}: broken PNG: {}", name, session.message));
+    return inputError(
+        fmt::format("{}: broken PNG: expected data that libpng can read, it found: {}", name, session.message));
 }
 
 } // namespace

@@ -29,7 +29,8 @@ public:
         if (fine && next_ == height)
             fine = endPngPixels(reader_);
         if (!fine)
-            return inputError(fmt::format("{}: broken PNG: {}", name, reader_.session.message));
+            return inputError(fmt::format("{}: broken PNG: expected data that libpng can read, it found: {}", name,
+                                          reader_.session.message));
         return Done{};
     }
 
@@ -72,7 +73,8 @@ private:
     Status check(bool fine) const
     {
         if (!fine)
-            return output_.failed(outputError(fmt::format("{}: {}", name_, writer_.session.message)));
+            return output_.failed(outputError(
+                fmt::format("{}: expected to write the picture, libpng found: {}", name_, writer_.session.message)));
         return Done{};
     }
 
@@ -93,7 +95,8 @@ std::optional<Result<std::unique_ptr<RowReader>>> openPngRows(const fs::path& fi
     if (!rows->reader().info)
         return inputError(fmt::format("{}: out of memory", file.string()));
     if (!readPngHeader(rows->reader(), header))
-        return inputError(fmt::format("{}: broken PNG: {}", file.string(), rows->reader().session.message));
+        return inputError(fmt::format("{}: broken PNG: expected data that libpng can read, it found: {}", file.string(),
+                                      rows->reader().session.message));
     if (header.interlaced)
         return std::nullopt;
     if (header.width > png_uint_32(limits.imageSide) || header.height > png_uint_32(limits.imageSide))

@@ -3,8 +3,10 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "cotan/files/limits.hpp"
 #include "cotan/image/animation.hpp"
@@ -22,6 +24,10 @@ Result<Image> readWebp(std::span<const std::byte> bytes, const std::string& name
 // As createAnimation, for WebP and pictures of unorm8.
 Result<std::unique_ptr<AnimationWriter>> createWebpAnimation(const std::filesystem::path& file,
                                                              const AnimationFormat& format);
+
+// As encodeLike, of a picture of unorm8; quality: 0 without losses. Nothing where this build has no libwebp.
+std::optional<Result<std::vector<std::byte>>> writeWebpLike(const Image& image, std::span<const std::byte> old,
+                                                            int& quality);
 
 struct WebpSize {
     std::int64_t width = 0, height = 0; // pixels

@@ -244,7 +244,8 @@ Result<Scene> load(Job& job)
         return inputError(fmt::format("{}: no reader for the extension \"{}\"", job.name(), job.extension));
     const aiScene* source = import(job, importer);
     if (!source || !source->mRootNode)
-        return inputError(fmt::format("{}: {}", job.name(), withoutBreaks(importer.GetErrorString())));
+        return inputError(fmt::format("{}: expected a model that Assimp can read, it found: {}", job.name(),
+                                      withoutBreaks(importer.GetErrorString())));
     if (Status ok = checkIndices(*source, job); !ok)
         return ok.error();
     removeEmptyFaces(*source, job);

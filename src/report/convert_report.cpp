@@ -27,6 +27,16 @@ double bytesPerVertex(const TangentBytes& d) { return d.vertices > 0 ? double(d.
 
 } // namespace
 
+namespace {
+
+// "JPEG of quality 90,"
+std::string formatOf(const ConvertedMap& map)
+{
+    return map.quality > 0 ? fmt::format("{} of quality {},", map.format, map.quality) : map.format;
+}
+
+} // namespace
+
 std::vector<std::string> linesOf(const ConvertedMap& map, const std::string& to)
 {
     if (map.kept)
@@ -44,8 +54,8 @@ std::vector<std::string> linesOf(const ConvertedMap& map, const std::string& to)
             r.several, r.disagreeing, 100 * double(r.disagreeing) / double(std::max<std::size_t>(r.covered, 1)),
             kDisagree, r.disagreeing > 0 ? fmt::format(": {} off at the worst place", toText(r.disagreement)) : ""));
     lines.push_back(fmt::format("  converted and rounded to {} bits, off by {} degrees; {} texels of padding converted "
-                                "too; PNG {} bytes, before {}",
-                                map.bits, toText(r.error), r.padded, map.bytesAfter, map.bytesBefore));
+                                "too; {} {} bytes, before {}",
+                                map.bits, toText(r.error), r.padded, formatOf(map), map.bytesAfter, map.bytesBefore));
     if (r.belowHorizon > 0)
         lines.push_back(fmt::format("  {} texels point below the horizon of the frame", r.belowHorizon));
     return lines;
@@ -61,6 +71,7 @@ Json toJson(const ConvertedMap& map)
                 {"surfaces", map.surfaces},
                 {"size", {map.width, map.height}},
                 {"kept", true},
+                {"format", map.format},
                 {"degrees_unconverted", toJson(r.unconverted)},
                 {"bytes_before", map.bytesBefore},
                 {"bytes_after", map.bytesAfter}};
@@ -70,6 +81,8 @@ Json toJson(const ConvertedMap& map)
             {"size", {map.width, map.height}},
             {"kept", false},
             {"bits", map.bits},
+            {"format", map.format},
+            {"quality", map.quality > 0 ? Json(map.quality) : Json(nullptr)},
             {"texels_covered", r.covered},
             {"texels_padded", r.padded},
             {"texels_in_several_places", r.several},

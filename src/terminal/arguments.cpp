@@ -24,9 +24,35 @@ std::string positiveNumber(const std::string& text)
     return good ? "" : "expected a number above 0 and at most 1e6; found '" + text + "'";
 }
 
-std::string number(const std::string& text)
+std::string textOf(double value)
 {
-    return std::isnan(std::strtod(text.c_str(), nullptr)) ? "expected a number; found '" + text + "'" : "";
+    std::ostringstream text;
+    text << value;
+    return text.str();
+}
+
+// Says what is expected; CLI11's own checks of ranges, which the help is made of, say less and let NaN pass.
+std::function<std::string(const std::string&)> numberWithin(double least, double most)
+{
+    return [least, most](const std::string& text) -> std::string {
+        char* end = nullptr;
+        const double value = std::strtod(text.c_str(), &end);
+        if (end != text.c_str() && *end == '\0' && value >= least && value <= most)
+            return {};
+        return "expected a number from " + textOf(least) + " to " + textOf(most) + "; found '" + text + "'";
+    };
+}
+
+// what: "a whole number from 0 to 8"
+std::function<std::string(const std::string&)> wholeNumber(const std::string& what,
+                                                           std::function<bool(long long)> isGood)
+{
+    return [what, isGood = std::move(isGood)](const std::string& text) -> std::string {
+        char* end = nullptr;
+        const long long value = std::strtoll(text.c_str(), &end, 0);
+        const bool good = end != text.c_str() && *end == '\0' && isGood(value);
+        return good ? std::string() : "expected " + what + "; found '" + text + "'";
+    };
 }
 
 std::vector<const CLI::App*> commandsOf(const CLI::App& app)
@@ -86,9 +112,15 @@ Argument& Argument::from(const std::vector<std::string>& words)
 
 Argument& Argument::from(std::initializer_list<int> numbers)
 {
-    option_->check(CLI::IsMember(numbers));
-    for (const int number : numbers)
+    std::string what;
+    for (const int number : numbers) {
+        what += (what.empty() ? "" : number == *(numbers.end() - 1) ? " or " : ", ") + std::to_string(number);
         facts_->words.push_back(std::to_string(number));
+    }
+    option_->check(wholeNumber(what, [all = std::vector<long long>(numbers.begin(), numbers.end())](long long value) {
+        return std::ranges::find(all, value) != all.end();
+    }));
+    option_->check(CLI::IsMember(numbers));
     return *this;
 }
 
@@ -100,14 +132,16 @@ Argument& Argument::offers(std::vector<std::string> words)
 
 Argument& Argument::within(int least, int most)
 {
+    option_->check(wholeNumber("a whole number from " + std::to_string(least) + " to " + std::to_string(most),
+                               [=](long long value) { return value >= least && value <= most; }));
     option_->check(CLI::Range(least, most));
     return *this;
 }
 
 Argument& Argument::within(double least, double most)
 {
+    option_->check(numberWithin(least, most));
     option_->check(CLI::Range(least, most));
-    option_->check(number);
     return *this;
 }
 
@@ -294,6 +328,10 @@ Status Arguments::read(std::vector<std::string> words, std::string& help) const
         }
         std::string message = e.what();
         std::ranges::replace(message, '\n', ' ');
+        constexpr std::string_view kConversion = "Could not convert: ", kIs = " = ";
+        if (const std::size_t is = message.find(kIs); message.starts_with(kConversion) && is != std::string::npos)
+            message = message.substr(kConversion.size(), is - kConversion.size()) + ": expected a number; found '"
+                + message.substr(is + kIs.size()) + "'";
         return usageError(message + " (see --help)");
     }
     return Done{};

@@ -239,6 +239,7 @@ async function newMaps(document, { model, files }, o) {
     images.push(lossy && lossy.length < made[k].length ? { bytes: lossy, mimeType: format.mimeType } : { bytes: made[k], mimeType: 'image/png' });
     if (format && !lossy) notes.push(`${map.name}: becomes PNG: there is no encoder for ${format.mimeType} here (in node the package sharp)`);
     Object.assign(map, { bytes_before: imageBytes(old), bytes_after: images.at(-1).bytes.length });
+    if (images.at(-1).bytes === lossy) Object.assign(map, { format: format.mimeType === 'image/webp' ? 'WebP' : 'JPEG', quality: format.quality ?? null });
   }
   for (const map of maps.filter((one) => one.kept)) Object.assign(map, { bytes_before: imageBytes(textures[map.image]), bytes_after: imageBytes(textures[map.image]) });
   return { glb, images, report: { ...report, maps, notes, mode: 'convert' } };
@@ -310,7 +311,7 @@ export function lintNormals(given) {
     for (const warning of found.warnings) document.getLogger().warn(`lintNormals: ${warning}`);
     report?.(found);
     const [first, ...more] = found.over_limit;
-    if (first) throw new CotanError('limit', more.length > 0 ? `${first} and ${more.length} more` : first);
+    if (first) throw new CotanError('limit', more.length > 0 ? `${first.text} and ${more.length} more` : first.text);
   });
 }
 

@@ -62,7 +62,7 @@ export async function inOldFormats(parsed, files, { glb, report, pictures }) {
     if (!bytes) notes.push(`${map.name}: stays PNG, ${map.bytes_after} bytes for ${map.bytes_before}: there is no encoder for ${format.mimeType} here (in node the package sharp)`);
     if (!bytes || bytes.length >= map.bytes_after) continue;
     other.set(map.image, { bytes, mimeType: format.mimeType });
-    map.bytes_after = bytes.length;
+    Object.assign(map, { bytes_after: bytes.length, format: format.mimeType === 'image/webp' ? 'WebP' : 'JPEG', quality: format.quality ?? null });
   }
   const whole = other.size > 0 && made.json.buffers?.length === 1 ? withImages(made, other) : glb;
   return { mode: 'convert', glb: whole, report: { ...report, maps, notes: [...report.notes, ...notes] } };

@@ -1,5 +1,5 @@
-// What of a lint report is over the limits that a caller sets: the texts of `check` in the report (src/lint/limits.cpp),
-// for other limits than it was made with.
+// What of a lint report is over the limits that a caller sets: `over_limit` of `cotan lint --json` (src/lint/limits.cpp),
+// for other limits than the report was made with.
 import { choice, options } from './arrays.js';
 import { usage, wordsFor } from './errors.js';
 
@@ -25,29 +25,35 @@ export function limitsOf({ limit, limitArea, frame }) {
   return { limit, limitArea, frame: choice(frame, 'options.frame', kFrames) };
 }
 
-/** One line each; a map whose green points the other way than the file says is over any limit. */
+/** An object each; a map whose green points the other way than the file says is over any limit. */
 export function overLimits(report, given) {
   const { limit, limitArea, frame } = limitsOf(options(given, kLimits));
   const { primitives, maps: images } = report ?? {};
   if (!Array.isArray(primitives) || !Array.isArray(images) || !primitives.every((p) => p?.uv)) throw usage(`report: expected what lint gives, found ${wordsFor(report)}`);
-  const lines = [];
-  const check = (name, value, most, what, unit) => {
-    if (most !== undefined && typeof value === 'number' && value > most) lines.push(`${name}: ${what} ${threeDigits(value)} ${unit}, limit ${threeDigits(most)}`);
-  };
-  if (limit === undefined && limitArea === undefined) return lines;
+  const over = [];
+  const add = (kind, text, { mesh, material, map, degrees = null, percent = null, limit: most = null }) =>
+    over.push({ kind, mesh: mesh || null, material: material || null, map: map || null, degrees, percent, limit: most, text });
+  if (limit === undefined && limitArea === undefined) return over;
   primitives.forEach((p, index) => {
     const name = nameOf(p, index), mapped = p.normal_map >= 0;
-    if (limit !== undefined && mapped && / not read$/.test(p.not_judged)) lines.push(`${name}: not judged, ${p.not_judged}`);
-    check(name, p.read_with?.[frame]?.percentile95, limit, `95 % of the error of reading with ${frame}`, 'degrees');
-    if (mapped) check(name, p.rounding_degrees, limit, 'rounding', 'degrees');
-    for (const [share, what] of [[p.uv.degenerate, 'degenerate uv on'], [p.uv.overlapping_mirrored, 'uv overlapping in both orientations on'],
-      [p.stored_tangents?.reversed_w, 'TANGENT.w against the uv on'], [p.stored_tangents?.turned, 'stored tangents turned on']])
-      check(name, typeof share === 'number' ? 100 * share : undefined, limitArea, what, '% of the area');
+    if (limit !== undefined && mapped && / not read$/.test(p.not_judged)) add('not_judged', `${name}: not judged, ${p.not_judged}`, { mesh: p.mesh, material: p.material });
+    const check = (kind, value, most, what, unit, words) => {
+      if (most !== undefined && typeof value === 'number' && value > most)
+        add(kind, `${name}: ${what} ${threeDigits(value)} ${words}, limit ${threeDigits(most)}`, { mesh: p.mesh, material: p.material, [unit]: value, limit: most });
+    };
+    check('reading', p.read_with?.[frame]?.percentile95, limit, `95 % of the error of reading with ${frame}`, 'degrees', 'degrees');
+    if (mapped) check('rounding', p.rounding_degrees, limit, 'rounding', 'degrees', 'degrees');
+    for (const [kind, share, what] of [['degenerate_uv', p.uv.degenerate, 'degenerate uv on'],
+      ['mirrored_overlap', p.uv.overlapping_mirrored, 'uv overlapping in both orientations on'],
+      ['reversed_w', p.stored_tangents?.reversed_w, 'TANGENT.w against the uv on'], ['turned_tangents', p.stored_tangents?.turned, 'stored tangents turned on']])
+      check(kind, typeof share === 'number' ? 100 * share : undefined, limitArea, what, 'percent', '% of the area');
   });
-  for (const map of images.filter((map) => map.decided && !map.as_declared))
-    lines.push(`normal map ${map.name || `image ${map.image}`}: green points the other way than the file says (${map.confidence})`);
+  for (const { name, image, confidence } of images.filter((map) => map.decided && !map.as_declared)) {
+    const map = name || `image ${image}`;
+    add('reversed_green', `normal map ${map}: green points the other way than the file says (${confidence})`, { map });
+  }
   const maps = primitives.filter((p) => p.normal_map >= 0);
-  if (limit !== undefined && maps.length > 0 && maps.every((p) => p.not_judged) && lines.length === 0)
-    lines.push('no normal map could be judged');
-  return lines;
+  if (limit !== undefined && maps.length > 0 && maps.every((p) => p.not_judged) && over.length === 0)
+    add('not_judged', 'no normal map could be judged', {});
+  return over;
 }

@@ -116,10 +116,26 @@ export interface LintReport {
   primitives: any[];
   /** The verdict on `limit` and `limitArea`; null where neither was set. A limit of 0 is 1e-9 here. */
   check: LintCheck | null;
-  /** What failed, a line each: what is over `limit` or `limitArea`; with either also each map whose green points the other way than
+  /** What failed: what is over `limit` or `limitArea`; with either also each map whose green points the other way than
    * the file says, and with `limit` maps that could not be judged. Empty: it passes, or no limit was set. */
-  over_limit: string[];
+  over_limit: OverLimit[];
   [more: string]: any;
+}
+
+export interface OverLimit {
+  kind: 'reading' | 'rounding' | 'degenerate_uv' | 'mirrored_overlap' | 'reversed_w' | 'turned_tangents' | 'reversed_green' | 'not_judged';
+  /** Names; null: none, or it is about no mesh. */
+  mesh: string | null;
+  material: string | null;
+  /** Of `reversed_green`. */
+  map: string | null;
+  /** What was found: one of them; both null where no limit would allow it. Degrees: exceeded on 5 % of the primitive's area. */
+  degrees: number | null;
+  percent: number | null;
+  /** In the same unit. */
+  limit: number | null;
+  /** All of it in one line. */
+  text: string;
 }
 
 export interface LintCheck {
@@ -129,7 +145,7 @@ export interface LintCheck {
   frame: LimitFrame;
   failures: {
     /** The last two have no value and no limit. */
-    kind: 'reading' | 'rounding' | 'degenerate_uv' | 'mirrored_overlap' | 'reversed_w' | 'turned_tangents' | 'reversed_green' | 'not_judged';
+    kind: OverLimit['kind'];
     /** A primitive or a map; empty: the whole model. */
     where: string;
     value: number | null;
@@ -155,7 +171,7 @@ export function lint(model: Bytes, options?: ModelOptions & Limits & {
 }): Promise<LintReport>;
 
 /** over_limit of a report for other limits. */
-export function overLimits(report: LintReport, limits?: Limits): string[];
+export function overLimits(report: LintReport, limits?: Limits): OverLimit[];
 
 /** A normal map that stays as it is, with the tangents that it needs, since its format is not read here. */
 export interface UnreadMap {

@@ -49,7 +49,7 @@ const text: string = cotan.shader({ language: 'wgsl', frame: 'triangle', convent
 // Models
 const options: cotan.ModelOptions = { files: { 'scene.bin': new ArrayBuffer(4) }, decode: async () => read, progress: (done) => done < 0.5 };
 const judged: cotan.LintReport = await cotan.lint(file, { ...options, distance: 2, limit: 2, limitArea: 10, frame: 'smooth' });
-const over: string[] = [...judged.over_limit, ...cotan.overLimits(judged, { limit: 1 } satisfies cotan.Limits)];
+const over: cotan.OverLimit[] = [...judged.over_limit, ...cotan.overLimits(judged, { limit: 1 } satisfies cotan.Limits)];
 const { glb, report } = await cotan.convert(file, { ...options, to: 'smooth', bits: 8, keepTangents: true, encode: async () => file });
 const unread: cotan.UnreadMap[] = report.unread_maps, advice: string | undefined = unread[0]?.advice, notes: string[] = (report satisfies cotan.ConvertReport).notes;
 try {
@@ -60,7 +60,7 @@ try {
 
 // glTF-Transform
 const all: Transform[] = [tangents({ kind: 'mikktspace', overwrite: true }), untangent({ to: 'cotangent', unsigned: 'exact', report: (r) => r.unread_maps.map((map) => map.name) }),
-  lintNormals({ limit: 2, frame: 'stored', report: (r) => r.over_limit.join() }), provoking({ vertex: 'first' })];
+  lintNormals({ limit: 2, frame: 'stored', report: (r) => r.over_limit.map(({ mesh, degrees, limit }) => [mesh, degrees, limit]).join() }), provoking({ vertex: 'first' })];
 await new Document().transform(...all);
 const known: string[] = frames();
 

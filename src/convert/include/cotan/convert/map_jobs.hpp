@@ -56,9 +56,11 @@ Result<std::vector<MapUse>> usesOf(const GltfDocument& document, const MapJob& j
 // About how many bytes the job takes at most besides the document, the image apart.
 std::size_t bytesOf(const MapJob& job, const FramePair& frames);
 
-// Puts a job's new image in place of the old one where normal maps read it. Other forms of the old one
-// (EXT_texture_webp, KHR_texture_basisu) go, and `notes` says so: readers would prefer them.
-void replaceMap(GltfDocument& document, const MapJob& job, std::vector<std::byte> png, std::vector<std::string>& notes);
+// Puts a job's new image in place of the old one where normal maps read it; mime: "image/png", "image/jpeg", or
+// "image/webp", which is then named by EXT_texture_webp. Other forms of the old one (EXT_texture_webp,
+// KHR_texture_basisu) go, and `notes` says so: readers would prefer them.
+void replaceMap(GltfDocument& document, const MapJob& job, std::vector<std::byte> bytes, const std::string& mime,
+                std::vector<std::string>& notes);
 
 // The places of normal maps in a format that is not read here, named by an extension or, against the specification, by
 // the texture itself.
