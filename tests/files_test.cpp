@@ -45,6 +45,27 @@ protected:
                                                 "soft.png"};
 };
 
+TEST(Outputs, throughASymbolicLinkGoToWhatItLeadsTo)
+{
+    TemporaryFolder folder;
+    fs::create_directory(folder / "real");
+    std::ofstream(folder / "real/old.txt") << "old";
+    fs::create_symlink("real/old.txt", folder / "link");
+    fs::create_symlink("link", folder / "link of link");
+    fs::create_symlink("real/new.txt", folder / "to nothing");
+    ASSERT_TRUE(writeFileWhole(folder / "link of link", "new"));
+    ASSERT_TRUE(writeFileWhole(folder / "to nothing", "made"));
+    EXPECT_TRUE(fs::is_symlink(folder / "link of link"));
+    EXPECT_TRUE(fs::is_symlink(folder / "link"));
+    EXPECT_TRUE(fs::is_symlink(folder / "to nothing"));
+    EXPECT_EQ(fs::file_size(folder / "real/old.txt"), 3u);
+    std::string text;
+    std::ifstream(folder / "real/old.txt") >> text;
+    EXPECT_EQ(text, "new");
+    std::ifstream(folder / "real/new.txt") >> text;
+    EXPECT_EQ(text, "made");
+}
+
 TEST_F(FileAccount, anOutputIsRefusedByEveryNameOfAnInput)
 {
     for (const std::string& input : spellings)

@@ -137,7 +137,7 @@ Status run(const AccuracyCommandOptions& o)
     if (rows.empty())
         return usageError("nothing was measured: no chosen table has that scene with those frames");
     if (o.output.empty() && o.against.empty())
-        say(o, toText(rows));
+        sayLines(o, toText(rows));
     if (!o.output.empty())
         if (Status written = writeFileWhole(o.output, toText(rows)); !written)
             return written;

@@ -2,6 +2,7 @@
 
 #include <cerrno>
 #include <cstdio>
+#include <sstream>
 #include <utility>
 
 #include <fmt/format.h>
@@ -102,6 +103,13 @@ void say(const CommonOptions& options, const std::string& line)
         return;
     wipeProgress();
     print(printable(line) + "\n");
+}
+
+void sayLines(const CommonOptions& options, const std::string& text)
+{
+    std::istringstream lines(text + "\n");
+    for (std::string line; std::getline(lines, line);)
+        say(options, line);
 }
 
 void warn(const CommonOptions& options, const std::string& line)

@@ -91,8 +91,11 @@ Status flushOutput();
 // has the member "command".
 Status writeReport(const CommonOptions& options, const Json& report);
 
-// Prints a line on standard output unless --quiet was given or the report goes there.
+// Prints a line, its control characters escaped, on standard output unless --quiet was given or the report goes there.
 void say(const CommonOptions& options, const std::string& line);
+
+// The same of a text of several lines, each by itself: say escapes line breaks.
+void sayLines(const CommonOptions& options, const std::string& text);
 
 // Prints "cotan: warning: LINE" on standard error unless --quiet was given.
 void warn(const CommonOptions& options, const std::string& line);

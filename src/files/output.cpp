@@ -77,6 +77,20 @@ bool isSpecial(const fs::path& file)
     return fs::exists(status) && !fs::is_regular_file(status) && !fs::is_directory(status);
 }
 
+// What a symbolic link leads to, whether that is there or not; other files are themselves.
+fs::path followed(fs::path file)
+{
+    constexpr int kMostLinks = 40; // as Linux has it
+    std::error_code error;
+    for (int i = 0; i < kMostLinks && fs::is_symlink(fs::symlink_status(file, error)); ++i) {
+        const fs::path target = fs::read_symlink(file, error);
+        if (error)
+            break;
+        file = folderOf(file) / target; // an absolute one takes the place of the folder
+    }
+    return file;
+}
+
 Error cannotWrite(const fs::path& file, int number)
 {
     return outputError(fmt::format("{}: cannot write: {}", file.string(), reasonOf(number)));
@@ -146,9 +160,10 @@ OutputFile::~OutputFile()
         ::unlink(part_.c_str());
 }
 
-Result<OutputFile> OutputFile::begin(const fs::path& file)
+Result<OutputFile> OutputFile::begin(const fs::path& name)
 {
     std::error_code ignored;
+    const fs::path file = isSpecial(name) ? name : followed(name);
     if (!fs::is_directory(folderOf(file), ignored))
         return outputError(fmt::format("{}: the folder {} does not exist", file.string(), folderOf(file).string()));
     if (fs::is_directory(file, ignored))

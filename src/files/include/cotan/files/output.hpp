@@ -21,7 +21,8 @@ namespace cotan {
 // have no name beside them: they are written to.
 class OutputFile {
 public:
-    // Errors: ErrorKind::output where the folder is missing or `file` is a folder; those of beginOutput.
+    // A symbolic link stays, and what it leads to is written. Errors: ErrorKind::output where the folder is missing or
+    // `file` is a folder; those of beginOutput.
     static Result<OutputFile> begin(const std::filesystem::path& file);
 
     OutputFile(OutputFile&& other) noexcept;
