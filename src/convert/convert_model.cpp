@@ -169,10 +169,8 @@ private:
         auto file = encoded(r.image, *bytes);
         if (!file)
             return file.error();
+        const Spread unconverted = done.figures.unconverted;
         done.figures = r;
-        done.bytesAfter = file->bytes.size();
-        done.format = file->format;
-        done.quality = file->quality;
         if (file->format != "PNG") {
             const auto stored = decodeImage(file->bytes, field, options_.limits);
             if (!stored)
@@ -180,8 +178,21 @@ private:
             std::vector<const MapUse*> all;
             for (const MapUse& use : *uses)
                 all.push_back(&use);
-            done.figures.error = mapError(*map, *stored, all, options_.frames, expansions.written);
+            const Spread lossy = mapError(*map, *stored, all, options_.frames, expansions.written);
+            if (lossy.mean <= std::max(kSeen, 0.5 * unconverted.mean)) {
+                done.figures.error = lossy;
+            } else { // else converting would be for nothing
+                auto png = encodePng(r.image);
+                if (!png)
+                    return png.error();
+                *file = {*std::move(png), "PNG", "image/png", 0,
+                         fmt::format("{} of quality {} would be off by {:.2f} degrees on average, PNG is by {:.2f}",
+                                     file->format, file->quality, lossy.mean, r.error.mean)};
+            }
         }
+        done.bytesAfter = file->bytes.size();
+        done.format = file->format;
+        done.quality = file->quality;
         if (!file->whyNot.empty())
             report_.notes.push_back(fmt::format("{}: {}, so the new map is PNG: {} bytes, before {}", job.name,
                                                 file->whyNot, done.bytesAfter, done.bytesBefore));

@@ -60,7 +60,10 @@ int TextureReader::load(const std::string& path, const std::string& material)
         return entry->second;
     std::error_code error;
     const std::uintmax_t size = std::filesystem::file_size(*file, error);
-    auto image = readImage(*file, withinBudget(error ? 0 : size));
+    const LoadLimits limits = withinBudget(error ? 0 : size);
+    if (limits.imageBytes == 0)
+        return unusable(overBudget());
+    auto image = readImage(*file, limits);
     if (!image)
         return unusable(image.error().message);
     return entry->second = add(*std::move(image));
@@ -76,6 +79,11 @@ LoadLimits TextureReader::withinBudget(std::uint64_t bytes)
     return limits;
 }
 
+std::string TextureReader::overBudget() const
+{
+    return fmt::format("the images are over the limit of {} bytes", imageBudget(limits_, fileBytes_));
+}
+
 std::optional<Image> TextureReader::embedded(const aiTexture& texture, const std::string& name, std::string& problem)
 {
     if (!texture.pcData || texture.mWidth == 0) {
@@ -86,8 +94,13 @@ std::optional<Image> TextureReader::embedded(const aiTexture& texture, const std
         problem = "expected an embedded image file, found plain texels";
         return std::nullopt;
     }
+    const LoadLimits limits = withinBudget(texture.mWidth);
+    if (limits.imageBytes == 0) {
+        problem = overBudget();
+        return std::nullopt;
+    }
     auto image = decodeImage(std::as_bytes(std::span(reinterpret_cast<const char*>(texture.pcData), texture.mWidth)),
-                             name, withinBudget(texture.mWidth));
+                             name, limits);
     if (image)
         return *std::move(image);
     problem = image.error().message;
@@ -102,8 +115,7 @@ int TextureReader::normalMap(const std::string& path, const std::string& materia
         return source;
     const Image& heights = scene_.images[std::size_t(source)];
     if (withinBudget(0).imageBytes < heights.pixelCount() * 4) {
-        scene_.warnings.push_back(
-            fmt::format("material {}: texture {}: the images are over their limit; left out", material, path));
+        scene_.warnings.push_back(fmt::format("material {}: texture {}: {}; left out", material, path, overBudget()));
         return -1;
     }
     converted = true;

@@ -41,6 +41,7 @@ private:
     int load(const std::string& path, const std::string& material);
     std::optional<Image> embedded(const aiTexture& texture, const std::string& name, std::string& problem);
     LoadLimits withinBudget(std::uint64_t bytes);
+    std::string overBudget() const; // why an image is left out
     int add(Image image);
 
     Scene& scene_;

@@ -74,7 +74,7 @@ def test_what_is_no_libcotan_is_said(copy, tmp_path):
     program.write_text("int cotan_api_version(void) { return 2; }\n")
     subprocess.run(["cc", "-shared", "-fPIC", program, "-o", tmp_path / "old.so"], check=True)
     said = run(SAY, copy, COTAN_LIBRARY=str(tmp_path / "old.so"), LD_LIBRARY_PATH="")
-    assert "expected version 4 of its interface or later, found 2" in said
+    assert "expected version 5 of its interface or later, found 2" in said
 
 
 def public():
