@@ -231,7 +231,7 @@ Result<std::vector<MapJob>> mapJobs(const GltfDocument& document, std::vector<st
         for (const std::size_t material : materialsOf(root, root["meshes"][m]["primitives"][p])) {
             for (const NormalSlot slot : kNormalSlots) {
                 const MapPlace place{material, slot};
-                const bool unread = std::ranges::binary_search(foreign, place);
+                const bool unread = std::binary_search(foreign.begin(), foreign.end(), place);
                 if (Status added = addUse(document, m, p, place, unread, placed[m], jobs, notes); !added)
                     return added;
             }

@@ -286,13 +286,17 @@ void UvRaster::scanTouching(const Shown& t, int y, const std::uint8_t* taken, co
 
 void UvRaster::row(int y, UvReach reach, UvRow& result, const UvFew& few) const
 {
-    auto& [found, taken, next, orders, sorted] = result.scratch;
+    // Names of their own: clang 14 captures no structured bindings.
+    auto& found = result.scratch.found;
+    auto& next = result.scratch.next;
+    auto& orders = result.scratch.orders;
+    auto& sorted = result.scratch.sorted;
     const std::span<const Listed> listed = listedIn(y / kBlockRows);
     const bool limited = few.most < listed.size();
     found.clear();
     orders.clear();
     next.assign(std::size_t(width_) + 1, 0); // places of each texel, so far
-    std::vector<std::uint8_t>& full = taken;
+    std::vector<std::uint8_t>& full = result.scratch.taken;
     full.assign(std::size_t(width_), 0);
     std::uint32_t order = 0;
     const auto emit = [&](int x, const UvPlace& place) {
