@@ -20,8 +20,8 @@ std::vector<std::string> mapFaults(const Scene& scene)
         if (!hasPixels(map))
             continue;
         const maps::GreenVerdict verdict = maps::greenOf(map);
-        const bool declaredUp = m.normalFormat.greenUp != m.greenReversed;
-        const auto faults = maps::faultsOf(verdict.statistics, declaredUp ? &verdict : nullptr);
+        const bool readUp = m.normalFormat.greenUp && !m.greenReversed; // else it is read as its tangents mean it
+        const auto faults = maps::faultsOf(verdict.statistics, readUp ? &verdict : nullptr);
         if (!faults.empty())
             sentences.push_back(maps::sentenceOf(map.name.empty() ? fmt::format("Image {}", image) : map.name, faults));
     }
