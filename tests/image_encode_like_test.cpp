@@ -1,54 +1,17 @@
 // Pictures in the format of another file.
 #include "cotan/image/encode_like.hpp"
 
-#include <cstdio>
 #include <cstdlib>
 
 #include <gtest/gtest.h>
-#include <jpeglib.h>
 #include <webp/encode.h>
 
 #include "cotan/image/file.hpp"
 #include "cotan/shapes/shapes.hpp"
+#include "jpeg_maker.hpp"
 
 namespace cotan::test {
 namespace {
-
-std::vector<std::byte> bytesAt(const unsigned char* data, std::size_t size)
-{
-    const auto* const first = reinterpret_cast<const std::byte*>(data);
-    return {first, first + size};
-}
-
-std::vector<std::byte> jpegOf(const Image& image, int quality, bool halved, bool progressive)
-{
-    jpeg_compress_struct jpeg{};
-    jpeg_error_mgr errors{};
-    jpeg.err = jpeg_std_error(&errors);
-    jpeg_create_compress(&jpeg);
-    unsigned char* bytes = nullptr;
-    unsigned long size = 0;
-    jpeg_mem_dest(&jpeg, &bytes, &size);
-    jpeg.image_width = JDIMENSION(image.width);
-    jpeg.image_height = JDIMENSION(image.height);
-    jpeg.input_components = 4;
-    jpeg.in_color_space = JCS_EXT_RGBA;
-    jpeg_set_defaults(&jpeg);
-    jpeg_set_quality(&jpeg, quality, TRUE);
-    jpeg.comp_info[0].h_samp_factor = jpeg.comp_info[0].v_samp_factor = halved ? 2 : 1;
-    if (progressive)
-        jpeg_simple_progression(&jpeg);
-    jpeg_start_compress(&jpeg, TRUE);
-    while (jpeg.next_scanline < jpeg.image_height) {
-        auto* row = const_cast<JSAMPROW>(image.bytes8()) + 4 * jpeg.next_scanline * jpeg.image_width;
-        jpeg_write_scanlines(&jpeg, &row, 1);
-    }
-    jpeg_finish_compress(&jpeg);
-    jpeg_destroy_compress(&jpeg);
-    auto made = bytesAt(bytes, size);
-    std::free(bytes);
-    return made;
-}
 
 std::vector<std::byte> webpOf(const Image& image, float quality)
 {
@@ -56,7 +19,8 @@ std::vector<std::byte> webpOf(const Image& image, float quality)
     const std::size_t size = quality > 0
         ? WebPEncodeRGBA(image.bytes8(), image.width, image.height, 4 * image.width, quality, &bytes)
         : WebPEncodeLosslessRGBA(image.bytes8(), image.width, image.height, 4 * image.width, &bytes);
-    auto made = bytesAt(bytes, size);
+    const auto* const first = reinterpret_cast<const std::byte*>(bytes);
+    std::vector<std::byte> made(first, first + size);
     WebPFree(bytes);
     return made;
 }
@@ -76,7 +40,7 @@ TEST(EncodeLike, aJpegHasTheTablesTheSamplingAndTheScansOfTheOldOne)
 {
     for (const int quality : {30, 75, 90, 100})
         for (const bool halved : {false, true}) {
-            const auto old = jpegOf(mapOf(128), quality, halved, /*progressive*/ halved);
+            const auto old = jpegOf(mapOf(128), {.quality = quality, .halved = halved, .progressive = halved});
             const auto image = decodeImage(old, "old.jpg");
             const auto made = encodeLike(*image, old);
             ASSERT_TRUE(made) << made.error().message;
@@ -114,7 +78,7 @@ TEST(EncodeLike, aWebpKeepsAllOrAboutTheQualityOfTheOldOne)
 TEST(EncodeLike, allElseIsPngAndSaysWhy)
 {
     Image image = mapOf(16);
-    const auto jpeg = jpegOf(image, 80, false, false);
+    const auto jpeg = jpegOf(image, {.quality = 80});
     const auto formatOf = [&](std::span<const std::byte> old) {
         const auto made = encodeLike(image, old);
         return made->format + ": " + made->whyNot;
@@ -131,7 +95,7 @@ TEST(EncodeLike, allElseIsPngAndSaysWhy)
 TEST(EncodeLike, brokenOldFilesDoNoHarm)
 {
     const Image image = mapOf(16);
-    for (const auto& old : {jpegOf(image, 80, true, true), webpOf(image, 70)})
+    for (const auto& old : {jpegOf(image, {.quality = 80, .halved = true, .progressive = true}), webpOf(image, 70)})
         for (std::size_t size = 0; size < old.size(); size += 1 + size / 40) {
             const auto made = encodeLike(image, std::span(old).first(size));
             ASSERT_TRUE(made) << size;

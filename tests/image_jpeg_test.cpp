@@ -1,11 +1,9 @@
 // JPEG files of many scans.
-#include <cstdio>
-#include <cstdlib>
 #include <string>
 
 #include <gtest/gtest.h>
-#include <jpeglib.h>
 
+#include "jpeg_maker.hpp"
 #include "picture_file.hpp"
 
 namespace cotan::test {
@@ -13,34 +11,12 @@ namespace {
 
 std::string makeJpeg(int width, int height, bool progressive)
 {
-    jpeg_compress_struct jpeg{};
-    jpeg_error_mgr errors{};
-    jpeg.err = jpeg_std_error(&errors);
-    jpeg_create_compress(&jpeg);
-    unsigned char* bytes = nullptr;
-    unsigned long size = 0;
-    jpeg_mem_dest(&jpeg, &bytes, &size);
-    jpeg.image_width = JDIMENSION(width);
-    jpeg.image_height = JDIMENSION(height);
-    jpeg.input_components = 3;
-    jpeg.in_color_space = JCS_RGB;
-    jpeg_set_defaults(&jpeg);
-    jpeg_set_colorspace(&jpeg, JCS_RGB);
-    if (progressive)
-        jpeg_simple_progression(&jpeg);
-    jpeg_start_compress(&jpeg, TRUE);
-    std::vector<JSAMPLE> row(std::size_t(width) * 3);
-    for (int y = 0; y < height; ++y) {
-        for (std::size_t i = 0; i < row.size(); ++i)
-            row[i] = JSAMPLE(i * 5 + std::size_t(y) * 3);
-        JSAMPROW rows = row.data();
-        jpeg_write_scanlines(&jpeg, &rows, 1);
-    }
-    jpeg_finish_compress(&jpeg);
-    jpeg_destroy_compress(&jpeg);
-    std::string file(reinterpret_cast<const char*>(bytes), size);
-    std::free(bytes);
-    return file;
+    Image image = makeImage(width, height, PixelType::unorm8);
+    for (std::size_t y = 0; y < std::size_t(height); ++y)
+        for (std::size_t i = 0; i < std::size_t(width) * 3; ++i)
+            image.bytes8()[4 * (y * std::size_t(width) + i / 3) + i % 3] = std::uint8_t(i * 5 + y * 3);
+    const std::vector<std::byte> file = jpegOf(image, {.progressive = progressive, .rgb = true});
+    return {reinterpret_cast<const char*>(file.data()), file.size()};
 }
 
 TEST_F(PictureFile, jpegOfOddSizeIsReadWithEveryNumberOfScans)

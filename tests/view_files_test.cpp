@@ -43,13 +43,18 @@ TEST(ViewWindow, aModelThatChangesIsReadAgainAndTheCameraStays)
     EXPECT_EQ(lineOf(a, "eye"), lineOf(b, "eye"));
 }
 
+Image greySky()
+{
+    Image sky = makeImage(16, 8, PixelType::float32);
+    std::fill_n(sky.floats(), 4 * sky.pixelCount(), 0.5f);
+    return sky;
+}
+
 TEST(ViewWindow, aLightThatIsDroppedLightsAndABadOneIsLeft)
 {
     COTAN_NEEDS_DISPLAY();
     TemporaryFolder folder;
-    Image sky = makeImage(16, 8, PixelType::float32);
-    std::fill_n(sky.floats(), 4 * sky.pixelCount(), 0.5f);
-    ASSERT_TRUE(writeImage(folder / "sky.hdr", sky));
+    ASSERT_TRUE(writeImage(folder / "sky.hdr", greySky()));
     std::ofstream(folder / "bad.hdr") << "#?RADIANCE nonsense";
     const ToolRun run = play(folder,
                              "0 wait\n0 drop sky.hdr\n0 wait\n0 do report a.txt\n0 drop bad.hdr\n0 wait\n0 wait\n"
@@ -66,9 +71,7 @@ TEST(ViewWindow, aLightThatIsChosenLaterIsReadAgainWhenItChanges)
 {
     COTAN_NEEDS_DISPLAY();
     TemporaryFolder folder;
-    Image sky = makeImage(16, 8, PixelType::float32);
-    std::fill_n(sky.floats(), 4 * sky.pixelCount(), 0.5f);
-    ASSERT_TRUE(writeImage(folder / "sky.exr", sky));
+    ASSERT_TRUE(writeImage(folder / "sky.exr", greySky()));
     const std::string pause = "0 do picture pause.png 2000 2000\n";
     const ToolRun run = play(folder,
                              "0 wait\n0 do set environment sky.exr\n0 wait\n0 do report a.txt\n"

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -39,7 +40,7 @@ private:
         std::vector<Part> parts;
         std::vector<glm::vec2> texcoords;
         std::vector<std::uint32_t> indices;
-        std::vector<UvRaster> raster; // one
+        std::optional<UvRaster> raster; // of these triangles
     };
     struct Found { // a place for all uses of a part
         const Part* part = nullptr;

@@ -8,21 +8,13 @@
 
 #include "cotan/portable.hpp"
 #include "cotan/scene/environment.hpp"
+#include "cotan/scene/geometry.hpp"
 #include "cotan/scene/ground.hpp"
 #include "cotan/scene/sample_places.hpp"
 
 namespace cotan {
 
 namespace {
-
-bool finite(const glm::mat4& m)
-{
-    float sum = 0;
-    for (int column = 0; column < 4; ++column)
-        for (int row = 0; row < 4; ++row)
-            sum += std::abs(m[column][row]);
-    return std::isfinite(sum);
-}
 
 glm::uvec2 split(vk::DeviceAddress address)
 {
@@ -115,7 +107,7 @@ Drawer::DrawLists Drawer::makeLists(const GpuScene& scene, const View& view, con
 {
     DrawLists lists;
     for (const GpuInstance& instance : scene.instances) {
-        if (!finite(instance.toWorld))
+        if (!isFinite(instance.toWorld))
             continue;
         Item item;
         item.mesh = &scene.meshes[instance.mesh];

@@ -36,6 +36,15 @@ float distanceToSee(glm::vec3 halfSize, glm::vec3 back, float tanX, float tanY)
 
 } // namespace
 
+bool isFinite(const glm::mat4& m)
+{
+    float sum = 0;
+    for (int column = 0; column < 4; ++column)
+        for (int row = 0; row < 4; ++row)
+            sum += std::abs(m[column][row]);
+    return std::isfinite(sum);
+}
+
 Camera fitCamera(const Bounds& box, int width, int height)
 {
     Camera camera;

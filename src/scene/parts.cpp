@@ -60,22 +60,13 @@ void append(Mesh& whole, const Mesh& part, const glm::mat4& toWorld)
             whole.indices.push_back(base + part.indices[i + k]);
 }
 
-bool finite(const glm::mat4& m)
-{
-    float sum = 0;
-    for (int column = 0; column < 4; ++column)
-        for (int row = 0; row < 4; ++row)
-            sum += std::abs(m[column][row]);
-    return std::isfinite(sum);
-}
-
 void joinSmall(Scene& scene)
 {
     std::map<decltype(keyOf(Mesh{})), Mesh> joined;
     std::vector<Instance> kept;
     std::size_t triangles = 0;
     for (Instance& instance : scene.instances) {
-        if (!finite(instance.toWorld))
+        if (!isFinite(instance.toWorld))
             continue;
         const Mesh& mesh = scene.meshes[std::size_t(instance.mesh)];
         const std::size_t count = mesh.triangleCount();

@@ -1,0 +1,54 @@
+// JPEG files for tests, by libjpeg itself.
+#pragma once
+
+#include <cstdio>
+#include <cstdlib>
+#include <vector>
+
+#include <jpeglib.h>
+
+#include "cotan/scene/image.hpp"
+
+namespace cotan::test {
+
+struct JpegMaking {
+    int quality = 75;
+    bool halved = false; // colours at half the size
+    bool progressive = false;
+    bool rgb = false; // stored as red, green and blue, not as luminance and colour
+};
+
+// image: of unorm8; its alpha is left out.
+inline std::vector<std::byte> jpegOf(const Image& image, const JpegMaking& making = {})
+{
+    jpeg_compress_struct jpeg{};
+    jpeg_error_mgr errors{};
+    jpeg.err = jpeg_std_error(&errors);
+    jpeg_create_compress(&jpeg);
+    unsigned char* bytes = nullptr;
+    unsigned long size = 0;
+    jpeg_mem_dest(&jpeg, &bytes, &size);
+    jpeg.image_width = JDIMENSION(image.width);
+    jpeg.image_height = JDIMENSION(image.height);
+    jpeg.input_components = 4;
+    jpeg.in_color_space = JCS_EXT_RGBA;
+    jpeg_set_defaults(&jpeg);
+    jpeg_set_colorspace(&jpeg, making.rgb ? JCS_RGB : JCS_YCbCr);
+    jpeg_set_quality(&jpeg, making.quality, TRUE);
+    jpeg.comp_info[0].h_samp_factor = jpeg.comp_info[0].v_samp_factor = making.halved ? 2 : 1;
+    if (making.progressive)
+        jpeg_simple_progression(&jpeg);
+    jpeg_start_compress(&jpeg, TRUE);
+    while (jpeg.next_scanline < jpeg.image_height) {
+        auto* row = const_cast<JSAMPROW>(image.bytes8()) + 4 * jpeg.next_scanline * jpeg.image_width;
+        jpeg_write_scanlines(&jpeg, &row, 1);
+    }
+    jpeg_finish_compress(&jpeg);
+    jpeg_destroy_compress(&jpeg);
+    const auto* const first = reinterpret_cast<const std::byte*>(bytes);
+    std::vector<std::byte> made(first, first + size);
+    std::free(bytes);
+    return made;
+}
+
+} // namespace cotan::test
