@@ -12,6 +12,7 @@
 #include "cotan/lang.h"
 #include "cotan/normal.h"
 #include "cotan/frame.h"
+#include "cotan/history.h"
 #include "cotan/triangle.h"
 #include "cotan/light.h"
 #include "cotan/sheen.h"

@@ -42,7 +42,10 @@ struct Place {
 std::vector<Place> placesOf(const FrameInfo& f)
 {
     const std::string word(f.word), name(f.name);
-    const std::string text = f.frame == Frame::triangle ? "shaders/cotan/triangle.h" : "shaders/cotan/frame.h";
+    const bool historical = read("shaders/cotan/history.h").find(" cotan_frame_" + word + "(") != std::string::npos;
+    const std::string text = f.frame == Frame::triangle ? "shaders/cotan/triangle.h"
+        : historical                                    ? "shaders/cotan/history.h"
+                                                        : "shaders/cotan/frame.h";
     std::vector<Place> places = {
         {text, " cotan_frame_" + word + "("},
         {"shaders/cost/rows.h", (f.frame == Frame::triangle ? "cotan_frame_of_" : "cotan_frame_") + word + "("},

@@ -104,7 +104,7 @@ Status listTables(const AccuracyCommandOptions& o)
 
 Status run(const AccuracyCommandOptions& o)
 {
-    if (Status planned = planOutputs(o, {{"-o", o.output}, {"--csv", o.csv}}); !planned)
+    if (Status planned = beginOutputs(o, {{"-o", o.output}, {"--csv", o.csv}}); !planned)
         return planned;
     if (o.list)
         return listTables(o);

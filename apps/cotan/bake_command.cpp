@@ -176,7 +176,7 @@ Status checkOutputs(const BakeCommandOptions& o)
         return usageError(fmt::format("--bits 32: expected a map named {}; found '{}'",
                                       imageEndings(&ImageFormat::negative, ", ", " or "), o.output.string()));
     warnIfLossy(o, o.output);
-    return planOutputs(o, o.perObject ? std::vector<PlannedOutput>() : filesOf(o));
+    return beginOutputs(o, o.perObject ? std::vector<PlannedOutput>() : filesOf(o));
 }
 
 // Who reads a map for that frame, and how.

@@ -148,7 +148,7 @@ Status run(const Arguments& tool, const BatchOptions& o)
             return parsed.error();
         shard = *parsed;
     }
-    if (Status planned = planOutputs(o, {{"-o", o.output}}); !planned)
+    if (Status planned = beginOutputs(o, {{"-o", o.output}}); !planned)
         return planned;
     Stopwatch watch;
     const auto list = readJobs(o.jobs, [&](Job& job) { return fillIn(tool, job); });

@@ -10,7 +10,6 @@
 #include "cotan/files/account.hpp"
 #include "cotan/files/output.hpp"
 #include "cotan/image/format_table.hpp"
-#include "cotan/parallel/loops.hpp"
 #include "cotan/report/report_format.hpp"
 #include "cotan/terminal/printable.hpp"
 #include "cotan/terminal/progress_line.hpp"
@@ -48,14 +47,7 @@ void addOlderName(Arguments& command, const std::string& older, const std::strin
 
 void addExamples(Arguments& command, const std::vector<std::string>& lines) { command.examples(lines, kExitCodes); }
 
-Status withThreads(int threads, const std::function<Status()>& work)
-{
-    Status status = Done{};
-    cotan::withThreads(threads, [&] { status = work(); });
-    return status;
-}
-
-Status planOutputs(const CommonOptions& options, std::vector<PlannedOutput> files)
+Status beginOutputs(const CommonOptions& options, std::vector<PlannedOutput> files)
 {
     guardInputs(options.overwrite);
     if (options.json != "-")

@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 
 #include "cotan/files/plan.hpp"
+#include "cotan/parallel/loops.hpp"
 #include "cotan/report/json.hpp"
 #include "cotan/result.hpp"
 #include "cotan/terminal/arguments.hpp"
@@ -35,9 +36,6 @@ void addOlderName(Arguments& command, const std::string& older, const std::strin
 
 // Ends a command's help with commands that work, and the exit codes.
 void addExamples(Arguments& command, const std::vector<std::string>& lines);
-
-// Runs work with at most `threads` threads (0: all cores).
-Status withThreads(int threads, const std::function<Status()>& work);
 
 // What a command is, for addCommand.
 struct CommandText {
@@ -78,7 +76,7 @@ private:
 // out. From here on no output may be a file that is read or another output, unless --overwrite was given. Warns of
 // what a killed run left in the folders. Errors: ErrorKind::usage for two outputs in one place; ErrorKind::output
 // where a file cannot be written.
-Status planOutputs(const CommonOptions& options, std::vector<PlannedOutput> files);
+Status beginOutputs(const CommonOptions& options, std::vector<PlannedOutput> files);
 
 // Prints on standard output. It does not fail: the first error is kept for flushOutput.
 void print(const std::string& text);

@@ -56,9 +56,9 @@ Status run(const CompareCommandOptions& o)
         if (Status fits = checkLighting(o.picture, frame); !fits)
             return fits;
     // Before the model is read, so that no file of it is replaced.
-    if (Status planned = planOutputs(o, plannedIn("-o", o.output, comparedFiles(*pair))); !planned)
+    if (Status planned = beginOutputs(o, plannedIn("-o", o.output, comparedFiles(*pair))); !planned)
         return planned;
-    auto picture = openPicture(o.picture, o, {(*pair)[0], (*pair)[1]});
+    auto picture = loadPicture(o.picture, o, {(*pair)[0], (*pair)[1]});
     if (!picture)
         return picture.error();
     const std::array<Frame, 2> frames = {picture->frames[0], picture->frames[1]};
@@ -66,7 +66,7 @@ Status run(const CompareCommandOptions& o)
     for (const Frame frame : frames)
         if (const std::string note = frameNote(picture->scene, frame); !note.empty())
             warn(o, note);
-    auto painter = openPicturePainter(o.picture, o, *picture);
+    auto painter = makePicturePainter(o.picture, o, *picture);
     if (!painter)
         return painter.error();
     Stopwatch watch;

@@ -92,7 +92,7 @@ Result<std::optional<FramePair>> checkUsage(const ConvertCommandOptions& o)
         for (const PlannedOutput& picture :
              plannedIn("--verify", o.verify, picturesOf(kConversionNames, kConversionViews)))
             files.push_back(picture);
-    if (Status planned = planOutputs(o, files); !planned)
+    if (Status planned = beginOutputs(o, files); !planned)
         return planned.error();
     std::error_code ignored;
     if (!o.verify.empty() && std::filesystem::equivalent(o.model, o.output, ignored))

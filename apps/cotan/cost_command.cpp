@@ -27,7 +27,7 @@ Status run(const CostCommandOptions& o)
     std::filesystem::path chart = o.output;
     if (!o.output.empty())
         chart.replace_extension(".svg");
-    if (Status planned = planOutputs(o, {{"-o", o.output}, {"-o, the chart", chart.string()}, {"--csv", o.csv}});
+    if (Status planned = beginOutputs(o, {{"-o", o.output}, {"-o, the chart", chart.string()}, {"--csv", o.csv}});
         !planned)
         return planned;
     const auto report = withProgress(o, 1, "pricing", [&](Progress progress) {

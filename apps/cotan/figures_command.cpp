@@ -43,7 +43,7 @@ Status run(const FiguresCommandOptions& o)
     for (const std::string& word : only)
         if (std::ranges::find(names, word) == names.end())
             return notOneOf("--only", names, word);
-    if (Status planned = planOutputs(o, plannedIn("-o", o.output, {"index.html", "overview.png"})); !planned)
+    if (Status planned = beginOutputs(o, plannedIn("-o", o.output, {"index.html", "overview.png"})); !planned)
         return planned;
     const auto painter = openDevice(o.device, o);
     if (!painter)

@@ -60,7 +60,7 @@ Status run(const LintCommandOptions& o)
 {
     if (Status usage = checkUsage(o); !usage)
         return usage;
-    if (Status planned = planOutputs(o, {}); !planned)
+    if (Status planned = beginOutputs(o, {}); !planned)
         return planned;
     Stopwatch watch;
     LoadLimits limits = limitsFor(o.memory, Pixels::whereReadable);

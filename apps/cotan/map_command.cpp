@@ -49,7 +49,7 @@ Status needOutput(const MapOptions& options, const std::string& command, const s
 {
     if (options.output.empty())
         return usageError(fmt::format("map {}: expected -o FILE; found none", command));
-    return planOutputs(options, {{"-o", file.empty() ? options.output : file}});
+    return beginOutputs(options, {{"-o", file.empty() ? options.output : file}});
 }
 
 void addMapCommand(Arguments& tool)

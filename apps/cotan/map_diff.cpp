@@ -14,7 +14,7 @@ struct MapDiffCommandOptions : MapOptions {
 
 Status run(const MapDiffCommandOptions& o)
 {
-    if (Status planned = planOutputs(o, {{"-o", o.output}}); !planned)
+    if (Status planned = beginOutputs(o, {{"-o", o.output}}); !planned)
         return planned;
     const auto conventions = parseFromTo(o.from, o.to.empty() ? o.from : o.to);
     if (!conventions)

@@ -108,7 +108,7 @@ Status runAll(const InspectOptions& o, const char* command, Look look)
 
 Status run(const InspectOptions& o, const char* command, Look look)
 {
-    if (Status planned = planOutputs(o, {}); !planned)
+    if (Status planned = beginOutputs(o, {}); !planned)
         return planned;
     std::error_code ignored;
     const bool one = o.files.size() == 1 && !fs::is_directory(o.files.front(), ignored);

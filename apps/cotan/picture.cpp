@@ -5,7 +5,7 @@
 
 namespace cotan::app {
 
-Result<Picture> openPicture(const PictureOptions& options, const CommonOptions& common,
+Result<Picture> loadPicture(const PictureOptions& options, const CommonOptions& common,
                             std::initializer_list<FrameChoice> frames, const View* like)
 {
     Stopwatch watch;
@@ -22,7 +22,7 @@ Result<Picture> openPicture(const PictureOptions& options, const CommonOptions& 
     return picture;
 }
 
-Result<std::unique_ptr<Painter>> openPicturePainter(const PictureOptions& options, const CommonOptions& common,
+Result<std::unique_ptr<Painter>> makePicturePainter(const PictureOptions& options, const CommonOptions& common,
                                                     Picture& picture)
 {
     return told(cotan::openPicturePainter(options, picture), common);

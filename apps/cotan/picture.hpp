@@ -8,9 +8,9 @@
 namespace cotan::app {
 
 // The same of the part, under a line of progress; warnings are printed, errors are in words.
-Result<Picture> openPicture(const PictureOptions& options, const CommonOptions& common,
+Result<Picture> loadPicture(const PictureOptions& options, const CommonOptions& common,
                             std::initializer_list<FrameChoice> frames, const View* like = nullptr);
-Result<std::unique_ptr<Painter>> openPicturePainter(const PictureOptions& options, const CommonOptions& common,
+Result<std::unique_ptr<Painter>> makePicturePainter(const PictureOptions& options, const CommonOptions& common,
                                                     Picture& picture);
 
 // Sizes and counts for a report.

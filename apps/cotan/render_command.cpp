@@ -50,7 +50,7 @@ Status renderOne(const RenderCommandOptions& o, FrameChoice frame, Sequence& seq
 {
     std::optional<View>& shared = sequence.view;
     Stopwatch total;
-    auto picture = openPicture(o.picture, o, {frame, Frame::exact}, shared ? &*shared : nullptr);
+    auto picture = loadPicture(o.picture, o, {frame, Frame::exact}, shared ? &*shared : nullptr);
     if (!picture)
         return picture.error();
     picture->view.frame = picture->frames.front();
@@ -59,7 +59,7 @@ Status renderOne(const RenderCommandOptions& o, FrameChoice frame, Sequence& seq
     picture->view.output = outputOf(o.picture.show);
 
     Stopwatch watch;
-    auto painter = openPicturePainter(o.picture, o, *picture);
+    auto painter = makePicturePainter(o.picture, o, *picture);
     if (!painter)
         return painter.error();
     shared = picture->view;
@@ -157,7 +157,7 @@ Status run(const RenderCommandOptions& o)
             outputs.push_back({"-o", numbered(o.output, number)});
     if (outputs.empty())
         outputs.push_back({"-o", o.output});
-    if (Status planned = planOutputs(o, outputs); !planned)
+    if (Status planned = beginOutputs(o, outputs); !planned)
         return planned;
     Sequence sequence;
     RenderCommandOptions one = o;

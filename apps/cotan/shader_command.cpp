@@ -118,7 +118,7 @@ Status run(const ShaderCommandOptions& o)
     const Result<Choice> choice = choiceOf(o);
     if (!choice)
         return choice.error();
-    if (Status planned = planOutputs(o, {{"-o", o.output}}); !planned)
+    if (Status planned = beginOutputs(o, {{"-o", o.output}}); !planned)
         return planned;
     const Result<shader_text::ShaderText> text = makeShaderText(*choice);
     if (!text)

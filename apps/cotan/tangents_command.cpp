@@ -141,7 +141,7 @@ Status checkUsage(const TangentsCommandOptions& o)
         return usageError("--replace: expected -o FILE to write to; found none");
     if (Status names = checkGltfNames(o.model, o.output); !names)
         return names;
-    return planOutputs(o, {{"-o", o.output}});
+    return beginOutputs(o, {{"-o", o.output}});
 }
 
 Status run(const TangentsCommandOptions& o)

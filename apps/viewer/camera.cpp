@@ -8,6 +8,9 @@
 
 #include <glm/geometric.hpp>
 
+#include "cotan/scene/camera_axes.hpp"
+#include "cotan/vector.hpp"
+
 namespace cotan::viewer {
 
 namespace {
@@ -22,11 +25,9 @@ struct Axes {
 
 Axes axesOf(const Camera& camera)
 {
-    const glm::vec3 to = camera.target - camera.eye;
-    const float distance = glm::length(to);
-    const glm::vec3 forward = to / distance;
-    const glm::vec3 right = glm::normalize(glm::cross(forward, camera.up));
-    return {right, glm::cross(right, forward), forward, distance};
+    const CameraAxes axes = cameraAxes(camera);
+    return {glm::vec3(axes.right), glm::vec3(axes.up), glm::vec3(axes.forward),
+            glm::length(camera.target - camera.eye)};
 }
 
 glm::vec3 directionAt(float azimuth, float elevation)
@@ -42,14 +43,12 @@ std::pair<float, float> anglesOf(const glm::vec3& direction, const glm::vec3& up
     return {std::atan2(level.x, level.z), std::asin(std::clamp(direction.y, -1.0f, 1.0f))};
 }
 
-bool finite(const glm::vec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
-
 // Takes a change only where it leaves a camera that can be drawn with.
 void change(Camera& camera, const Camera& to)
 {
     const float distance = glm::length(to.eye - to.target);
     const bool turned = glm::length(glm::cross(to.target - to.eye, to.up)) > 1e-5f * distance;
-    if (finite(to.eye) && finite(to.target) && distance >= kNearest && distance <= kFarthest && turned
+    if (isFinite(to.eye) && isFinite(to.target) && distance >= kNearest && distance <= kFarthest && turned
         && to.verticalExtent > kNearest && to.verticalExtent < kFarthest)
         camera = to;
 }

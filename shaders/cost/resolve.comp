@@ -9,6 +9,7 @@
 #include "cotan/lang.h"
 #include "cotan/normal.h"
 #include "cotan/frame.h"
+#include "cotan/history.h"
 #include "cotan/fused.h"
 #include "cotan/triangle.h"
 #include "cotan/pack.h"

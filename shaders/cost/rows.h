@@ -1,5 +1,5 @@
 // What `cotan cost` counts, as portable text: each function is the whole of perturbing a normal, from
-// interpolated inputs and differences to the unit result. Include cotan/lang.h, frame.h and fused.h
+// interpolated inputs and differences to the unit result. Include cotan/lang.h, frame.h, history.h and fused.h
 // first. The fragment shaders (fragment.frag) and the operation counter (src/cost/scalar_count.cpp)
 // call the same text.
 //
@@ -186,7 +186,7 @@ COTAN_FUNCTION cotan_vec3 cost_exact(cost_inputs i)
     return cotan_apply(cotan_frame_exact(i.n, i.dpdx, i.dpdy, i.duvdx, i.duvdy), i.m);
 }
 
-// ---- the other frames of frame.h, which want n unit ------------------------------------------
+// ---- the frames of history.h, which want n unit --------------------------------------------
 
 COTAN_FUNCTION cotan_vec3 cost_cotangent_2013(cost_inputs i)
 {

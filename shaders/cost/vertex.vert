@@ -8,6 +8,7 @@
 #define COTAN_LANG_GLSL
 #include "cotan/lang.h"
 #include "cotan/frame.h"
+#include "cotan/history.h"
 #include "cotan/triangle.h"
 #include "cotan/pack.h"
 layout(location = 0) in vec3 inPosition;

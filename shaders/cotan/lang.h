@@ -3,7 +3,7 @@
 // The same files compile as GLSL 4.50, GLSL ES 3.00, HLSL and C++20. The includer says which by
 // defining exactly one of the macros below; nothing is guessed from what a compiler predefines.
 // No file of the portable text includes another, so that it also works where shader sources are
-// simply joined. Order: lang.h first, then normal.h, frame.h (or fused.h alone), gradient.h, blend.h,
+// simply joined. Order: lang.h first, then normal.h, frame.h (or fused.h alone), history.h, gradient.h, blend.h,
 // light.h, sheen.h as needed.
 //
 //   COTAN_LANG_GLSL   GLSL 4.50 and GLSL ES 3.00

@@ -9,6 +9,7 @@
 
 #include "cotan/scene/normal_format.hpp"
 #include "cotan/scene/texture_sample.hpp"
+#include "cotan/vector.hpp"
 
 namespace cotan {
 
@@ -101,8 +102,7 @@ glm::vec3 HighNormalMaps::normalAt(std::uint32_t instance, std::uint32_t triangl
     const glm::dvec3 m = f64::cotan_decode(glm::dvec3(texelAt(*part.image, part.sampler, uv)), part.format);
     const LowPoint point = pointOf(s, triangle, b1, b2);
     const glm::dvec3 n = perturb(point.frame, m).raw(); // the frame's own n for a texel without direction
-    const double size = glm::length(n);
-    return size > 0 && std::isfinite(size) ? glm::vec3(n / size) : smooth;
+    return glm::vec3(unitOr(n, glm::dvec3(smooth)));
 }
 
 } // namespace cotan

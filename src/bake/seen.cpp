@@ -6,6 +6,7 @@
 
 #include "baker.hpp"
 #include "cotan/parallel/loops.hpp"
+#include "cotan/scene/camera_axes.hpp"
 
 namespace cotan {
 
@@ -17,8 +18,8 @@ constexpr float kUpright = -1e-3f; // cosine down to which a front faces outward
 
 glm::vec3 rayThrough(const View& view, const Camera& c, int x, int y)
 {
-    const glm::vec3 forward = glm::normalize(c.target - c.eye);
-    const glm::vec3 right = glm::normalize(glm::cross(forward, c.up)), up = glm::cross(right, forward);
+    const CameraAxes axes = cameraAxes(c);
+    const glm::vec3 forward(axes.forward), right(axes.right), up(axes.up);
     const float t = std::tan(c.verticalFieldOfView / 2);
     const float aspect = float(view.width) / float(view.height);
     const float px = (float(x) + 0.5f) / float(view.width) * 2 - 1, py = 1 - (float(y) + 0.5f) / float(view.height) * 2;

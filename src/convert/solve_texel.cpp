@@ -7,6 +7,7 @@
 #include <glm/trigonometric.hpp>
 
 #include "cotan/angle.hpp"
+#include "cotan/vector.hpp"
 
 namespace cotan {
 
@@ -15,18 +16,14 @@ namespace {
 constexpr int kSteps = 12;       // quadratic convergence: four or five do
 constexpr double kStill = 1e-10; // a step this short ends it
 
-glm::dvec3 unitOr(glm::dvec3 v, glm::dvec3 otherwise)
-{
-    const double length = glm::length(v);
-    return length > 1e-12 && std::isfinite(length) ? v / length : otherwise;
-}
+constexpr double kShortest = 1e-12; // a vector that has a direction
 
 double costOf(std::span<const Demand> demands, glm::dvec3 texel)
 {
     double cost = 0;
     for (const Demand& d : demands)
         if (invertible(d.frame)) {
-            const glm::dvec3 r = unitOr(d.frame * texel, glm::dvec3(0)) - d.target;
+            const glm::dvec3 r = unitOr(d.frame * texel, glm::dvec3(0), kShortest) - d.target;
             cost += glm::dot(r, r);
         }
     return cost;
@@ -71,7 +68,7 @@ glm::dvec3 solveTexel(std::span<const Demand> demands, glm::dvec3 otherwise)
     std::size_t count = 0;
     for (const Demand& d : demands)
         if (invertible(d.frame)) {
-            const glm::dvec3 own = unitOr(glm::inverse(d.frame) * d.target, glm::dvec3(0, 0, 1));
+            const glm::dvec3 own = unitOr(glm::inverse(d.frame) * d.target, glm::dvec3(0, 0, 1), kShortest);
             first = count == 0 ? own : first;
             sum += own;
             ++count;
@@ -80,7 +77,7 @@ glm::dvec3 solveTexel(std::span<const Demand> demands, glm::dvec3 otherwise)
         return otherwise;
     if (count == 1)
         return first;
-    glm::dvec3 texel = unitOr(sum, first);
+    glm::dvec3 texel = unitOr(sum, first, kShortest);
     double cost = costOf(demands, texel);
     for (int i = 0; i < kSteps && cost > 1e-18; ++i) {
         glm::dvec3 step = stepFrom(demands, texel);
@@ -88,7 +85,7 @@ glm::dvec3 solveTexel(std::span<const Demand> demands, glm::dvec3 otherwise)
             break;
         bool better = false;
         for (int halving = 0; halving < 6 && !better; ++halving, step *= 0.5) {
-            const glm::dvec3 tried = unitOr(texel + step, texel);
+            const glm::dvec3 tried = unitOr(texel + step, texel, kShortest);
             const double triedCost = costOf(demands, tried);
             better = triedCost < cost;
             if (better) {

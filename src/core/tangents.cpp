@@ -1,4 +1,5 @@
 #include "cotan/tangents.hpp"
+#include "cotan/vector.hpp"
 
 #include <algorithm>
 #include <array>
@@ -22,8 +23,7 @@ constexpr std::size_t kLeastCorners = 100000; // of a thread
 glm::vec3 alongU(const Edges& e)
 {
     const glm::dvec3 t = (e.dp1 * e.duv2.y - e.dp2 * e.duv1.y) * (e.uvArea() < 0 ? -1.0 : 1.0);
-    const double length = glm::length(t);
-    return length > 0 && std::isfinite(length) ? glm::vec3(t / length) : glm::vec3(0);
+    return unitOrZero(t);
 }
 
 } // namespace

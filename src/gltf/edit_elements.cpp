@@ -3,6 +3,7 @@
 #include <numeric>
 
 #include "cotan/scene/texture_uv.hpp"
+#include "cotan/vector.hpp"
 #include "edit_state.hpp"
 #include "vertices.hpp"
 
@@ -83,7 +84,7 @@ void readTexcoords(const GltfDocument& document, const gltf::Primitive& primitiv
     out.texcoords =
         readAttribute<glm::vec2>(document, primitive, fmt::format("TEXCOORD_{}", map.texcoord), choice, field);
     for (glm::vec2& uv : out.texcoords) {
-        if (!std::isfinite(uv.x) || !std::isfinite(uv.y))
+        if (!isFinite(uv))
             uv = glm::vec2(0);
         if (map.moves())
             uv = moveUv(map.uRow, map.vRow, uv);

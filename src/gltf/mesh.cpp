@@ -7,13 +7,9 @@
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 
-namespace cotan {
+#include "cotan/vector.hpp"
 
-glm::vec3 unitOrZero(glm::dvec3 v)
-{
-    const double length = glm::length(v);
-    return length > 0 && std::isfinite(length) ? glm::vec3(v / length) : glm::vec3(0);
-}
+namespace cotan {
 
 namespace {
 
@@ -172,7 +168,7 @@ Mesh finishGltfMesh(GltfPrimitive&& source, int normalMapSet, GltfWarnings& warn
     mesh.colors = std::move(source.colors);
     mesh.indices = std::move(source.triangles);
     for (const glm::vec3& p : mesh.positions)
-        if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z))
+        if (!isFinite(p))
             failGltf("{}: a position is beyond the range of float once it is morphed and skinned", source.field);
     if (mesh.normals.empty()) {
         warnings.add(source.field, "no NORMAL, flat normals are made");

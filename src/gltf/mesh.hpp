@@ -37,9 +37,6 @@ std::optional<GltfPrimitive> readGltfPrimitive(GltfModel& model, int mesh, std::
 // does the winding.
 void skinGltfPrimitive(GltfPrimitive& primitive, const std::vector<glm::dmat4>& joints, GltfWarnings& warnings);
 
-// Zero where there is no direction: a zero vector, or one that is not finite.
-glm::vec3 unitOrZero(glm::dvec3 v);
-
 // The unit vector of a normal. One that is unit up to rounding keeps its bits: normalising again would make some equal
 // that differ, and weld their vertices. Zero where it has no length.
 glm::vec3 unitNormal(const glm::vec3& normal);

@@ -6,6 +6,8 @@
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 
+#include "cotan/vector.hpp"
+
 namespace cotan {
 
 namespace {
@@ -79,14 +81,6 @@ std::vector<int> rootsOf(const std::vector<int>& parents)
         if (parents[static_cast<std::size_t>(i)] < 0)
             roots.push_back(i);
     return roots;
-}
-
-bool isFinite(const glm::mat4& m)
-{
-    for (int i = 0; i < 16; ++i)
-        if (!std::isfinite(m[i / 4][i % 4]))
-            return false;
-    return true;
 }
 
 std::vector<glm::dmat4> worldMatrices(GltfModel& model, const std::vector<int>& parents)

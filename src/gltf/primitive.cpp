@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "cotan/vector.hpp"
 #include "mesh.hpp"
 #include "vertices.hpp"
 
@@ -32,7 +33,7 @@ void replaceUnusable(std::vector<glm::vec2>& texcoords, const std::string& field
 {
     std::size_t bad = 0;
     for (glm::vec2& uv : texcoords) {
-        if (!std::isfinite(uv.x) || !std::isfinite(uv.y)) {
+        if (!isFinite(uv)) {
             uv = glm::vec2(0);
             ++bad;
         }

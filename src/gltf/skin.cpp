@@ -5,6 +5,7 @@
 #include <glm/geometric.hpp>
 
 #include "cotan/covector.hpp"
+#include "cotan/vector.hpp"
 #include "mesh.hpp"
 
 namespace cotan {

@@ -6,16 +6,11 @@
 #include <glm/mat3x3.hpp>
 
 #include "cotan/scene/texture_uv.hpp"
+#include "cotan/vector.hpp"
 
 namespace cotan {
 
 namespace {
-
-glm::vec3 unitOrZero(const glm::dvec3& v)
-{
-    const double length = glm::length(v);
-    return length > 0 && std::isfinite(length) ? glm::vec3(v / length) : glm::vec3(0);
-}
 
 } // namespace
 

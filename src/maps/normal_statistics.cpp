@@ -1,4 +1,5 @@
 #include "cotan/maps/normal_statistics.hpp"
+#include "cotan/vector.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -82,11 +83,6 @@ struct Curve {
     float operator()(float c) const { return table[std::size_t(std::clamp(c, 0.0f, 1.0f) * 255 + 0.5f)]; }
 };
 
-bool finite(const glm::vec4& t)
-{
-    return std::isfinite(t.x) && std::isfinite(t.y) && std::isfinite(t.z) && std::isfinite(t.w);
-}
-
 bool allAlike(const Image& image)
 {
     const std::size_t pixel = image.bytesPerPixel(), bytes = image.pixelCount() * pixel;
@@ -135,7 +131,7 @@ void addStoredValues(const Image& image, Sums& sums)
         if (outsideCharts(t) || (t == left && bits != 32 && !usableLength(glm::length(exact))))
             return;
         s.range.add(t);
-        if (!finite(t))
+        if (!isFinite(t))
             return;
         ++s.finite;
         s.grey += grey;
@@ -235,7 +231,7 @@ void addDirections(const Image& image, const Convention& convention, Transfer tr
             return;
         }
         const bool alike = t == left;
-        if (transfer != Transfer::linear && finite(t)) {
+        if (transfer != Transfer::linear && isFinite(t)) {
             const Curve& curve = transfer == Transfer::srgb ? decoded : encoded;
             t = {curve(t.x), curve(t.y), curve(t.z), t.w};
         }

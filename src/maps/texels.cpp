@@ -9,6 +9,7 @@
 #include <glm/geometric.hpp>
 
 #include "cotan/parallel/loops.hpp"
+#include "cotan/vector.hpp"
 
 namespace cotan::maps {
 
@@ -17,8 +18,6 @@ namespace {
 // Any of these is enough to tell a shape apart; three codes of 8 bits.
 constexpr float kSame = 3.0f / 255;
 constexpr float kShortestTexel = 1e-3f;
-
-bool finite(const glm::vec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
 
 // cotan_decode with "along v" read as "up the picture".
 f32::cotan_normal_format pictureFormat(const Convention& c, PixelType type)
@@ -32,7 +31,7 @@ glm::vec3 decode(const glm::vec4& t, const f32::cotan_normal_format& format)
 {
     const bool two = format.channels != COTAN_CHANNELS_XYZ;
     const glm::vec3 stored(t.x, t.y, two ? 0.5f : t.z);
-    if (!finite(stored))
+    if (!isFinite(stored))
         return glm::vec3(0);
     const glm::vec3 m = f32::cotan_decode(stored, format);
     const float length2 = glm::dot(m, m); // neither lost nor so long that its square is lost
@@ -163,7 +162,7 @@ void decodeRow(const Image& image, int row, const Convention& convention, std::s
 
 glm::vec4 encodeTexel(glm::vec3 normal, const Convention& convention, PixelType type, bool keepLength)
 {
-    if (!finite(normal) || glm::dot(normal, normal) < kShortestTexel * kShortestTexel)
+    if (!isFinite(normal) || glm::dot(normal, normal) < kShortestTexel * kShortestTexel)
         normal = glm::vec3(0, 0, 1);
     const auto format = pictureFormat(convention, type);
     if (keepLength && convention.channels == Channels::xyz) {

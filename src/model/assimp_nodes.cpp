@@ -8,6 +8,7 @@
 #include <glm/geometric.hpp>
 
 #include "assimp_convert.hpp"
+#include "cotan/vector.hpp"
 
 namespace cotan {
 
@@ -19,15 +20,6 @@ constexpr float kPi = 3.14159265f;
 glm::mat4 toGlm(const aiMatrix4x4& m)
 {
     return {m.a1, m.b1, m.c1, m.d1, m.a2, m.b2, m.c2, m.d2, m.a3, m.b3, m.c3, m.d3, m.a4, m.b4, m.c4, m.d4};
-}
-
-bool finite(const glm::mat4& m)
-{
-    for (int column = 0; column < 4; ++column)
-        for (int row = 0; row < 4; ++row)
-            if (!std::isfinite(m[column][row]))
-                return false;
-    return true;
 }
 
 void addCamera(const aiCamera& source, const glm::mat4& toWorld, Scene& scene)
@@ -84,7 +76,7 @@ Status convertNodes(const aiScene& source, const std::string& file, const std::v
         if (visited >= limits.nodes)
             return inputError(fmt::format("{}: over the limit of {} nodes", file, limits.nodes));
         visit.toWorld = visit.toWorld * toGlm(visit.node->mTransformation);
-        if (!finite(visit.toWorld))
+        if (!isFinite(visit.toWorld))
             return inputError(fmt::format("{}: node {}: expected a finite transform", file, visit.node->mName.C_Str()));
         addInstances(visit, meshes, scene);
         if (const auto camera = cameras.find(visit.node->mName.C_Str()); camera != cameras.end())

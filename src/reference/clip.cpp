@@ -4,6 +4,8 @@
 
 #include <glm/geometric.hpp>
 
+#include "cotan/vector.hpp"
+
 namespace cotan::reference {
 
 namespace {
@@ -36,11 +38,6 @@ Polygon cut(const Polygon& polygon, glm::dvec4 plane)
             break;
     }
     return result;
-}
-
-bool isFinite(glm::dvec4 v)
-{
-    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z) && std::isfinite(v.w);
 }
 
 } // namespace

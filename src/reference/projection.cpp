@@ -7,25 +7,20 @@
 #include <glm/matrix.hpp>
 
 #include "cotan/scene/bounds.hpp"
+#include "cotan/scene/camera_axes.hpp"
+#include "cotan/vector.hpp"
 
 namespace cotan::reference {
 
 namespace {
 
-glm::dvec3 normalizeOr(glm::dvec3 v, glm::dvec3 otherwise)
-{
-    double length = glm::length(v);
-    return std::isfinite(length) && length > 1e-30 ? v / length : otherwise;
-}
+constexpr double kShortest = 1e-30; // a vector that has a direction
 
-// A right-handed basis that looks along `direction` (unit).
-void lookAlong(Projection& p, glm::dvec3 direction, glm::dvec3 up)
+void lookAlong(Projection& p, const CameraAxes& axes)
 {
-    glm::dvec3 sideways = std::abs(direction.y) < 0.9 ? glm::dvec3(0, 1, 0) : glm::dvec3(0, 0, 1);
-    glm::dvec3 fallback = glm::normalize(glm::cross(direction, sideways));
-    p.forward = direction;
-    p.right = normalizeOr(glm::cross(direction, normalizeOr(up, sideways)), fallback);
-    p.up = glm::cross(p.right, direction);
+    p.forward = axes.forward;
+    p.right = axes.right;
+    p.up = axes.up;
 }
 
 // A row of a matrix: what is dotted with (x, y, z, 1).
@@ -53,13 +48,13 @@ Projection cameraProjection(const View& view, const Ball& ball)
 {
     const Camera& camera = view.camera;
     Projection p;
-    p.origin = camera.eye;
+    const CameraAxes axes = cameraAxes(camera);
+    p.origin = axes.eye;
     p.width = view.width;
     p.height = view.height;
     p.orthographic = camera.orthographic;
     p.rowsUpward = view.rowsUpward;
-    glm::dvec3 toTarget = glm::dvec3(camera.target) - glm::dvec3(camera.eye);
-    lookAlong(p, normalizeOr(toTarget, {0, 0, -1}), glm::dvec3(camera.up));
+    lookAlong(p, axes);
 
     double reach = glm::length(ball.centre - p.origin) + ball.radius;
     double halfWidth = 0.5 * view.width, halfHeight = 0.5 * view.height;
@@ -97,7 +92,7 @@ Projection shadowProjection(glm::dvec3 direction, const Ball& ball, glm::dvec3 o
     p.origin = origin;
     p.width = p.height = texels;
     p.orthographic = true;
-    lookAlong(p, normalizeOr(direction, {0, -1, 0}), {0, 1, 0});
+    lookAlong(p, axesAlong(unitOr(direction, {0, -1, 0}, kShortest), {0, 1, 0}));
     // One texel of margin, so that the filter finds no edge at the border of the map.
     double pixels = 0.5 * (texels - 2) / ball.radius;
     double depth = 0.5 / (ball.radius * 1.01);
@@ -126,7 +121,7 @@ glm::dvec3 sideways(const Projection& p, double x, double y)
 
 glm::vec3 rayDirection(const Projection& p, double x, double y)
 {
-    return glm::vec3(p.orthographic ? p.forward : normalizeOr(p.forward + sideways(p, x, y), p.forward));
+    return glm::vec3(p.orthographic ? p.forward : unitOr(p.forward + sideways(p, x, y), p.forward, kShortest));
 }
 
 glm::dvec3 rayOrigin(const Projection& p, double x, double y)

@@ -181,9 +181,7 @@ Result<Image> renderReference(const Scene& scene, const View& view, int threads,
         if (!ok)
             return ok.error();
     try {
-        std::optional<Result<Image>> picture;
-        withThreads(threads, [&] { picture = draw(scene, view, progress); });
-        return std::move(*picture);
+        return withThreads(threads, [&] { return draw(scene, view, progress); });
     } catch (const TooManyLayers&) {
         return unavailableError("reference renderer: more than " + std::to_string(kMostLayers)
                                 + " translucent fragments in a tile of 32x32 pixels");

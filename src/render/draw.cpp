@@ -8,9 +8,9 @@
 
 #include "cotan/portable.hpp"
 #include "cotan/scene/environment.hpp"
-#include "cotan/scene/geometry.hpp"
 #include "cotan/scene/ground.hpp"
 #include "cotan/scene/sample_places.hpp"
+#include "cotan/vector.hpp"
 
 namespace cotan {
 
@@ -103,7 +103,7 @@ Drawer::Drawer(const Device& device, const Layouts& layouts)
     composeSet_ = allocateSet(device, pool_, layouts.picture);
 }
 
-Drawer::DrawLists Drawer::makeLists(const GpuScene& scene, const View& view, const Axes& axes) const
+Drawer::DrawLists Drawer::makeLists(const GpuScene& scene, const View& view, const CameraAxes& axes) const
 {
     DrawLists lists;
     for (const GpuInstance& instance : scene.instances) {
@@ -133,7 +133,7 @@ Drawer::DrawLists Drawer::makeLists(const GpuScene& scene, const View& view, con
     return lists;
 }
 
-void Drawer::prepare(const View& view, const Axes& axes, const gpu::CotanView& constants, bool layered)
+void Drawer::prepare(const View& view, const CameraAxes& axes, const gpu::CotanView& constants, bool layered)
 {
     std::memcpy(viewBuffer_.mapped, &constants, sizeof constants);
     const std::vector<gpu::CotanLight> lights = lightConstants(view, axes);

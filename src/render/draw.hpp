@@ -65,10 +65,10 @@ private:
 
     // sample: the one of kPlaces that is drawn as the only one.
     Result<Image> drawOnce(GpuScene& scene, const View& view, std::optional<int> sample, RenderTimings& timings);
-    DrawLists makeLists(const GpuScene& scene, const View& view, const Axes& axes) const;
+    DrawLists makeLists(const GpuScene& scene, const View& view, const CameraAxes& axes) const;
     void setAreas(DrawLists& lists, const View& view, const gpu::CotanView& constants) const;
     void beginPipelines(const DrawLists& lists, const View& view, bool layered);
-    void prepare(const View& view, const Axes& axes, const gpu::CotanView& constants, bool layered);
+    void prepare(const View& view, const CameraAxes& axes, const gpu::CotanView& constants, bool layered);
     void prepareShadowMap(bool needed);
     void prepareLayers();
     void writePictureSet(bool layered);

@@ -94,7 +94,7 @@ void Drawer::finish(const vk::raii::CommandBuffer& commands, const PixelArea& ar
 
 Result<Image> Drawer::drawOnce(GpuScene& scene, const View& view, std::optional<int> sample, RenderTimings& timings)
 {
-    const Axes axes = cameraAxes(view.camera);
+    const CameraAxes axes = cameraAxes(view.camera);
     scene.setPointSampled(view.pointSampled);
     DrawLists lists = makeLists(scene, view, axes);
     const bool layered = view.output == Output::shaded && !lists.translucent.empty();

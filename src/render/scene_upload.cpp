@@ -87,13 +87,13 @@ std::array<StreamData, kStreamCount> streamsOf(const Mesh& mesh, const RelativeT
             StreamData{bytesOf(std::span(&texcoords.origin, 1)), 0}};
 }
 
-bool finite(const glm::vec3& p) { return std::abs(p.x) + std::abs(p.y) + std::abs(p.z) <= 1e37f; }
+bool drawable(const glm::vec3& p) { return std::abs(p.x) + std::abs(p.y) + std::abs(p.z) <= 1e37f; }
 
 // The triangles that can be drawn.
 std::vector<std::uint32_t> usableIndices(const Mesh& mesh)
 {
     const std::size_t n = mesh.vertexCount();
-    const auto usable = [&](std::uint32_t i) { return i < n && finite(mesh.positions[i]); };
+    const auto usable = [&](std::uint32_t i) { return i < n && drawable(mesh.positions[i]); };
     std::vector<std::uint32_t> result;
     result.reserve(mesh.indices.size());
     for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {

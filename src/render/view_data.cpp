@@ -9,6 +9,7 @@
 #include "cotan/covector.hpp"
 #include "cotan/scene/environment.hpp"
 #include "cotan/scene/ground.hpp"
+#include "cotan/vector.hpp"
 
 namespace cotan {
 
@@ -16,24 +17,7 @@ namespace {
 
 using glm::dvec3;
 
-bool finite(const dvec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
-
-dvec3 unitOr(const dvec3& v, const dvec3& otherwise)
-{
-    const double length = glm::length(v);
-    return finite(v) && length > 1e-30 && length < 1e30 ? v / length : otherwise;
-}
-
-// Two axes perpendicular to the unit vector w; the second is as near to `up` as can be.
-void sideAxes(const dvec3& w, const dvec3& up, dvec3& right, dvec3& upwards)
-{
-    const dvec3 other = std::abs(w.y) < 0.9 ? dvec3(0, 1, 0) : dvec3(0, 0, -1);
-    dvec3 side = glm::cross(w, unitOr(up, other));
-    if (glm::length(side) < 1e-6)
-        side = glm::cross(w, other);
-    right = glm::normalize(side);
-    upwards = glm::cross(right, w);
-}
+constexpr double kShortest = 1e-30; // a vector that has a direction
 
 double positiveOr(float value, double otherwise)
 {
@@ -70,7 +54,7 @@ Range extent(const Bounds& bounds, const dvec3& axis, const dvec3& origin)
 }
 
 // Distance from the eye to the far side of the scene.
-double reach(const Axes& axes, const Bounds& bounds)
+double reach(const CameraAxes& axes, const Bounds& bounds)
 {
     if (bounds.empty())
         return 1;
@@ -79,7 +63,7 @@ double reach(const Axes& axes, const Bounds& bounds)
 }
 
 // Depth is reversed (1 near, 0 far): float has its precision at 0, where perspective needs it.
-void perspectiveRows(gpu::CotanView& g, const View& view, const Axes& axes, const Bounds& bounds)
+void perspectiveRows(gpu::CotanView& g, const View& view, const CameraAxes& axes, const Bounds& bounds)
 {
     const double fov = positiveOr(view.camera.verticalFieldOfView, 0.785398);
     const double tanY = std::tan(std::min(fov, 3.1) / 2);
@@ -96,7 +80,7 @@ void perspectiveRows(gpu::CotanView& g, const View& view, const Axes& axes, cons
 }
 
 // From the eye's plane to behind the scene.
-void orthographicRows(gpu::CotanView& g, const View& view, const Axes& axes, const Bounds& bounds)
+void orthographicRows(gpu::CotanView& g, const View& view, const CameraAxes& axes, const Bounds& bounds)
 {
     const double halfY = positiveOr(view.camera.verticalExtent, 2) / 2;
     const double halfX = halfY * view.width / view.height;
@@ -118,15 +102,12 @@ const Light* shadowLight(const View& view)
 }
 
 // An orthographic view along the light, square, just around the scene.
-void shadowRows(gpu::CotanView& g, const Light& light, float softness, const Axes& axes, const Bounds& bounds)
+void shadowRows(gpu::CotanView& g, const Light& light, float softness, const CameraAxes& axes, const Bounds& bounds)
 {
-    const dvec3 forward = unitOr(dvec3(light.direction), dvec3(0, -1, 0));
-    dvec3 right;
-    dvec3 up;
-    sideAxes(forward, dvec3(0, 1, 0), right, up);
-    const Range x = extent(bounds, right, axes.eye);
-    const Range y = extent(bounds, up, axes.eye);
-    const Range z = extent(bounds, forward, axes.eye);
+    const CameraAxes along = axesAlong(unitOr(dvec3(light.direction), dvec3(0, -1, 0), kShortest), dvec3(0, 1, 0));
+    const Range x = extent(bounds, along.right, axes.eye);
+    const Range y = extent(bounds, along.up, axes.eye);
+    const Range z = extent(bounds, along.forward, axes.eye);
     // Four texels of margin keep the filter inside the map.
     const double margin = 1 + 8.0 / kShadowSize;
     const double size = std::max({x.high - x.low, y.high - y.low, 1e-6}) * margin;
@@ -134,16 +115,16 @@ void shadowRows(gpu::CotanView& g, const Light& light, float softness, const Axe
     const auto unitRow = [&](const dvec3& axis, Range range, double length) {
         return row(axis / length, 0.5 - (range.low + range.high) / 2 / length);
     };
-    g.shadowX = unitRow(right, x, size);
-    g.shadowY = unitRow(up, y, size);
-    g.shadowZ = unitRow(forward, z, deep);
+    g.shadowX = unitRow(along.right, x, size);
+    g.shadowY = unitRow(along.up, y, size);
+    g.shadowZ = unitRow(along.forward, z, deep);
     const double texel = size / kShadowSize;
     // Half a texel of depth, for what the offset along the normal leaves.
     g.shadow = gpu::vec4(float(texel), float(kShadowSize), float(0.5 * texel / deep), 0);
     g.soft = gpu::vec4(float(softness * deep / size), kWidestPenumbra, float(size / deep), 0);
 }
 
-void groundRows(gpu::CotanView& g, const GroundMap& map, const Axes& axes)
+void groundRows(gpu::CotanView& g, const GroundMap& map, const CameraAxes& axes)
 {
     const glm::dvec2 scale = 1.0 / glm::dvec2(map.extent);
     const glm::dvec2 offset = (glm::dvec2(axes.eye.x, axes.eye.z) - glm::dvec2(map.low)) * scale;
@@ -163,16 +144,7 @@ void moveSample(gpu::CotanView& g, const View& view, glm::dvec2 place)
 
 } // namespace
 
-Axes cameraAxes(const Camera& camera)
-{
-    Axes axes;
-    axes.eye = finite(dvec3(camera.eye)) ? dvec3(camera.eye) : dvec3(0);
-    axes.forward = unitOr(dvec3(camera.target) - axes.eye, dvec3(0, 0, -1));
-    sideAxes(axes.forward, dvec3(camera.up), axes.right, axes.up);
-    return axes;
-}
-
-gpu::CotanView viewConstants(const View& view, const Axes& axes, const Bounds& bounds, glm::dvec2 place)
+gpu::CotanView viewConstants(const View& view, const CameraAxes& axes, const Bounds& bounds, glm::dvec2 place)
 {
     gpu::CotanView g{};
     if (view.camera.orthographic)
@@ -219,7 +191,7 @@ PixelArea around(const PixelArea& a, const PixelArea& b)
 
 bool castsShadow(const View& view) { return view.shadows && shadowLight(view) != nullptr; }
 
-std::vector<gpu::CotanLight> lightConstants(const View& view, const Axes& axes)
+std::vector<gpu::CotanLight> lightConstants(const View& view, const CameraAxes& axes)
 {
     std::vector<gpu::CotanLight> result;
     result.reserve(view.lights.size() + 1);
@@ -228,7 +200,7 @@ std::vector<gpu::CotanLight> lightConstants(const View& view, const Axes& axes)
         gpu::CotanLight g{};
         const double kind = light.kind == LightKind::directional ? 0 : light.kind == LightKind::point ? 1 : 2;
         g.position = row(dvec3(light.position) - axes.eye, kind);
-        g.direction = row(unitOr(dvec3(light.direction), dvec3(0, -1, 0)), light.range);
+        g.direction = row(unitOr(dvec3(light.direction), dvec3(0, -1, 0), kShortest), light.range);
         g.color = row(dvec3(light.color) * double(light.intensity), &light == caster ? 1 : 0);
         const float outer = std::cos(light.outerCone);
         // Equal cones would divide zero by zero.
@@ -262,7 +234,7 @@ gpu::CotanDraw drawConstants(const glm::mat4& toWorld, const glm::dvec3& eye)
     return g;
 }
 
-double eyeDistance(const glm::mat4& toWorld, const glm::vec3& point, const Axes& axes)
+double eyeDistance(const glm::mat4& toWorld, const glm::vec3& point, const CameraAxes& axes)
 {
     const dvec3 p = dvec3(glm::dmat4(toWorld) * glm::dvec4(dvec3(point), 1));
     const double distance = glm::length(p - axes.eye);

@@ -6,6 +6,7 @@
 
 #include <glm/mat4x4.hpp>
 
+#include "cotan/scene/camera_axes.hpp"
 #include "cotan/scene/view.hpp"
 #include "gpu_structs.hpp"
 
@@ -13,20 +14,9 @@ namespace cotan {
 
 inline constexpr int kShadowSize = 2048; // texels a side
 
-// Eye and axes of a camera: right, up and forward unit and perpendicular to one another.
-// A camera that looks nowhere (eye = target) looks along -z; one that looks along its up vector
-// takes another.
-struct Axes {
-    glm::dvec3 eye;
-    glm::dvec3 right;
-    glm::dvec3 up;
-    glm::dvec3 forward;
-};
-Axes cameraAxes(const Camera& camera);
-
 // View, shadow map and background constants. bounds: of the whole scene, world space; may be empty. place: what the
 // middle of a pixel sees, from there in pixels of the raster.
-gpu::CotanView viewConstants(const View& view, const Axes& axes, const Bounds& bounds,
+gpu::CotanView viewConstants(const View& view, const CameraAxes& axes, const Bounds& bounds,
                              glm::dvec2 place = glm::dvec2(0));
 
 // Pixels of the raster, from the first to before the last.
@@ -44,7 +34,7 @@ PixelArea around(const PixelArea& a, const PixelArea& b);
 
 // Lights in the order of the view; at least one entry, so that a buffer can be made of it.
 // The first directional light is marked as the one that casts the shadow.
-std::vector<gpu::CotanLight> lightConstants(const View& view, const Axes& axes);
+std::vector<gpu::CotanLight> lightConstants(const View& view, const CameraAxes& axes);
 
 bool castsShadow(const View& view);
 
@@ -52,6 +42,6 @@ bool castsShadow(const View& view);
 gpu::CotanDraw drawConstants(const glm::mat4& toWorld, const glm::dvec3& eye);
 
 // Distance from the eye to a point of the mesh; 0 where that is not finite.
-double eyeDistance(const glm::mat4& toWorld, const glm::vec3& point, const Axes& axes);
+double eyeDistance(const glm::mat4& toWorld, const glm::vec3& point, const CameraAxes& axes);
 
 } // namespace cotan

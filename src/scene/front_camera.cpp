@@ -8,6 +8,8 @@
 #include <glm/geometric.hpp>
 
 #include "cotan/scene/bounds.hpp"
+#include "cotan/scene/camera_axes.hpp"
+#include "cotan/vector.hpp"
 
 namespace cotan {
 
@@ -74,7 +76,8 @@ Camera frontCamera(const Scene& scene, int width, int height)
     const glm::vec3 size = box.high - box.low;
     const bool flat = size.z < kFlat * std::max(size.x, size.y);
     const dvec3 back = flat ? dvec3(0, 0, 1) : glm::normalize(dvec3(0.36, 0.24, 1));
-    const dvec3 right = glm::normalize(glm::cross(dvec3(0, 1, 0), back)), up = glm::cross(back, right);
+    const CameraAxes axes = axesAlong(-back, dvec3(0, 1, 0));
+    const dvec3 right = axes.right, up = axes.up;
     const dvec3 middle = dvec3(box.low) * 0.5 + dvec3(box.high) * 0.5;
 
     // A point at x, y, z of these axes is inside while |x - eye.x| <= tanX (eye.z - z): each point moves four planes.
@@ -84,7 +87,7 @@ Camera frontCamera(const Scene& scene, int width, int height)
     double east = least, west = least, north = least, south = least, nearest = least;
     forEachFramedPoint(scene, [&](const glm::mat4& toWorld, const glm::vec3& point) {
         const dvec3 p = dvec3(glm::dmat4(toWorld) * glm::dvec4(dvec3(point), 1)) - middle;
-        if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z))
+        if (!isFinite(p))
             return;
         const double x = glm::dot(p, right), y = glm::dot(p, up), z = glm::dot(p, back);
         east = std::max(east, x + tanX * z);

@@ -6,13 +6,13 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
+#include "cotan/scene/camera_axes.hpp"
 #include "cotan/scene/texture_uv.hpp"
+#include "cotan/vector.hpp"
 
 namespace cotan {
 
 namespace {
-
-bool finite(glm::vec3 v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
 
 constexpr float kVerticalFieldOfView = 0.785398f; // 45 degrees
 constexpr float kMargin = 0.94f;                  // of the half picture that the box may fill
@@ -23,8 +23,8 @@ const glm::vec3 kFrontRightAbove{0.40f, 0.35f, 1.0f};
 // the picture with the margin.
 float distanceToSee(glm::vec3 halfSize, glm::vec3 back, float tanX, float tanY)
 {
-    const glm::vec3 right = glm::normalize(glm::cross(glm::vec3(0, 1, 0), back));
-    const glm::vec3 up = glm::cross(back, right);
+    const CameraAxes axes = axesAlong(-glm::dvec3(back), glm::dvec3(0, 1, 0));
+    const glm::vec3 right(axes.right), up(axes.up);
     float distance = 0;
     for (int corner = 0; corner < 8; ++corner) {
         const glm::vec3 p = halfSize * glm::vec3(corner & 1 ? 1 : -1, corner & 2 ? 1 : -1, corner & 4 ? 1 : -1);
@@ -36,21 +36,12 @@ float distanceToSee(glm::vec3 halfSize, glm::vec3 back, float tanX, float tanY)
 
 } // namespace
 
-bool isFinite(const glm::mat4& m)
-{
-    float sum = 0;
-    for (int column = 0; column < 4; ++column)
-        for (int row = 0; row < 4; ++row)
-            sum += std::abs(m[column][row]);
-    return std::isfinite(sum);
-}
-
 Camera fitCamera(const Bounds& box, int width, int height)
 {
     Camera camera;
     camera.name = "fit";
     camera.verticalFieldOfView = kVerticalFieldOfView;
-    if (box.empty() || !finite(box.low) || !finite(box.high))
+    if (box.empty() || !isFinite(box.low) || !isFinite(box.high))
         return camera;
 
     // Halved before they are subtracted, so that the largest floats do not overflow.
@@ -67,7 +58,7 @@ Camera fitCamera(const Bounds& box, int width, int height)
         distance = std::max(1.0f, std::max({size.x, size.y, size.z}) * 1e-3f);
     }
     const glm::vec3 eye = centre + back * distance;
-    if (!finite(eye)) // a box of nearly the largest floats
+    if (!isFinite(eye)) // a box of nearly the largest floats
         return camera;
     camera.target = centre;
     camera.eye = eye;

@@ -13,8 +13,10 @@
 #include <glm/matrix.hpp>
 
 #include "cotan/covector.hpp"
+#include "cotan/scene/camera_axes.hpp"
 #include "cotan/scene/geometry.hpp"
 #include "cotan/scene/view.hpp"
+#include "cotan/vector.hpp"
 
 namespace cotan {
 
@@ -42,16 +44,12 @@ void append(Mesh& whole, const Mesh& part, const glm::mat4& toWorld)
     const glm::dmat4 place(toWorld);
     const bool mirrored = map.determinant() < 0;
     const auto base = std::uint32_t(whole.positions.size());
-    const auto unit = [](glm::dvec3 v) {
-        const double length = glm::length(v);
-        return length > 0 && std::isfinite(length) ? glm::vec3(v / length) : glm::vec3(0);
-    };
     for (const glm::vec3& p : part.positions)
         whole.positions.emplace_back(place * glm::dvec4(glm::dvec3(p), 1));
     for (const glm::vec3& n : part.normals)
-        whole.normals.push_back(unit(map.planeImage(Covector3d(glm::dvec3(n))).raw()));
+        whole.normals.push_back(unitOrZero(map.planeImage(Covector3d(glm::dvec3(n))).raw()));
     for (const glm::vec4& t : part.tangents)
-        whole.tangents.emplace_back(unit(map(Vector3d(glm::dvec3(t))).raw()), mirrored ? -t.w : t.w);
+        whole.tangents.emplace_back(unitOrZero(map(Vector3d(glm::dvec3(t))).raw()), mirrored ? -t.w : t.w);
     for (std::size_t set = 0; set < 2; ++set)
         whole.texcoords[set].insert(whole.texcoords[set].end(), part.texcoords[set].begin(), part.texcoords[set].end());
     whole.colors.insert(whole.colors.end(), part.colors.begin(), part.colors.end());
@@ -178,9 +176,7 @@ void dropRepeated(Scene& scene)
 double pixelsCovered(const Scene& scene, const View& view)
 {
     const Camera& camera = view.camera;
-    const glm::dvec3 eye(camera.eye), forward = glm::normalize(glm::dvec3(camera.target) - eye);
-    const glm::dvec3 right = glm::normalize(glm::cross(forward, glm::dvec3(camera.up)));
-    const glm::dvec3 up = glm::cross(right, forward);
+    const auto [eye, right, up, forward] = cameraAxes(camera);
     const double scale =
         camera.orthographic ? 2 / double(camera.verticalExtent) : 1 / std::tan(double(camera.verticalFieldOfView) / 2);
     double pixels = 0;

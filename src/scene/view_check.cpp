@@ -1,4 +1,5 @@
 #include "cotan/scene/view_check.hpp"
+#include "cotan/vector.hpp"
 
 #include <cmath>
 #include <optional>
@@ -14,8 +15,6 @@ constexpr float kHalfTurn = 3.14159274f; // radians
 
 // One line, or nothing.
 using ViewProblem = std::optional<std::string>;
-
-bool isFinite(glm::vec3 v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
 
 ViewProblem cameraProblem(const Camera& c)
 {

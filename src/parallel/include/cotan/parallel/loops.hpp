@@ -39,18 +39,15 @@ template<class Index, class Work> void parallelFor(Index first, Index last, cons
     });
 }
 
-// Runs work(), its loops on at most that many threads; 0: as many as the caller may use, else all cores.
-template<class Work> void withThreads(int threads, const Work& work)
+// What work() returns, its loops run on at most that many threads; 0: as many as the caller may use, else all cores.
+template<class Work> auto withThreads(int threads, const Work& work)
 {
 #ifdef COTAN_WITH_TBB
-    if (threads > 0) {
-        oneapi::tbb::task_arena arena(threads);
-        arena.execute(work);
-        return;
-    }
+    if (threads > 0)
+        return oneapi::tbb::task_arena(threads).execute(work);
 #endif
     static_cast<void>(threads);
-    work();
+    return work();
 }
 
 // How many threads a loop that is started here may use.

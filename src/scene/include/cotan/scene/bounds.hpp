@@ -11,6 +11,7 @@
 
 #include "cotan/result.hpp"
 #include "cotan/scene/scene.hpp"
+#include "cotan/vector.hpp"
 
 namespace cotan {
 
@@ -38,7 +39,7 @@ inline Bounds emptyBounds()
 inline void extend(Bounds& box, const glm::mat4& toWorld, const glm::vec3& p)
 {
     const glm::vec3 world(toWorld * glm::vec4(p, 1));
-    if (!std::isfinite(world.x) || !std::isfinite(world.y) || !std::isfinite(world.z))
+    if (!isFinite(world))
         return;
     box.low = glm::min(box.low, world);
     box.high = glm::max(box.high, world);

@@ -15,9 +15,6 @@ namespace cotan {
 // vertex with no usable triangle gets (0,0,1).
 void generateNormals(Mesh& mesh, float creaseDegrees = 180);
 
-// Whether a transform has finite numbers only: other instances are not drawn.
-bool isFinite(const glm::mat4& m);
-
 // A camera that shows the whole box from the front, a little from the right and above.
 // An empty box gives the default camera.
 Camera fitCamera(const Bounds& box, int width, int height);
