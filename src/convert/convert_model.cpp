@@ -49,7 +49,7 @@ public:
             return fits;
         for (const MapJob& job : *jobs)
             surfaces_ += surfacesOf(job);
-        if (jobs->empty())
+        if (jobs->empty() && report_.unread.empty()) // else their notes say why
             report_.notes.push_back("no primitive has a normal map and uv: nothing to convert");
         for (std::size_t k = 0; k < jobs->size(); ++k) {
             const Progress share = partOf(options_.progress, k, jobs->size());

@@ -68,6 +68,12 @@ if (/libdraco/.test(refused.stderr)) skip(refused.stderr);
 assert.equal(refused.status, 3, refused.stderr);
 assert.match(refused.stderr, /BasisU.*gltf-transform ktxdecompress/);
 
+// Its normal map stays, with the tangents that it needs: there is one, though it cannot be read.
+const kept = run(['convert', model, '--to-frame', 'orthonormal', '-o', 'kept.glb']);
+assert.equal(kept.status, 0, kept.stderr);
+assert.match(kept.stderr, /a normal map in KTX2 with BasisU .* stays as it is, and so do the tangents/);
+assert.doesNotMatch(kept.stderr, /no primitive has a normal map/);
+
 // Its stored tangents say that green is the other way than declared. Drawn without them it shows what they mean: one degree
 // is what MikkTSpace and `orthonormal` differ by on coarse models. Its map is flat nearly everywhere: with green as declared,
 // which turns its bumps into dents, the mean is 0.7 degrees, drawn as meant 0.01.
