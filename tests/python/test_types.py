@@ -28,7 +28,8 @@ def check(source, tmp_path_factory):
             file.write_text(program)
         # Silent: of what is inside of an installed package it says nothing.
         done = subprocess.run(
-            [found, "--strict", "--follow-imports=silent", "--python-executable", sys.executable, "--cache-dir", folder / "cache", *files],
+            [found, "--strict", "--follow-imports=silent", "--python-executable", sys.executable]
+            + ["--cache-dir", folder / "cache", *files],
             capture_output=True,
             text=True,
             env={**os.environ, "MYPYPATH": str(source / "bindings/python")},
