@@ -60,7 +60,7 @@ async function withPngTextures(file) {
   return Buffer.concat([head, text, binary, ...parts]);
 }
 
-const run = words => spawnSync(cotan, words, { cwd: folder, encoding: 'utf8' });
+const run = words => spawnSync(path.resolve(cotan), words, { cwd: folder, encoding: 'utf8' });
 
 // Refused as it is, with the command that helps.
 const refused = run(['render', model, '-o', 'no.png']);
