@@ -57,8 +57,7 @@ A part needs the development files of what it is made with; those are
 suggested.")
 set(CPACK_DEBIAN_LIBCOTAN-DEV_PACKAGE_DEPENDS "libcotan0 (= ${version}), libglm-dev")
 set(CPACK_DEBIAN_LIBCOTAN-DEV_PACKAGE_SUGGESTS "cotan (= ${version}), cmake, pkg-config, libassimp-dev, libdraco-dev, libembree-dev, libfmt-dev, \
-libjpeg-dev, libmeshoptimizer-dev, libpng-dev, libtbb-dev, libvulkan-dev, libwebp-dev, libxxhash-dev, libzstd-dev, nlohmann-json3-dev, \
-zlib1g-dev")
+libjpeg-dev, libmeshoptimizer-dev, libpng-dev, libtbb-dev, libvulkan-dev, libwebp-dev, libxxhash-dev, libzstd-dev, zlib1g-dev")
 cotan_package(python3-cotan python "normal mapping without precomputed tangents: Python 3"
 "${about}
 This is the package for Python: bake, lint, convert and render with arrays
@@ -81,6 +80,7 @@ set(COTAN_1_since 0.2.0)
 set(COTAN_2_since 0.2.0)
 set(COTAN_3_since 0.2.0)
 set(COTAN_5_since 0.2.0)
+set(COTAN_6_since 0.2.0)
 file(CONFIGURE OUTPUT ${made}/shlibs CONTENT "libcotan @PROJECT_VERSION_MAJOR@ libcotan0 (>= @PROJECT_VERSION@)\n" @ONLY)
 file(CONFIGURE OUTPUT ${made}/triggers CONTENT "activate-noawait ldconfig\n" @ONLY)
 file(READ src/c/cotan.map script)

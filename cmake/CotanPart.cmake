@@ -1,6 +1,7 @@
-# cotan_part(NAME [SOURCES ...] [PUBLIC ...] [PRIVATE ...])
+# cotan_part(NAME [SOURCES ...] [PUBLIC ...] [PRIVATE ...] [INSIDE ...])
 # One part of the house: a library with its own include folder (src/NAME/include), so that only
-# the parts it links can be included. Without SOURCES it is header-only. A part that links something which is not there
+# the parts it links can be included. Without SOURCES it is header-only. INSIDE: headers that only its own sources read,
+# so that who links it once installed need not have them. A part that links something which is not there
 # is left out: there is no target cotan_NAME then, and find_package(cotan) can say why.
 add_library(cotan_warnings INTERFACE)
 target_compile_options(cotan_warnings INTERFACE
@@ -109,8 +110,8 @@ function(cotan_missing result)
 endfunction()
 
 function(cotan_part name)
-  cmake_parse_arguments(PART "" "" "SOURCES;PUBLIC;PRIVATE" ${ARGN})
-  cotan_missing(missing ${PART_PUBLIC} ${PART_PRIVATE})
+  cmake_parse_arguments(PART "" "" "SOURCES;PUBLIC;PRIVATE;INSIDE" ${ARGN})
+  cotan_missing(missing ${PART_PUBLIC} ${PART_PRIVATE} ${PART_INSIDE})
   if(missing)
     cotan_leave_out(${name} "${missing}")
     return()
@@ -121,6 +122,9 @@ function(cotan_part name)
     target_include_directories(cotan_${name} PUBLIC ${includes})
     target_link_libraries(cotan_${name} PUBLIC ${PART_PUBLIC}
       PRIVATE ${PART_PRIVATE} $<BUILD_INTERFACE:cotan_warnings>)
+    foreach(target ${PART_INSIDE})
+      target_link_libraries(cotan_${name} PRIVATE $<BUILD_INTERFACE:${target}>)
+    endforeach()
     cotan_library(cotan_${name})
     if(EMSCRIPTEN)
       target_compile_options(cotan_${name} PRIVATE -Oz)

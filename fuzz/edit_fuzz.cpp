@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "cotan/gltf/edit.hpp"
+#include "cotan/gltf/lookup.hpp"
 #include "cotan/image/file.hpp"
 #include "scene_checks.hpp"
 
@@ -21,8 +22,8 @@ struct Primitive {
 std::vector<Primitive> primitivesOf(const GltfDocument& document)
 {
     std::vector<Primitive> all;
-    const auto meshes = document.root.find("meshes");
-    if (meshes == document.root.end())
+    const auto meshes = rootOf(document).find("meshes");
+    if (meshes == rootOf(document).end())
         return all;
     for (std::size_t m = 0; m < meshes->size(); ++m)
         for (std::size_t p = 0; p < (*meshes)[m].at("primitives").size(); ++p) {
@@ -149,8 +150,8 @@ void changeImages(GltfDocument& document)
     const auto png = encodePng(flat);
     COTAN_HOLDS(bool(png));
     const auto count = [&](const char* name) {
-        const auto found = document.root.find(name);
-        return found == document.root.end() ? std::size_t(0) : found->size();
+        const auto found = rootOf(document).find(name);
+        return found == rootOf(document).end() ? std::size_t(0) : found->size();
     };
     const std::size_t images = count("images"), textures = count("textures"), materials = count("materials");
     for (std::size_t i = 0; i < images; ++i) {

@@ -113,9 +113,9 @@ def call(name, *arguments, expect=0):
 # What is exported is what is written down, no more and no less.
 listed = set(re.findall(r"^    (cotan_\w+);", open(version_script).read(), re.M))
 lines = subprocess.check_output(["nm", "-D", "--defined-only", library], text=True).splitlines()
-exported = {line.split()[-1].split("@")[0] for line in lines} - {"COTAN_1", "COTAN_2", "COTAN_3", "COTAN_5"}
+exported = {line.split()[-1].split("@")[0] for line in lines} - {"COTAN_1", "COTAN_2", "COTAN_3", "COTAN_5", "COTAN_6"}
 assert exported == listed, exported ^ listed
-assert cotan.cotan_api_version() == 5 and re.fullmatch(rb"\d+\.\d+\.\d+", cotan.cotan_version())
+assert cotan.cotan_api_version() == 6 and re.fullmatch(rb"\d+\.\d+\.\d+", cotan.cotan_version())
 frames = [cotan.cotan_frame_name(i).decode() for i in range(cotan.cotan_frame_count())]
 assert "cotangent" in frames and "mikktspace" in frames and cotan.cotan_frame_name(99) is None
 
@@ -248,6 +248,17 @@ for field, width in (("positions", 3), ("normals", 3), ("texcoords", 2)):
         words = ([b"mikktspace"] if function == "cotan_tangents" else []) + [c.byref(low)] + outputs
         assert f"mesh.{field}[1]: expected finite numbers, found nan" in call(function, *words, expect=2)
     numbers[width + 1] = kept
+# The same tangents with progress, which stops them and then has written nothing.
+for function, words, outputs in (("tangents", [b"mikktspace"], 24), ("tangents", [b"vertex"], 24), ("smooth_cotangents", [], 12)):
+    plain, told = ([array([0] * outputs) for _ in range(1 if words else 2)] for _ in range(2))
+    call("cotan_" + function, *words, c.byref(low), *([c.c_int(1)] if words else []), *plain)
+    shares = []
+    call(f"cotan_{function}_with_progress", *words, c.byref(low), c.c_int(1), Progress(lambda user, done: shares.append(done) or 0), None, *told)
+    assert [list(a) for a in told] == [list(a) for a in plain] and shares == sorted(shares) and shares[-1] == 1, (function, shares)
+    told[0][0] = 7
+    assert call(f"cotan_{function}_with_progress", *words, c.byref(low), c.c_int(1), Progress(lambda user, done: 1), None, *told, expect=6) == "stopped by the caller"
+    assert told[0][0] == 7
+    call(f"cotan_{function}_with_progress", *words, c.byref(low), c.c_int(-1), Progress(), None, *told, expect=1)
 shares = []
 options = BakeOptions(None, None, None, 1, 0, 0, 0, 0.5, 1, Progress(lambda user, done: shares.append(done) or 0), None)
 pixels8 = (c.c_uint8 * (16 * 16 * 4))()

@@ -11,6 +11,7 @@
 
 #include "cotan/convention.hpp"
 #include "cotan/convert/convert_model.hpp"
+#include "cotan/gltf/lookup.hpp"
 #include "cotan/gltf/tangents.hpp"
 #include "cotan/image/file.hpp"
 #include "cotan/lint/texel.hpp"
@@ -83,7 +84,7 @@ double largestAngle(const Image& a, const Image& b)
 
 bool has(const GltfDocument& document, const char* attribute)
 {
-    return document.root["meshes"][0]["primitives"][0]["attributes"].contains(attribute);
+    return rootOf(document)["meshes"][0]["primitives"][0]["attributes"].contains(attribute);
 }
 
 constexpr FramePair kThere{Frame::mikktspace, Frame::cotangent};
@@ -153,9 +154,9 @@ TEST(ConvertModel, flatTexelsLeanInEnginesAsTheyDid)
 {
     const auto texelOf = [](Expansion expansion) {
         GltfDocument document = documentOf(1, mapOf({0, 0, 1}), 1, true, -1);
-        document.root["materials"][0]["extras"]["mine"] = 7;
+        rootOf(document)["materials"][0]["extras"]["mine"] = 7;
         EXPECT_TRUE(convertModel(document, {.frames = kThere, .bits = 8, .expansion = expansion}));
-        const nlohmann::ordered_json extras = document.root["materials"][0]["extras"];
+        const nlohmann::ordered_json extras = rootOf(document)["materials"][0]["extras"];
         EXPECT_EQ(extras["mine"], 7);
         EXPECT_EQ(extras.contains("cotanUnsigned"), expansion == Expansion::biased);
         const Image map = normalMapIn(document);
@@ -168,9 +169,9 @@ TEST(ConvertModel, flatTexelsLeanInEnginesAsTheyDid)
 TEST(ConvertModel, readsAMapAsItsMaterialSaysAndForgetsWhatIsNoLongerSo)
 {
     GltfDocument document = documentOf(1, mapOf({0, 0, 1}));
-    document.root["materials"][0]["extras"]["cotanUnsigned"] = "biased";
+    rootOf(document)["materials"][0]["extras"]["cotanUnsigned"] = "biased";
     ASSERT_TRUE(convertModel(document, {.frames = kThere, .bits = 16, .expansion = Expansion::exact}));
-    EXPECT_FALSE(document.root["materials"][0].value("extras", nlohmann::ordered_json()).contains("cotanUnsigned"));
+    EXPECT_FALSE(rootOf(document)["materials"][0].value("extras", nlohmann::ordered_json()).contains("cotanUnsigned"));
     // 128 of 255 is 1 / 255 above the middle, which 16 bits hold.
     EXPECT_NEAR(normalMapIn(document).words()[0], 32768 + 32767.0 / 255, 1);
 }
@@ -224,37 +225,37 @@ TEST(ConvertModel, stoppedByItsProgressItChangesNothing)
 {
     for (const double limit : {0.0, 0.5, 0.999}) {
         GltfDocument document = documentOf(2, mapOf({0.3, 0.2, 1}));
-        const auto before = document.root;
+        const auto before = rootOf(document);
         const auto done =
             convertModel(document, {.frames = kThere, .progress = [=](double share) { return share <= limit; }});
         ASSERT_FALSE(done) << limit;
         EXPECT_EQ(done.error().kind, ErrorKind::stopped);
         EXPECT_EQ(done.error().message, stoppedError().message);
-        EXPECT_EQ(document.root, before);
+        EXPECT_EQ(rootOf(document), before);
     }
 }
 
 TEST(GiveTangents, stoppedByTheirProgressTheyChangeNothing)
 {
     GltfDocument document = documentOf(2, mapOf({0.3, 0.2, 1}));
-    const auto before = document.root;
+    const auto before = rootOf(document);
     const auto given = giveTangents(document, {.replace = true, .progress = [](double) { return false; }});
     ASSERT_FALSE(given);
     EXPECT_EQ(given.error().kind, ErrorKind::stopped);
-    EXPECT_EQ(document.root, before);
+    EXPECT_EQ(rootOf(document), before);
 }
 
 TEST(ConvertModel, refusalsAreOneLineAndChangeNothing)
 {
     const auto refused = [](GltfDocument document, const ConvertModelOptions& options, ErrorKind kind,
                             const char* word) {
-        const auto before = document.root;
+        const auto before = rootOf(document);
         const auto result = convertModel(document, options);
         ASSERT_FALSE(result) << word;
         EXPECT_EQ(result.error().kind, kind) << word;
         EXPECT_NE(result.error().message.find(word), std::string::npos) << result.error().message;
         EXPECT_EQ(result.error().message.find('\n'), std::string::npos) << result.error().message;
-        EXPECT_EQ(document.root, before) << word;
+        EXPECT_EQ(rootOf(document), before) << word;
     };
     const Image map = mapOf({0.3, 0.2, 1});
     for (const FrameInfo& f : frames())

@@ -17,6 +17,26 @@ if(NOT CMAKE_CXX_FLAGS MATCHES "fsanitize")
   set_tests_properties(Suite.failsWhereALibraryIsMissing PROPERTIES TIMEOUT 300)
 endif()
 
+# Every header that is installed, in one file, where there is no JSON library: what stands in its place stops the compiler.
+get_property(folders GLOBAL PROPERTY COTAN_INCLUDES)
+set(options "")
+set(text "")
+foreach(folder ${PROJECT_SOURCE_DIR}/include/cotan ${folders})
+  get_filename_component(above ${folder} DIRECTORY)
+  list(APPEND options -I${above})
+  file(GLOB_RECURSE headers RELATIVE ${above} ${folder}/*.hpp)
+  list(TRANSFORM headers REPLACE "(.+)" "#include \"\\1\"\n")
+  string(APPEND text ${headers})
+endforeach()
+set(place ${CMAKE_CURRENT_BINARY_DIR}/public_headers)
+file(CONFIGURE OUTPUT ${place}/all.cpp CONTENT "${text}" @ONLY)
+foreach(header json json_fwd)
+  file(WRITE ${place}/nlohmann/${header}.hpp "#error a public header includes a JSON library\n")
+endforeach()
+add_test(NAME PublicHeaders.compileWhereThereIsNoJsonLibrary
+  COMMAND ${CMAKE_CXX_COMPILER} -std=c++20 -fsyntax-only -Wall -Wextra -Werror -I${place} ${options}
+    -I${PROJECT_BINARY_DIR}/include -I${PROJECT_SOURCE_DIR}/shaders ${place}/all.cpp)
+
 # The portable text compiles unchanged in every language: joined, behind a few lines that declare
 # the language and call every function.
 foreach(language glsl essl hlsl)

@@ -35,6 +35,37 @@ TEST(SmoothCotangents, areTheGradientsOfAFlatLayout)
     }
 }
 
+// Corners are derived 256 at a time (CornerLanes): fans of fewer and of more, once over one middle and once with a
+// vertex for every corner, and thin ones among them that are derived alone. Uv are linear in position.
+TEST(SmoothCotangents, areThoseOfTheLayoutAtVerticesOfAnyNumberOfCorners)
+{
+    const glm::vec3 n(0, 0, 1);
+    for (const std::uint32_t corners : {1u, 15u, 16u, 17u, 255u, 256u, 257u, 700u})
+        for (const bool indexed : {true, false}) {
+            Arrays a;
+            const auto vertex = [&](glm::vec3 p) { return a.add(p, n, {2 * p.x + 0.5f * p.y, -p.y}); };
+            const auto fan = [&](std::uint32_t count, glm::vec3 middle) {
+                std::uint32_t at = indexed ? vertex(middle) : 0;
+                for (std::uint32_t i = 0; i < count; ++i) {
+                    const float from = 6 * float(i) / float(count), to = 6 * float(i + 1) / float(count);
+                    at = indexed ? at : vertex(middle);
+                    const std::uint32_t b = vertex(middle + glm::vec3(std::cos(from), std::sin(from), 0)),
+                                        c = vertex(middle + glm::vec3(std::cos(to), std::sin(to), 0));
+                    a.indices.insert(a.indices.end(), {at, b, c});
+                }
+            };
+            fan(corners, glm::vec3(0));
+            fan(7000, {4, 0, 0}); // a thousandth of a radian each: thin
+            fan(corners, {8, 0, 0});
+            const Cotangents found = smoothCotangents(a.view());
+            for (std::size_t i = 0; i < found.u.size(); ++i) {
+                // Uv of up to 20 rounded at 1e-6, over edges from 0.001: those of thin triangles.
+                ASSERT_LT(glm::length(found.u[i] - glm::vec3(2, 0.5f, 0)), 2e-2f) << corners << ' ' << i;
+                ASSERT_LT(glm::length(found.v[i] - glm::vec3(0, -1, 0)), 2e-2f) << corners << ' ' << i;
+            }
+        }
+}
+
 // The largest relative error of the gradients at interior vertices of the sphere.
 double sphereError(std::uint32_t n)
 {

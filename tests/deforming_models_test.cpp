@@ -16,6 +16,7 @@
 
 #include "cotan/gltf/edit.hpp"
 #include "cotan/gltf/load.hpp"
+#include "cotan/gltf/lookup.hpp"
 #include "cotan/portable.hpp"
 #include "cotan/triangle.hpp"
 #include "gltf_maker.hpp"
@@ -96,8 +97,8 @@ std::filesystem::path withTangents(const TemporaryFolder& folder, const std::str
     auto document = openGltfDocument(source);
     EXPECT_TRUE(document) << document.error().message;
     std::vector<GltfCornerTangents> tangents;
-    for (std::size_t m = 0; m < document->root["meshes"].size(); ++m)
-        for (std::size_t p = 0; p < document->root["meshes"][m]["primitives"].size(); ++p) {
+    for (std::size_t m = 0; m < rootOf(*document)["meshes"].size(); ++m)
+        for (std::size_t p = 0; p < rootOf(*document)["meshes"][m]["primitives"].size(); ++p) {
             const auto g = gltfGeometry(*document, m, p);
             std::vector<glm::vec3> normals = g->normals;
             for (glm::vec3& n : normals)

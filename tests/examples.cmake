@@ -1,7 +1,7 @@
 # The integration examples, run as they are shipped.
 cotan_test(examples_test FIXTURE npm
   SOURCES examples_browser_test.cpp browser_pages.cpp examples_triangle_web_test.cpp
-  LIBRARIES cotan_model cotan_shapes nlohmann_json::nlohmann_json)
+  LIBRARIES cotan_model cotan_shapes cotan_gltf_json)
 target_compile_definitions(examples_test PRIVATE
   COTAN_TOOL="$<TARGET_FILE:cotan>" COTAN_NPM="${PROJECT_BINARY_DIR}/npm")
 add_dependencies(examples_test cotan)

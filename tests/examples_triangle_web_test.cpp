@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "cotan/gltf/edit.hpp"
+#include "cotan/gltf/lookup.hpp"
 #include "cotan/image/file.hpp"
 #include "cotan/model/load.hpp"
 #include "cotan/shapes/shapes.hpp"
@@ -45,7 +46,7 @@ void writeModel(const TemporaryFolder& folder, const std::string& name, Mesh mes
     scene.materials[0].doubleSided = true;
     auto document = gltfDocumentOf(scene);
     ASSERT_TRUE(document) << document.error().message;
-    auto& root = document->root;
+    auto& root = rootOf(*document);
     const auto positions = root["meshes"][0]["primitives"][0]["attributes"]["POSITION"].get<std::size_t>();
     const auto low = root["accessors"][positions]["min"].get<std::array<double, 3>>(),
                high = root["accessors"][positions]["max"].get<std::array<double, 3>>();

@@ -5,7 +5,7 @@ cotan_test(gltf_bad_test
 cotan_test(gltf_test
   SOURCES gltf_test.cpp gltf_accessor_test.cpp gltf_mesh_test.cpp gltf_scene_test.cpp gltf_material_test.cpp gltf_unpack_test.cpp gltf_animation_test.cpp
           stored_green_test.cpp meant_frame_test.cpp
-  LIBRARIES cotan_model cotan_shapes nlohmann_json::nlohmann_json ZLIB::ZLIB draco::draco meshoptimizer::meshoptimizer)
+  LIBRARIES cotan_model cotan_shapes cotan_gltf_json ZLIB::ZLIB draco::draco meshoptimizer::meshoptimizer)
 cotan_test(gltf_models_test
   SOURCES gltf_models_test.cpp deforming_models_test.cpp
-  LIBRARIES cotan_model cotan_shapes nlohmann_json::nlohmann_json ZLIB::ZLIB)
+  LIBRARIES cotan_model cotan_shapes cotan_gltf_json ZLIB::ZLIB)

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "cotan/gltf/edit.hpp"
+#include "cotan/gltf/lookup.hpp"
 #include "gltf_maker.hpp"
 
 namespace cotan::test {

@@ -360,7 +360,7 @@ TEST(GltfProvoking, boundsOfQuantisedPositionsAreThoseOfTheStoredNumbers)
     auto document = openText(folder, g.text());
     ASSERT_TRUE(document) << document.error().message;
     ASSERT_TRUE(setGltfProvoking(*document, ProvokingVertex::first));
-    const auto& root = document->root;
+    const auto& root = rootOf(*document);
     const auto& made =
         root["accessors"][root["meshes"][0]["primitives"][0]["attributes"]["POSITION"].get<std::size_t>()];
     EXPECT_EQ(made["min"].dump(), "[-5,0,0]");

@@ -183,9 +183,9 @@ TEST(GltfTangents, refuseWhatHasNoNormals)
     auto document = openText(folder, g.text());
     ASSERT_TRUE(document);
     const GltfCornerTangents t{0, 0, cornersOf({1, 1, 1, 1, 1, 1})};
-    const auto before = document->root;
+    const auto before = rootOf(*document);
     COTAN_REFUSED(cotan::setGltfTangents(*document, std::span(&t, 1)), "expected NORMAL");
-    EXPECT_EQ(document->root, before);
+    EXPECT_EQ(rootOf(*document), before);
 }
 
 // Interleaved with the others: the column has to go, and the file gets smaller by it.
@@ -247,8 +247,8 @@ TEST(GltfTangents, droppedOnesMayBeAllThatAPrimitiveHas)
     auto document = openText(folder, g.text());
     ASSERT_TRUE(document) << document.error().message;
     ASSERT_TRUE(cotan::dropGltfTangents(*document, 0, 0));
-    const auto& target = document->root["meshes"][0]["primitives"][0]["targets"][0];
-    EXPECT_EQ(document->root["accessors"][target.at("POSITION").get<std::size_t>()]["count"], 4);
+    const auto& target = rootOf(*document)["meshes"][0]["primitives"][0]["targets"][0];
+    EXPECT_EQ(rootOf(*document)["accessors"][target.at("POSITION").get<std::size_t>()]["count"], 4);
 }
 
 } // namespace

@@ -148,8 +148,8 @@ TEST(GltfEdit, copiedMaterialReadsTheAddedImage)
     const std::size_t image = cotan::addGltfImage(*document, *old, "image/png", "again");
     const std::size_t texture = cotan::copyGltfTexture(*document, 0, image);
     const std::size_t material = cotan::copyGltfMaterial(*document, 0);
-    document->root["materials"][material]["normalTexture"]["index"] = texture;
-    document->root["meshes"][0]["primitives"][0]["material"] = material;
+    rootOf(*document)["materials"][material]["normalTexture"]["index"] = texture;
+    rootOf(*document)["meshes"][0]["primitives"][0]["material"] = material;
     ASSERT_TRUE(cotan::writeGltf(*document, folder.path / "out.glb"));
     COTAN_LOADED(scene, cotan::loadGltf(folder.path / "out.glb"));
     EXPECT_EQ(scene.images[0].width, 2);

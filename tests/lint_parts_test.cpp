@@ -289,7 +289,7 @@ TEST(Seen, countsTheDirectionsThatAPointShowsFrom)
     for (Corner& corner : roof)
         corner.position.z = 0.1f;
     const MappedSurface surface = surfaceOf(rectangle({0, 0}, {1, 1}, {0, 0}, {1, 1}) + roof);
-    const SurfacePoint ofFloor{0, {0.5, 0, 0.5}}, ofRoof{2, {0.5, 0, 0.5}};
+    const MeshPoint ofFloor{0, {0.5, 0, 0.5}}, ofRoof{2, {0.5, 0, 0.5}};
     EXPECT_EQ(lint::seen(surface, {ofFloor, ofRoof}, false), (std::vector<double>{0, 5}));
     EXPECT_EQ(lint::seen(surface, {ofFloor, ofRoof}, true), (std::vector<double>{5, 5}));
     EXPECT_EQ(lint::seen(surface, {ofFloor}, false), (std::vector<double>{1})); // hidden in itself: all alike

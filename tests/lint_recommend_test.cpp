@@ -275,6 +275,18 @@ TEST(Recommend, aReversedWAndReversedGreenMakeUpForEachOther)
     EXPECT_TRUE(says(advisedOn({judgedAs(0.1, 0.2)}, {fitAs(9)}, {greenAs(true, false, "")}).defects, "in image 3 "));
 }
 
+TEST(Recommend, greenIsTurnedAboutWhatIsZeroInTheMaps)
+{
+    std::vector<GreenEvidence> given = {greenAs(true, false, "a"), greenAs(true, false, "b"),
+                                        greenAs(true, true, "sound")};
+    given[0].verdict.statistics.centre = maps::Centre::biased;
+    const char* const about128 = "(cotan map convert --from directx --to gltf turns it)";
+    EXPECT_TRUE(says(advisedOn({judgedAs(0.1, 0.2)}, {}, given).defects, about128));
+    given[1].verdict.statistics.centre = maps::Centre::biased;
+    EXPECT_TRUE(says(advisedOn({judgedAs(0.1, 0.2)}, {}, given).defects,
+                     "(cotan map convert --from directx,biased --to gltf,biased turns it)"));
+}
+
 TEST(Recommend, ofManyNamesThreeAreSaid)
 {
     std::vector<GreenEvidence> maps;

@@ -151,6 +151,57 @@ TEST(MapFaults, theCommandThatInfoAndDetectPrintMendsTheFile)
     }
 }
 
+// Of a map whose zero is 127.5, green that is turned about 128 leans by 0.45 degrees.
+TEST(MapFaults, greenOfAMapThatIsMadeFor2cMinus1IsTurnedAbout127AndAHalf)
+{
+    TemporaryFolder folder;
+    const Image relief = someRelief(7, PixelType::float32);
+    Image sound = makeImage(relief.width, relief.height, PixelType::unorm8), turned = sound;
+    std::vector<glm::vec4> row(std::size_t(relief.width));
+    for (int y = 0; y < relief.height; ++y) {
+        loadRow(relief, y, row);
+        for (glm::vec4& t : row)
+            t = glm::vec4(glm::normalize(glm::vec3(3, 3, 1) * (2.0f * glm::vec3(t) - 1.0f)) * 0.5f + 0.5f, 1); // steep
+        storeRow(sound, y, row);
+        loadRow(sound, y, row);
+        for (glm::vec4& t : row)
+            t.y = 1 - t.y;
+        storeRow(turned, y, row);
+    }
+    ASSERT_TRUE(writeImage(folder / "turned.png", turned));
+    const ToolRun told = runTool({"map", "detect", "turned.png"}, folder.path());
+    EXPECT_NE(told.out.find("convert turned.png --from directx,biased --to gltf,biased"), std::string::npos)
+        << told.out;
+    ASSERT_EQ(runTool({"map", "convert", "turned.png", "--from", "directx,biased", "--to", "gltf,biased", "-o",
+                       "mended.png", "--quiet"},
+                      folder.path())
+                  .code,
+              0);
+    const auto mended = readImage(folder / "mended.png");
+    ASSERT_TRUE(mended);
+    EXPECT_TRUE(std::equal(sound.bytes8(), sound.bytes8() + 4 * sound.pixelCount(), mended->bytes8()));
+}
+
+// A rendered picture, or a photograph, has no channels to exchange and no curve to undo.
+TEST(MapFaults, picturesThatAreNoNormalMapsHaveNoFaultsOfOne)
+{
+    for (const Content content : {Content::other, Content::grey})
+        for (const Transfer transfer : {Transfer::srgb, Transfer::linearised}) {
+            NormalStatistics s;
+            s.content = content;
+            s.transfer = transfer;
+            s.redIsZ = true;
+            EXPECT_TRUE(faultsOf(s).empty());
+        }
+}
+
+TEST(MapFaults, exchangedRedAndBlueAreTheReasonWhyGreenCannotBeTold)
+{
+    const GreenVerdict verdict = greenOf(brokenBy(someRelief(2), [](glm::vec4& t) { std::swap(t.x, t.z); }));
+    EXPECT_EQ(verdict.green, Green::undecidable);
+    EXPECT_NE(verdict.reason.find("red and blue are exchanged"), std::string::npos) << verdict.reason;
+}
+
 TEST(MapFaults, noMapIsWrittenBroken)
 {
     TemporaryFolder folder;

@@ -36,7 +36,7 @@ TEST(MapFit, pointsAreSpreadByArea)
     const auto points = pointsOver(s, 800);
     ASSERT_EQ(points.size(), 800u);
     glm::dvec3 middle(0);
-    for (const SurfacePoint& p : points) {
+    for (const MeshPoint& p : points) {
         ++counts[p.triangle];
         middle += p.barycentric / 800.0;
         EXPECT_NEAR(p.barycentric.x + p.barycentric.y + p.barycentric.z, 1, 1e-12);

@@ -52,6 +52,12 @@ foreach(fact greenIsReadAsReversedTangentsMeanIt modelsWithTangentsAreDrawnAsWit
   set_tests_properties(ThreeDefaults.${fact} PROPERTIES FIXTURES_REQUIRED npm SKIP_RETURN_CODE 77 TIMEOUT 600)
 endforeach()
 
+# The jet fighter, whose textures are BasisU, with textures that the tool reads.
+add_test(NAME BasisU.aModelWithItsTexturesInPngIsDrawnAsItsTangentsMean COMMAND ${COTAN_NODE}
+  ${CMAKE_CURRENT_SOURCE_DIR}/web/basisu_test.mjs ${PROJECT_BINARY_DIR}/npm/node_modules $<TARGET_FILE:cotan> ${data})
+set_tests_properties(BasisU.aModelWithItsTexturesInPngIsDrawnAsItsTangentsMean PROPERTIES
+  FIXTURES_REQUIRED npm SKIP_RETURN_CODE 77 TIMEOUT 300)
+
 # The page of web/, and what holds of it in Chromium.
 add_test(NAME web_page COMMAND ${PROJECT_SOURCE_DIR}/scripts/web-page ${PROJECT_BINARY_DIR}/web)
 set_tests_properties(web_page PROPERTIES FIXTURES_REQUIRED web FIXTURES_SETUP page SKIP_RETURN_CODE 3 TIMEOUT 300)

@@ -5,6 +5,7 @@
 #include "cotan/convert/convert_model.hpp"
 #include "cotan/convert/named_frame.hpp"
 #include "cotan/gltf/edit.hpp"
+#include "cotan/gltf/lookup.hpp"
 #include "cotan/report/convert_report.hpp"
 #include "json_text.hpp"
 #include "model_files.hpp"
@@ -122,7 +123,7 @@ GltfDocument closedDocument(const GltfDocument& document, const LoadLimits& limi
 
 void replacePlaceholder(GltfDocument& document, const Bytes& placeholder, const Bytes& png)
 {
-    for (std::size_t i = 0; i < countOf(document.root, "images"); ++i)
+    for (std::size_t i = 0; i < countOf(rootOf(document), "images"); ++i)
         if (const auto bytes = gltfImageBytes(document, i); bytes && *bytes == placeholder)
             replaceGltfImage(document, i, png, "image/png");
 }

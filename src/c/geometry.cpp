@@ -9,6 +9,7 @@
 #include "call.hpp"
 #include "cotan/cotangent_frame.hpp"
 #include "cotan/tangents.hpp"
+#include "cotan/tangents_progress.hpp"
 #include "meshes.hpp"
 
 using namespace cotan;
@@ -81,6 +82,37 @@ private:
     Frame kind_ = Frame::smooth;
 };
 
+// The words of the kinds are not asked of the table of frames, which cotan/tangents would have to carry.
+Frame tangentKind(const char* kind)
+{
+    const std::string_view which = word(kind, "kind");
+    if (which != "vertex" && which != "mikktspace")
+        fail(ErrorKind::usage, "kind: expected mikktspace or vertex, found '" + std::string(which) + "'");
+    return which == "vertex" ? Frame::vertex : Frame::mikktspace;
+}
+
+void storeTangents(const std::vector<glm::vec4>& made, float* tangents)
+{
+    std::memcpy(tangents, made.data(), made.size() * sizeof(glm::vec4));
+}
+
+void storeCotangents(const Cotangents& made, float* u, float* v)
+{
+    std::memcpy(u, made.u.data(), made.u.size() * sizeof(glm::vec3));
+    std::memcpy(v, made.v.data(), made.v.size() * sizeof(glm::vec3));
+}
+
+// Tells of their begin and their end only.
+Result<std::vector<glm::vec4>> vertexTangentsWithProgress(const MeshView& mesh, const Progress& progress)
+{
+    if (progress && !progress(0))
+        return stoppedError();
+    std::vector<glm::vec4> made = vertexTangents(mesh);
+    if (progress && !progress(1))
+        return stoppedError();
+    return made;
+}
+
 } // namespace
 
 int cotan_frame_count(void) { return kFrameCount; }
@@ -138,16 +170,26 @@ cotan_status cotan_tangents(const char* kind, const cotan_mesh* mesh, int thread
                             size_t message_size)
 {
     return call(message, message_size, [&] {
-        // Not by the table of frames, which cotan/tangents would have to carry.
-        const std::string_view which = word(kind, "kind");
-        const bool vertex = which == "vertex";
-        if (!vertex && which != "mikktspace")
-            fail(ErrorKind::usage, "kind: expected mikktspace or vertex, found '" + std::string(which) + "'");
+        const Frame frame = tangentKind(kind);
+        require(threads >= 0, "threads: expected 0 or more");
+        require(tangents, "tangents: expected an array, found null");
+        storeTangents(generateTangents(frame, viewOf(mesh), threads), tangents);
+    });
+}
+
+cotan_status cotan_tangents_with_progress(const char* kind, const cotan_mesh* mesh, int threads,
+                                          cotan_progress progress, void* user, float* tangents, char* message,
+                                          size_t message_size)
+{
+    return call(message, message_size, [&] {
+        const Frame frame = tangentKind(kind);
         require(threads >= 0, "threads: expected 0 or more");
         require(tangents, "tangents: expected an array, found null");
         const MeshView view = viewOf(mesh);
-        const std::vector<glm::vec4> made = generateTangents(vertex ? Frame::vertex : Frame::mikktspace, view, threads);
-        std::memcpy(tangents, made.data(), made.size() * sizeof(glm::vec4));
+        const Progress told = progressOf(progress, user);
+        storeTangents(valueOf(frame == Frame::vertex ? vertexTangentsWithProgress(view, told)
+                                                     : mikktspaceTangents(view, threads, told)),
+                      tangents);
     });
 }
 
@@ -155,8 +197,16 @@ cotan_status cotan_smooth_cotangents(const cotan_mesh* mesh, float* u, float* v,
 {
     return call(message, message_size, [&] {
         require(u && v, "u and v: expected arrays, found null");
-        const Cotangents made = smoothCotangents(viewOf(mesh));
-        std::memcpy(u, made.u.data(), made.u.size() * sizeof(glm::vec3));
-        std::memcpy(v, made.v.data(), made.v.size() * sizeof(glm::vec3));
+        storeCotangents(smoothCotangents(viewOf(mesh)), u, v);
+    });
+}
+
+cotan_status cotan_smooth_cotangents_with_progress(const cotan_mesh* mesh, int threads, cotan_progress progress,
+                                                   void* user, float* u, float* v, char* message, size_t message_size)
+{
+    return call(message, message_size, [&] {
+        require(threads >= 0, "threads: expected 0 or more");
+        require(u && v, "u and v: expected arrays, found null");
+        storeCotangents(valueOf(smoothCotangents(viewOf(mesh), threads, progressOf(progress, user))), u, v);
     });
 }

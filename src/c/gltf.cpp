@@ -5,6 +5,7 @@
 #include "cotan/convert/map_jobs.hpp"
 #include "cotan/gltf/edit.hpp"
 #include "cotan/gltf/load.hpp"
+#include "cotan/gltf/lookup.hpp"
 #include "cotan/lint/lint.hpp"
 #include "cotan/report/lint_report.hpp"
 #include "json_text.hpp"
@@ -130,12 +131,12 @@ cotan_status cotan_gltf_pictures(const void* model, size_t model_size, const cot
             for (const MapJob& job : valueOf(mapJobs(document, notes)))
                 wanted.insert(job.image);
         } else {
-            for (std::size_t i = 0; i < countOf(document.root, "images"); ++i)
+            for (std::size_t i = 0; i < countOf(rootOf(document), "images"); ++i)
                 wanted.insert(i);
         }
         for (const std::size_t image : wanted) {
             const Bytes bytes = valueOf(gltfImageBytes(document, image, limits));
-            const std::string name = document.root["images"][image].value("name", "");
+            const std::string name = rootOf(document)["images"][image].value("name", "");
             if (take(user, name.c_str(), bytes.data(), bytes.size()) != 0)
                 throw Failure{stoppedError()};
         }

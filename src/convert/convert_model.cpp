@@ -6,6 +6,7 @@
 
 #include "cotan/convert/map_jobs.hpp"
 #include "cotan/convert/named_frame.hpp"
+#include "cotan/gltf/lookup.hpp"
 #include "cotan/gltf/tangents.hpp"
 #include "cotan/image/convert.hpp"
 #include "cotan/image/encode_like.hpp"
@@ -48,7 +49,7 @@ public:
             return fits;
         for (const MapJob& job : *jobs)
             surfaces_ += surfacesOf(job);
-        if (jobs->empty())
+        if (jobs->empty() && report_.unread.empty()) // else their notes say why
             report_.notes.push_back("no primitive has a normal map and uv: nothing to convert");
         for (std::size_t k = 0; k < jobs->size(); ++k) {
             const Progress share = partOf(options_.progress, k, jobs->size());
@@ -106,7 +107,7 @@ private:
             std::ranges::any_of(job.places, [](const MapPlace& place) { return place.slot == NormalSlot::coat; });
         const Expansion written = ofCoat ? Expansion::exact : options_.expansion;
         const bool said = std::ranges::any_of(job.places, [&](const MapPlace& place) {
-            return gltf::expansionOf(document_.root["materials"][place.material]) == Expansion::biased;
+            return gltf::expansionOf(rootOf(document_)["materials"][place.material]) == Expansion::biased;
         });
         return {said ? Expansion::biased : written, written};
     }
@@ -116,7 +117,7 @@ private:
     {
         for (const MapPlace& place : job.places)
             if (place.slot == NormalSlot::surface)
-                setExpansion(document_.root["materials"][place.material], expansion);
+                setExpansion(rootOf(document_)["materials"][place.material], expansion);
     }
 
     // Converts one image and puts it back.
@@ -206,7 +207,7 @@ private:
     Result<EncodedLike> encoded(const Image& image, std::span<const std::byte> old) const
     {
         // WebP that may be left out has a picture beside it for readers without; the new one has to do for all.
-        const auto* const required = gltf::member(document_.root, "extensionsRequired");
+        const auto* const required = gltf::member(rootOf(document_), "extensionsRequired");
         const bool webp = pictureFormat(old) == "WebP";
         const bool fallsBack =
             webp && (!required || std::ranges::find(*required, "EXT_texture_webp") == required->end());

@@ -118,7 +118,7 @@ Status addUse(const GltfDocument& document, std::size_t m, std::size_t p, MapPla
               const std::vector<glm::dmat3>& placed, std::map<std::size_t, MapJob>& jobs,
               std::vector<std::string>& notes)
 {
-    const Json& root = document.root;
+    const Json& root = rootOf(document);
     const gltf::TextureUse map = normalMapOf(root, place.material, place.slot);
     if (map.texture < 0)
         return Done{};
@@ -162,7 +162,7 @@ Status addUse(const GltfDocument& document, std::size_t m, std::size_t p, MapPla
 
 std::vector<MapPlace> foreignNormalMaps(const GltfDocument& document)
 {
-    const Json& root = document.root;
+    const Json& root = rootOf(document);
     std::map<int, bool> images = {{-1, true}};
     std::vector<MapPlace> foreign;
     for (std::size_t m = 0; m < countOf(root, "materials"); ++m)
@@ -201,7 +201,7 @@ int anyImage(const Json& root, int texture)
 
 std::vector<UnreadMap> unreadNormalMaps(const GltfDocument& document)
 {
-    const Json& root = document.root;
+    const Json& root = rootOf(document);
     std::set<int> images;
     for (const MapPlace& place : foreignNormalMaps(document))
         images.insert(anyImage(root, normalMapOf(root, place.material, place.slot).texture));
@@ -223,7 +223,7 @@ std::vector<UnreadMap> unreadNormalMaps(const GltfDocument& document)
 
 Result<std::vector<MapJob>> mapJobs(const GltfDocument& document, std::vector<std::string>& notes)
 {
-    const Json& root = document.root;
+    const Json& root = rootOf(document);
     const auto placed = gltfPlacings(root);
     const std::vector<MapPlace> foreign = foreignNormalMaps(document);
     std::map<std::size_t, MapJob> jobs;
@@ -300,16 +300,16 @@ void replaceMap(GltfDocument& document, const MapJob& job, std::vector<std::byte
     if (!job.alsoElsewhere) {
         replaceGltfImage(document, job.image, std::move(bytes), mime);
         for (const std::size_t t : job.textures) {
-            dropOtherForms(document.root, t, job.image, notes);
+            dropOtherForms(rootOf(document), t, job.image, notes);
             if (webp)
-                nameWebp(document.root, t, job.image);
+                nameWebp(rootOf(document), t, job.image);
         }
         return;
     }
     const std::size_t image = addGltfImage(document, std::move(bytes), mime, job.name);
     std::map<std::size_t, std::size_t> copies;
     for (const MapPlace place : job.places) {
-        Json& index = normalSlotOf(document.root, place.material, place.slot)["index"];
+        Json& index = normalSlotOf(rootOf(document), place.material, place.slot)["index"];
         const std::size_t texture = index.get<std::size_t>();
         if (!copies.contains(texture))
             copies[texture] = copyGltfTexture(document, texture, image);
@@ -317,7 +317,7 @@ void replaceMap(GltfDocument& document, const MapJob& job, std::vector<std::byte
     }
     for (const auto& [old, copy] : copies)
         if (webp)
-            nameWebp(document.root, copy, image);
+            nameWebp(rootOf(document), copy, image);
 }
 
 } // namespace cotan

@@ -12,7 +12,7 @@ namespace {
 bool hasNormalMap(const GltfDocument& document, std::size_t material)
 {
     for (const NormalSlot slot : {NormalSlot::surface, NormalSlot::coat})
-        if (normalMapOf(document.root, material, slot).texture >= 0)
+        if (normalMapOf(rootOf(document), material, slot).texture >= 0)
             return true;
     return false;
 }
@@ -23,8 +23,8 @@ Result<std::optional<Frame>> namedFrame(const GltfDocument& document)
 {
     std::optional<Frame> named;
     std::size_t first = 0;
-    for (std::size_t m = 0; m < countOf(document.root, "materials"); ++m) {
-        const auto frame = frameFromName(gltf::frameText(document.root["materials"][m]));
+    for (std::size_t m = 0; m < countOf(rootOf(document), "materials"); ++m) {
+        const auto frame = frameFromName(gltf::frameText(rootOf(document)["materials"][m]));
         if (!frame || !hasNormalMap(document, m))
             continue;
         if (named && *named != *frame)
@@ -40,7 +40,7 @@ Result<std::optional<Frame>> namedFrame(const GltfDocument& document)
 
 void nameFrame(GltfDocument& document, std::size_t material, Frame frame)
 {
-    nlohmann::ordered_json& m = document.root["materials"][material];
+    nlohmann::ordered_json& m = rootOf(document)["materials"][material];
     if (frame != Frame::mikktspace) {
         if (!m.contains("extras") || !m["extras"].is_object())
             m["extras"] = nlohmann::ordered_json::object();

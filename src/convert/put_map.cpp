@@ -55,7 +55,7 @@ std::set<std::size_t> allMaterials(Json& root)
 // Makes the materials read the image; the uv set and transform of a map that was there stay, since the bake read them.
 void putMap(GltfDocument& document, const std::set<std::size_t>& materials, std::vector<std::byte> png)
 {
-    Json& root = document.root;
+    Json& root = rootOf(document);
     const std::size_t image = addGltfImage(document, std::move(png), "image/png", "baked normals");
     const std::size_t texture = appendTo(root, "textures", Json{{"source", image}});
     std::set<std::size_t> old;
@@ -92,17 +92,17 @@ Status putNormalMap(GltfDocument& document, std::vector<std::byte> png, const Pu
 {
     std::set<std::size_t> materials;
     if (options.material) {
-        const auto chosen = materialNamed(document.root, *options.material);
+        const auto chosen = materialNamed(rootOf(document), *options.material);
         if (!chosen)
             return chosen.error();
         materials = {*chosen};
     } else {
-        materials = allMaterials(document.root);
+        materials = allMaterials(rootOf(document));
     }
     putMap(document, materials, std::move(png));
     for (const std::size_t material : materials) {
         nameFrame(document, material, options.frame);
-        setExpansion(document.root["materials"][material], options.expansion);
+        setExpansion(rootOf(document)["materials"][material], options.expansion);
     }
     if (Status settled = settleTangents(document, options, notes); !settled)
         return settled;

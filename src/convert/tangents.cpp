@@ -52,9 +52,9 @@ Result<TangentBytes> dropTangents(GltfDocument& document, const FramePair& frame
     TangentBytes dropped;
     std::set<std::size_t> seen, told;
     const std::vector<MapPlace> foreign = foreignNormalMaps(document);
-    const auto placed = gltfPlacings(document.root);
-    const Status status = forEachPrimitive(document.root, [&](std::size_t m, std::size_t p) -> Status {
-        const Json& root = document.root;
+    const auto placed = gltfPlacings(rootOf(document));
+    const Status status = forEachPrimitive(rootOf(document), [&](std::size_t m, std::size_t p) -> Status {
+        const Json& root = rootOf(document);
         const Json& primitive = root["meshes"][m]["primitives"][p];
         if (!primitive["attributes"].contains("TANGENT"))
             return Done{};

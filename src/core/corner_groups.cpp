@@ -1,5 +1,9 @@
 #include "corner_groups.hpp"
 
+#include <memory>
+#include <utility>
+
+#include "corner_lanes.hpp"
 #include "cotan/portable.hpp"
 #include "tangents_mesh.hpp"
 
@@ -51,26 +55,38 @@ namespace {
 // Lists of the vertices that are equal, and of the corners at each; both in rising order, ended by kNone.
 struct Chains {
     LargeArray<std::uint32_t> equalVertex; // the next one; a list begins at its first vertex
-    LargeArray<std::uint32_t> firstCorner; // of each vertex
-    LargeArray<std::uint32_t> nextCorner;
+    // Empty where corner k is the only one of vertex k.
+    LargeArray<std::uint32_t> firstOfVertex, nextOfCorner;
+
+    std::uint32_t firstCorner(std::uint32_t vertex) const { return firstOfVertex ? firstOfVertex[vertex] : vertex; }
+    std::uint32_t nextCorner(std::uint32_t corner) const { return nextOfCorner ? nextOfCorner[corner] : kNone; }
 };
+
+bool eachCornerHasItsVertex(const MeshView& mesh)
+{
+    std::uint32_t other = 0; // without a branch, so that compilers compare several at once
+    for (std::uint32_t c = 0; c < mesh.indices.size(); ++c)
+        other |= mesh.indices[c] ^ c;
+    return other == 0 && mesh.indices.size() == mesh.positions.size();
+}
 
 Chains chainsOf(const MeshView& mesh, const LargeArray<std::uint32_t>& first)
 {
     const std::size_t count = mesh.positions.size();
-    Chains chains{makeLargeArray<std::uint32_t>(count), makeLargeArray<std::uint32_t>(count),
-                  makeLargeArray<std::uint32_t>(mesh.indices.size())};
+    Chains chains{makeLargeArray<std::uint32_t>(count), {}, {}};
     std::fill_n(chains.equalVertex.get(), count, kNone);
     for (std::size_t v = count; v-- > 0;)
         if (first[v] != v) {
             chains.equalVertex[v] = chains.equalVertex[first[v]];
             chains.equalVertex[first[v]] = std::uint32_t(v);
         }
-    std::fill_n(chains.firstCorner.get(), count, kNone);
-    for (std::size_t c = mesh.indices.size(); c-- > 0;) {
-        chains.nextCorner[c] = chains.firstCorner[mesh.indices[c]];
-        chains.firstCorner[mesh.indices[c]] = std::uint32_t(c);
-    }
+    if (eachCornerHasItsVertex(mesh))
+        return chains;
+    chains.firstOfVertex = makeLargeArray<std::uint32_t>(count);
+    chains.nextOfCorner = makeLargeArray<std::uint32_t>(mesh.indices.size());
+    std::fill_n(chains.firstOfVertex.get(), count, kNone);
+    for (std::size_t c = mesh.indices.size(); c-- > 0;)
+        chains.nextOfCorner[c] = std::exchange(chains.firstOfVertex[mesh.indices[c]], std::uint32_t(c));
     return chains;
 }
 
@@ -80,7 +96,23 @@ struct Sum {
     float weight = 0;
 
     bool isEmpty() const { return !(weight > 0); }
+    void add(const CornerGradients& g)
+    {
+        u += g.u;
+        v += g.v;
+        weight += g.weight;
+    }
 };
+
+struct Average {
+    glm::vec3 u, v;
+};
+
+Average averageOf(const Sum& sum)
+{
+    const float scale = sum.isEmpty() ? 0 : 1 / sum.weight;
+    return {sum.u * scale, sum.v * scale};
+}
 
 // Adds the gradients of a corner's triangle; returns the weight that they got.
 float addCorner(const Edges& e, glm::vec3 n, Sum& sum)
@@ -96,86 +128,132 @@ float addCorner(const Edges& e, glm::vec3 n, Sum& sum)
     return weight;
 }
 
-int isUsual(float squared) { return int(squared > 1e-12f) & int(squared < 1e12f); }
-
-// The same as sideAt and addCorner for a corner of a triangle that is neither thin nor tiny nor huge, in space or uv:
-// to the bit, since what is left out there scales by powers of two and changes no sign. False for any other, of which
-// nothing is done. unit: n at length 1.
-bool addUsualCorner(const MeshView& mesh, std::size_t c, glm::vec3 n, glm::vec3 unit, Sum (&sums)[2],
-                    float (&weights)[2])
+CornerEdges edgesIn(const MeshView& mesh, std::size_t c, glm::vec3 normal, glm::vec3 unit)
 {
-    constexpr float kThin = 1e-6f; // of a squared sine; floats are sure of the sign of one from 1e-12
     const std::size_t k = c % 3;
-    const std::uint32_t at = mesh.indices[c], next = mesh.indices[k == 2 ? c - 2 : c + 1],
-                        previous = mesh.indices[k == 0 ? c + 2 : c - 1];
-    const glm::vec3 dp1 = mesh.positions[next] - mesh.positions[at],
-                    dp2 = mesh.positions[previous] - mesh.positions[at];
-    const glm::vec2 duv1 = mesh.texcoords[next] - mesh.texcoords[at],
-                    duv2 = mesh.texcoords[previous] - mesh.texcoords[at];
-    const float p1 = glm::dot(dp1, dp1), p2 = glm::dot(dp2, dp2), uv1 = glm::dot(duv1, duv1),
-                uv2 = glm::dot(duv2, duv2);
-    const glm::vec3 acrossNext = glm::cross(dp2, unit), acrossPrevious = glm::cross(unit, dp1);
-    const float facing = glm::dot(dp1, acrossNext), uvArea = duv1.x * duv2.y - duv1.y * duv2.x;
-    const float longer = std::max(p1, p2);
-    // Without branches: they are a seventh of the time.
-    const int usual = isUsual(p1) & isUsual(p2) & isUsual(uv1) & isUsual(uv2)
-        & int(facing * facing > kThin * std::max(p1 * p2, kThin * longer * longer))
-        & int(uvArea * uvArea > kThin * uv1 * uv2);
-    if (usual == 0)
-        return false;
-    const std::size_t side = std::size_t((facing > 0) == (uvArea > 0) ? Side::mirrored : Side::unmirrored);
-    const float weight = projectedAngle(glm::vec3(0), dp1, dp2, n), scale = 1 / facing;
-    Sum& sum = sums[side];
-    sum.u += (acrossNext * duv1.x + acrossPrevious * duv2.x) * scale * weight;
-    sum.v += (acrossNext * duv1.y + acrossPrevious * duv2.y) * scale * weight;
-    sum.weight += weight;
-    weights[side] += weight;
-    return true;
+    // Without branches, which nobody could foresee.
+    const std::uint32_t at = mesh.indices[c], next = mesh.indices[c + 1 - 3 * std::size_t(k == 2)],
+                        previous = mesh.indices[c - 1 + 3 * std::size_t(k == 0)];
+    return {mesh.positions[next] - mesh.positions[at],
+            mesh.positions[previous] - mesh.positions[at],
+            mesh.texcoords[next] - mesh.texcoords[at],
+            mesh.texcoords[previous] - mesh.texcoords[at],
+            normal,
+            unit};
 }
 
-// The averages of vertices that are equal.
+// The averages of vertices that are equal. Corners of several vertices are derived side by side.
 class Averaging {
 public:
     Averaging(const MeshView& mesh, const Chains& chains, std::vector<Side>& sides, const Averages& averages)
-        : mesh_(mesh), chains_(chains), sides_(sides), averages_(averages)
+        : mesh_(mesh), chains_(chains), sides_(sides), averages_(averages), lanes_(std::make_unique<CornerLanes>())
     {
     }
 
-    void average(std::uint32_t first)
+    // Those of `first` and its equals, at the latest when finish() is called.
+    void add(std::uint32_t first)
     {
-        Sum sums[2]; // by side
-        unit_ = f32::cotan_normalize_or(mesh_.normals[first], glm::vec3(0));
+        if (!gathered(first)) {
+            finish();
+            if (!gathered(first)) { // more corners than there are lanes
+                addOneByOne(first);
+                return;
+            }
+        }
+        waiting_.push_back({first, lanes_->count});
+    }
+
+    void finish()
+    {
+        deriveGradients(*lanes_);
+        std::size_t lane = 0;
+        for (const Waiting& w : waiting_) {
+            addLanes(w.first, lane, w.end);
+            lane = w.end;
+        }
+        waiting_.clear();
+        lanes_->count = 0;
+    }
+
+private:
+    // Puts all corners into lanes, or none where they do not fit.
+    bool gathered(std::uint32_t first)
+    {
+        const glm::vec3 unit = f32::cotan_normalize_or(mesh_.normals[first], glm::vec3(0));
+        std::size_t lane = lanes_->count;
         for (std::uint32_t v = first; v != kNone; v = chains_.equalVertex[v])
-            sides_[v] = addVertex(v, sums);
+            for (std::uint32_t c = chains_.firstCorner(v); c != kNone; c = chains_.nextCorner(c)) {
+                if (lane == CornerLanes::kLanes)
+                    return false;
+                lanes_->put(lane++, edgesIn(mesh_, c, mesh_.normals[v], unit));
+            }
+        lanes_->count = lane;
+        return true;
+    }
+
+    void addOneByOne(std::uint32_t first)
+    {
+        const glm::vec3 unit = f32::cotan_normalize_or(mesh_.normals[first], glm::vec3(0));
+        Sum sums[2]; // by side
+        for (std::uint32_t v = first; v != kNone; v = chains_.equalVertex[v])
+            sides_[v] = addVertex(
+                v, sums, [&](std::uint32_t c) { return gradientsOf(edgesIn(mesh_, c, mesh_.normals[v], unit)); });
+        storeAll(first, sums);
+    }
+
+    void addLanes(std::uint32_t first, std::size_t lane, std::size_t end)
+    {
+        Sum sums[2];
+        if (const Side side = lanes_->sideOf(lane, end); side != Side::none) { // of all corners, which are usual ones
+            Sum sum;
+            for (; lane < end; ++lane)
+                sum.add(lanes_->gradients(lane));
+            sums[std::size_t(side)] = sum;
+            for (std::uint32_t v = first; v != kNone; v = chains_.equalVertex[v])
+                sides_[v] = chains_.firstCorner(v) == kNone ? Side::none : side;
+        } else {
+            for (std::uint32_t v = first; v != kNone; v = chains_.equalVertex[v])
+                sides_[v] = addVertex(v, sums, [&](std::uint32_t) { return lanes_->gradients(lane++); });
+        }
+        storeAll(first, sums);
+    }
+
+    void storeAll(std::uint32_t first, const Sum (&sums)[2])
+    {
+        const Average averages[2] = {averageOf(sums[0]), averageOf(sums[1])};
         const auto isEmpty = [&](std::size_t slot) { return sums[slot % 2].isEmpty(); };
         for (std::uint32_t v = first; v != kNone; v = chains_.equalVertex[v]) {
             sides_[v] = sideOrNearest(sides_[v], first, isEmpty);
-            store(sums[std::size_t(sides_[v])], v);
+            store(averages[std::size_t(sides_[v])], v);
             if (averages_.copies.empty() || averages_.copies[v] == kNone)
                 continue;
             const Side other = averages_.keepers[v] == Side::mirrored ? Side::unmirrored : Side::mirrored;
             const bool known = !sums[std::size_t(other)].isEmpty();
-            store(sums[std::size_t(sideOrNearest(known ? other : Side::none, first, isEmpty))], averages_.copies[v]);
+            store(averages[std::size_t(sideOrNearest(known ? other : Side::none, first, isEmpty))],
+                  averages_.copies[v]);
         }
     }
 
-private:
-    void store(const Sum& sum, std::uint32_t vertex)
+    void store(const Average& average, std::uint32_t vertex)
     {
         if (!averages_.cotangents)
             return;
-        const float scale = sum.isEmpty() ? 0 : 1 / sum.weight;
-        averages_.cotangents->u[vertex] = sum.u * scale;
-        averages_.cotangents->v[vertex] = sum.v * scale;
+        averages_.cotangents->u[vertex] = average.u;
+        averages_.cotangents->v[vertex] = average.v;
     }
-    // Returns the side whose average it takes.
-    Side addVertex(std::uint32_t vertex, Sum (&sums)[2])
+
+    // gradients(c): those of the vertex's corners, asked in their order. Returns the side whose average it takes.
+    template<class Gradients> Side addVertex(std::uint32_t vertex, Sum (&sums)[2], const Gradients& gradients)
     {
         const glm::vec3 n = mesh_.normals[vertex];
         float weights[2] = {0, 0};
-        for (std::uint32_t c = chains_.firstCorner[vertex]; c != kNone; c = chains_.nextCorner[c]) {
-            if (addUsualCorner(mesh_, c, n, unit_, sums, weights))
+        for (std::uint32_t c = chains_.firstCorner(vertex); c != kNone; c = chains_.nextCorner(c)) {
+            if (const CornerGradients g = gradients(c); g.usual) {
+                const std::size_t side = std::size_t(g.mirrored ? Side::mirrored : Side::unmirrored);
+                sums[side].add(g);
+                weights[side] += g.weight;
                 continue;
+            }
             const Edges e = edgesAt(mesh_, c / 3, c % 3);
             if (const Side side = sideAt(e, n); side != Side::none)
                 weights[std::size_t(side)] += addCorner(e, n, sums[std::size_t(side)]);
@@ -184,11 +262,12 @@ private:
             return averages_.keepers.empty() ? largerSide(vertex, n) : averages_.keepers[vertex];
         return weights[0] > 0 ? Side::unmirrored : weights[1] > 0 ? Side::mirrored : Side::none;
     }
+
     // Where triangles of both sides index a vertex: that of the larger sum of angle times openness.
     Side largerSide(std::uint32_t vertex, glm::vec3 n) const
     {
         float shares[2] = {0, 0};
-        for (std::uint32_t c = chains_.firstCorner[vertex]; c != kNone; c = chains_.nextCorner[c]) {
+        for (std::uint32_t c = chains_.firstCorner(vertex); c != kNone; c = chains_.nextCorner(c)) {
             const Edges e = edgesAt(mesh_, c / 3, c % 3);
             Sum sum;
             if (const Side side = sideAt(e, n); side != Side::none)
@@ -201,16 +280,23 @@ private:
     const Chains& chains_;
     std::vector<Side>& sides_;
     const Averages& averages_;
-    glm::vec3 unit_{0}; // normal of the equal vertices, at length 1
+    std::unique_ptr<CornerLanes> lanes_;
+    // Vertices whose corners are in the lanes, and where these end.
+    struct Waiting {
+        std::uint32_t first;
+        std::size_t end;
+    };
+    std::vector<Waiting> waiting_;
 };
 
 } // namespace
 
-CornerGroups groupCorners(const MeshView& mesh, std::size_t threads, const Averages& averages, const Listener& listener)
+CornerGroups groupCorners(const MeshView& mesh, std::size_t threads, const Averages& averages, const Listener& listener,
+                          const Task& beside)
 {
     constexpr double kWelded = 0.3, kChained = 0.4; // of the time
     const std::size_t count = mesh.positions.size();
-    CornerGroups groups{weld(mesh, threads), std::vector<Side>(count)};
+    CornerGroups groups{weld(mesh, threads, beside), std::vector<Side>(count)};
     if (!listener(kWelded))
         return {};
     const Chains chains = chainsOf(mesh, groups.first);
@@ -219,7 +305,8 @@ CornerGroups groupCorners(const MeshView& mesh, std::size_t threads, const Avera
                           Averaging averaging(mesh, chains, groups.sides, averages);
                           for (std::size_t v = begin; v != end; ++v)
                               if (groups.first[v] == v)
-                                  averaging.average(std::uint32_t(v));
+                                  averaging.add(std::uint32_t(v));
+                          averaging.finish();
                       });
     return done ? std::move(groups) : CornerGroups{};
 }

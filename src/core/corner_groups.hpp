@@ -11,6 +11,7 @@
 #include "cotan/tangents.hpp"
 #include "large_array.hpp"
 #include "parallel.hpp"
+#include "tangents_mesh.hpp"
 
 namespace cotan::tangents {
 
@@ -59,9 +60,9 @@ struct Averages {
 };
 
 // mesh: usable. The result does not depend on the number of threads. Without `first` where the listener has said to
-// stop.
+// stop. beside: something that has to be done before averages are stored, once; one thread may do it meanwhile.
 CornerGroups groupCorners(const MeshView& mesh, std::size_t threads = 1, const Averages& averages = {},
-                          const Listener& listener = {});
+                          const Listener& listener = {}, const Task& beside = {});
 
 // smoothCotangents of a usable mesh, into `made`. Returns false where the listener has said to stop.
 bool averageCotangents(const MeshView& mesh, int threads, const Listener& listener, Cotangents& made);

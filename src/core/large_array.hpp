@@ -7,6 +7,7 @@
 #include <memory>
 #include <new>
 #include <type_traits>
+#include <vector>
 
 #if __has_include(<sys/mman.h>) && !defined(__EMSCRIPTEN__) // where malloc is all there is, and zeros are written out
 #include <sys/mman.h>
@@ -63,6 +64,16 @@ template<class T> LargeArray<T> makeLargeArray(std::size_t size)
     if (memory == nullptr && bytes > 0)
         throw std::bad_alloc();
     return LargeArray<T>(static_cast<T*>(memory), {});
+}
+
+// A vector of zeros in large pages.
+template<class T> std::vector<T> zeros(std::size_t size)
+{
+    std::vector<T> out;
+    out.reserve(size);
+    wishLargePages(out.data(), size * sizeof(T));
+    out.resize(size);
+    return out;
 }
 
 } // namespace cotan

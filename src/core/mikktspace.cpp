@@ -302,15 +302,6 @@ void inheritAtDegenerate(const Triangles& t, const CornersAt& at, std::span<glm:
                 out[c] = out[sound];
 }
 
-std::vector<glm::vec4> zeros(std::size_t size)
-{
-    std::vector<glm::vec4> out;
-    out.reserve(size);
-    wishLargePages(out.data(), size * sizeof(glm::vec4));
-    out.resize(size);
-    return out;
-}
-
 // Starting a thread takes as long as some thousands of triangles.
 constexpr std::size_t kTrianglesPerThread = 8192;
 
@@ -321,7 +312,7 @@ bool mikktspace::makeTangents(const MeshView& mesh, int threads, const Listener&
     const std::size_t used = threadsFor(mesh.indices.size() / 3, kTrianglesPerThread, threads);
     CornersAt at;
     auto makeRoom = [&] { // fresh memory takes half as long
-        out = zeros(mesh.indices.size());
+        out = zeros<glm::vec4>(mesh.indices.size());
         at = noCorners(mesh);
     };
     const tangents::Task beside{[](void* room) { (*static_cast<decltype(makeRoom)*>(room))(); }, &makeRoom};

@@ -55,9 +55,10 @@ std::vector<glm::vec4> vertexTangents(const MeshView& mesh)
 bool tangents::averageCotangents(const MeshView& mesh, int threads, const Listener& listener, Cotangents& made)
 {
     const std::size_t count = mesh.positions.size();
-    made = {std::vector<glm::vec3>(count), std::vector<glm::vec3>(count)};
+    auto makeRoom = [&] { made = {zeros<glm::vec3>(count), zeros<glm::vec3>(count)}; };
+    const Task beside{[](void* room) { (*static_cast<decltype(makeRoom)*>(room))(); }, &makeRoom};
     const std::size_t all = threadsFor(mesh.indices.size(), kLeastCorners, threads);
-    return count == 0 || groupCorners(mesh, all, {&made, {}, {}}, listener).first;
+    return count == 0 || groupCorners(mesh, all, {&made, {}, {}}, listener, beside).first;
 }
 
 Cotangents smoothCotangents(const MeshView& mesh, int threads)

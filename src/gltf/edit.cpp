@@ -78,9 +78,9 @@ GltfDocument open(const std::filesystem::path& path, const LoadLimits& limits)
     source->file = std::move(model.file);
     source->views = std::move(model.views);
     GltfDocument document;
-    document.root = source->root;
-    if (!document.root.contains("bufferViews")) // a member that is added later would leave no reference in place
-        document.root["bufferViews"] = Json::array();
+    rootOf(document) = source->root;
+    if (!rootOf(document).contains("bufferViews")) // a member that is added later would leave no reference in place
+        rootOf(document)["bufferViews"] = Json::array();
     if (!unpacked.empty())
         document.notes.push_back(packedNote(source->file, unpacked));
     document.source = std::move(source);
@@ -106,7 +106,7 @@ const std::filesystem::path& gltfPath(const GltfDocument& document) { return doc
 
 Result<std::vector<std::byte>> gltfImageBytes(const GltfDocument& document, std::size_t image, const LoadLimits& limits)
 {
-    const gltf::Image entry = gltf::readImage(document.root["images"][image]);
+    const gltf::Image entry = gltf::readImage(rootOf(document)["images"][image]);
     if (entry.view >= 0) {
         const auto bytes = viewBytes(document, std::size_t(entry.view));
         return std::vector<std::byte>(bytes.begin(), bytes.end());
@@ -127,7 +127,8 @@ Result<std::vector<std::byte>> gltfImageBytes(const GltfDocument& document, std:
 void replaceGltfImage(GltfDocument& document, std::size_t image, std::vector<std::byte> bytes,
                       const std::string& mimeType)
 {
-    document.root["images"][image] = withImage(document, document.root["images"][image], std::move(bytes), mimeType);
+    rootOf(document)["images"][image] =
+        withImage(document, rootOf(document)["images"][image], std::move(bytes), mimeType);
 }
 
 std::size_t addGltfImage(GltfDocument& document, std::vector<std::byte> bytes, const std::string& mimeType,
@@ -137,24 +138,24 @@ std::size_t addGltfImage(GltfDocument& document, std::vector<std::byte> bytes, c
     if (!name.empty())
         image["name"] = name;
     image = withImage(document, std::move(image), std::move(bytes), mimeType);
-    document.root["images"].push_back(std::move(image));
-    return document.root["images"].size() - 1;
+    rootOf(document)["images"].push_back(std::move(image));
+    return rootOf(document)["images"].size() - 1;
 }
 
 std::size_t copyGltfTexture(GltfDocument& document, std::size_t texture, std::size_t image)
 {
-    Json copy = document.root["textures"][texture];
+    Json copy = rootOf(document)["textures"][texture];
     copy["source"] = image;
     copy.erase("extensions");
-    document.root["textures"].push_back(std::move(copy));
-    return document.root["textures"].size() - 1;
+    rootOf(document)["textures"].push_back(std::move(copy));
+    return rootOf(document)["textures"].size() - 1;
 }
 
 std::size_t copyGltfMaterial(GltfDocument& document, std::size_t material)
 {
-    Json copy = document.root["materials"][material];
-    document.root["materials"].push_back(std::move(copy));
-    return document.root["materials"].size() - 1;
+    Json copy = rootOf(document)["materials"][material];
+    rootOf(document)["materials"].push_back(std::move(copy));
+    return rootOf(document)["materials"].size() - 1;
 }
 
 } // namespace cotan

@@ -21,14 +21,14 @@ gltf::Elements elementsOf(const GltfDocument& document, const Json& accessor)
 {
     const auto bytesOf = [&](std::size_t view) {
         return gltf::ViewBytes{viewBytes(document, view),
-                               gltf::valueOr(document.root["bufferViews"][view], "byteStride", std::size_t(0))};
+                               gltf::valueOr(rootOf(document)["bufferViews"][view], "byteStride", std::size_t(0))};
     };
     return gltf::findElements(gltf::readAccessor(accessor), bytesOf, "accessor");
 }
 
 std::vector<std::uint32_t> readTriangles(const GltfDocument& document, const gltf::Primitive& primitive)
 {
-    const Json& accessors = document.root["accessors"];
+    const Json& accessors = rootOf(document)["accessors"];
     const int positions = gltf::accessorOf(primitive.attributes, "POSITION");
     std::vector<std::uint32_t> order;
     if (primitive.indices >= 0) {
@@ -50,14 +50,14 @@ std::size_t addView(GltfDocument& document, std::vector<std::byte> bytes, std::s
     if (target > 0)
         view["target"] = target;
     document.added.push_back(std::move(bytes));
-    document.root["bufferViews"].push_back(std::move(view));
-    return document.root["bufferViews"].size() - 1;
+    rootOf(document)["bufferViews"].push_back(std::move(view));
+    return rootOf(document)["bufferViews"].size() - 1;
 }
 
 std::size_t addAccessor(GltfDocument& document, Json accessor)
 {
-    document.root["accessors"].push_back(std::move(accessor));
-    return document.root["accessors"].size() - 1;
+    rootOf(document)["accessors"].push_back(std::move(accessor));
+    return rootOf(document)["accessors"].size() - 1;
 }
 
 } // namespace gltf_edit
@@ -72,8 +72,9 @@ std::vector<Vector> readAttribute(const GltfDocument& document, const gltf::Prim
     const int accessor = gltf::accessorOf(primitive.attributes, name);
     if (accessor < 0)
         return {};
-    return gltf::readVectors<Vector>(gltf_edit::elementsOf(document, document.root["accessors"][std::size_t(accessor)]),
-                                     choice, {accessor, field + "." + name});
+    return gltf::readVectors<Vector>(
+        gltf_edit::elementsOf(document, rootOf(document)["accessors"][std::size_t(accessor)]), choice,
+        {accessor, field + "." + name});
 }
 
 // The uv as a map reads them.
@@ -97,14 +98,15 @@ GltfGeometry readGeometry(const GltfDocument& document, const Json& source, cons
     gltf::Primitive primitive = gltf::readPrimitive(source);
     if (material)
         primitive.material = int(*material);
-    const gltf::TextureUse map =
-        primitive.material < 0 ? gltf::TextureUse{} : normalMapOf(document.root, std::size_t(primitive.material), slot);
+    const gltf::TextureUse map = primitive.material < 0
+        ? gltf::TextureUse{}
+        : normalMapOf(rootOf(document), std::size_t(primitive.material), slot);
     const int positions = gltf::accessorOf(primitive.attributes, "POSITION");
     GltfGeometry out;
     if (positions < 0) // what it may hold else has not been checked
         return out;
     out.indices = gltf_edit::readTriangles(document, primitive);
-    const auto count = document.root["accessors"][std::size_t(positions)]["count"].get<std::size_t>();
+    const auto count = rootOf(document)["accessors"][std::size_t(positions)]["count"].get<std::size_t>();
     const std::vector<std::uint32_t> vertices = takeUsedVertices(out.indices, count);
     const gltf::Choice choice(count, vertices);
     out.positions = readAttribute<glm::vec3>(document, primitive, "POSITION", choice, field);
@@ -120,7 +122,7 @@ Result<GltfGeometry> gltfGeometry(const GltfDocument& document, std::size_t mesh
                                   NormalSlot slot, std::optional<std::size_t> material)
 {
     return caughtGltf(document.source->path, [&] {
-        return readGeometry(document, document.root["meshes"][mesh]["primitives"][primitive],
+        return readGeometry(document, rootOf(document)["meshes"][mesh]["primitives"][primitive],
                             primitiveField(mesh, primitive), slot, material);
     });
 }

@@ -11,7 +11,7 @@ namespace {
 std::vector<bool> released(const GltfDocument& document, Collection collection)
 {
     const std::vector<bool> before = usedItems(document.source->root, collection);
-    std::vector<bool> removed = usedItems(document.root, collection);
+    std::vector<bool> removed = usedItems(rootOf(document), collection);
     for (std::size_t i = 0; i < removed.size(); ++i)
         removed[i] = !removed[i] && (i >= before.size() || before[i]);
     return removed;
@@ -29,7 +29,7 @@ struct Part {
 
 std::vector<Part> partsOf(const GltfDocument& document)
 {
-    std::vector<Part> parts(countOf(document.root, "bufferViews"));
+    std::vector<Part> parts(countOf(rootOf(document), "bufferViews"));
     const std::size_t old = document.source->views.size();
     for (std::size_t i = 0; i < parts.size(); ++i) {
         parts[i].bytes = viewBytes(document, i);
@@ -109,7 +109,7 @@ void describeBuffer(GltfDocument& document, Layout& out)
 
 Layout layOut(GltfDocument& document)
 {
-    const std::vector<std::string> unknown = unknownExtensions(document.root);
+    const std::vector<std::string> unknown = unknownExtensions(rootOf(document));
     const bool removes = unknown.empty();
     if (!removes && document.source->file.buffers.size() > 1)
         failGltf("buffers: expected one where an unknown extension ({}) may refer to them, found {}",
@@ -117,10 +117,10 @@ Layout layOut(GltfDocument& document)
 
     if (removes) {
         if (const auto images = released(document, Collection::images); any(images))
-            removeItems(document.root, Collection::images, images);
+            removeItems(rootOf(document), Collection::images, images);
         if (const auto accessors = released(document, Collection::accessors); any(accessors)) {
             repackViews(document, accessors);
-            removeItems(document.root, Collection::accessors, accessors);
+            removeItems(rootOf(document), Collection::accessors, accessors);
         }
     } else {
         document.notes.push_back(fmt::format("nothing is removed: unknown extensions may refer to any data ({})",
@@ -129,7 +129,7 @@ Layout layOut(GltfDocument& document)
 
     std::vector<Part> parts = partsOf(document);
     if (const auto views = released(document, Collection::bufferViews); removes && any(views)) {
-        removeItems(document.root, Collection::bufferViews, views);
+        removeItems(rootOf(document), Collection::bufferViews, views);
         std::vector<Part> kept;
         for (std::size_t i = 0; i < parts.size(); ++i)
             if (!views[i])
@@ -139,7 +139,7 @@ Layout layOut(GltfDocument& document)
     for (std::size_t i = 0; i < parts.size(); ++i)
         parts[i].view = i;
 
-    Layout out{std::move(document.root), {}};
+    Layout out{std::move(rootOf(document)), {}};
     if (removes)
         appendFileParts(document, parts, out);
     else

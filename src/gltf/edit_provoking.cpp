@@ -31,12 +31,12 @@ void drawAs(Json& primitive, const Json& like)
 // Nothing is changed where there are no triangles.
 GltfProvoked provoke(GltfDocument& document, std::size_t m, std::size_t p, ProvokingVertex provoking)
 {
-    Json& primitive = document.root["meshes"][m]["primitives"][p];
+    Json& primitive = rootOf(document)["meshes"][m]["primitives"][p];
     GltfProvoked done{.mesh = m, .primitive = p};
     if (!primitive["attributes"].contains("POSITION"))
         return done;
     const auto position = primitive["attributes"]["POSITION"].get<std::size_t>();
-    const auto count = document.root["accessors"][position]["count"].get<std::size_t>();
+    const auto count = rootOf(document)["accessors"][position]["count"].get<std::size_t>();
     std::vector<std::uint32_t> corners = readTriangles(document, gltf::readPrimitive(primitive));
     if (corners.empty())
         return done;
@@ -61,8 +61,8 @@ Result<std::vector<GltfProvoked>> setGltfProvoking(GltfDocument& document, Provo
     return caughtGltf(document.source->path, [&] {
         std::vector<GltfProvoked> all;
         std::map<std::string, Json> done; // by what a primitive drew what it draws now
-        (void)forEachPrimitive(document.root, [&](std::size_t m, std::size_t p) -> Status {
-            Json& primitive = document.root["meshes"][m]["primitives"][p];
+        (void)forEachPrimitive(rootOf(document), [&](std::size_t m, std::size_t p) -> Status {
+            Json& primitive = rootOf(document)["meshes"][m]["primitives"][p];
             const std::string drawn = drawnBy(primitive);
             if (const auto found = done.find(drawn); found != done.end()) {
                 drawAs(primitive, found->second);

@@ -76,15 +76,15 @@ void squeeze(GltfDocument& document, std::size_t view, const Cluster& cluster, c
                 std::memcpy(bytes.data() + (row * words + moved[w]) * 4, from.data() + at,
                             std::min<std::size_t>(4, from.size() - at));
         }
-    Json made = document.root["bufferViews"][view];
+    Json made = rootOf(document)["bufferViews"][view];
     made["buffer"] = 0;
     made["byteLength"] = bytes.size();
     made["byteStride"] = words * 4;
     made.erase("byteOffset");
     const std::size_t index = addView(document, std::move(bytes));
-    document.root["bufferViews"][index] = std::move(made);
+    rootOf(document)["bufferViews"][index] = std::move(made);
     for (const Range& r : cluster) {
-        Json& accessor = document.root["accessors"][r.accessor];
+        Json& accessor = rootOf(document)["accessors"][r.accessor];
         accessor["bufferView"] = index;
         accessor["byteOffset"] = moved[(r.begin - start) / 4] * 4 + r.begin % 4;
     }
@@ -95,13 +95,13 @@ void closeGaps(GltfDocument& document, std::size_t view, const std::vector<Clust
 {
     const std::span<const std::byte> from = viewBytes(document, view);
     std::vector<std::byte> bytes;
-    Json made = document.root["bufferViews"][view];
+    Json made = rootOf(document)["bufferViews"][view];
     const std::size_t index = addView(document, {});
     for (const Cluster& cluster : kept) {
         const std::size_t start = cluster.front().begin / 4 * 4;
         bytes.resize((bytes.size() + 3) / 4 * 4);
         for (const Range& r : cluster) {
-            Json& accessor = document.root["accessors"][r.accessor];
+            Json& accessor = rootOf(document)["accessors"][r.accessor];
             accessor["bufferView"] = index;
             accessor["byteOffset"] = bytes.size() + r.begin - start;
         }
@@ -112,7 +112,7 @@ void closeGaps(GltfDocument& document, std::size_t view, const std::vector<Clust
     made["byteLength"] = bytes.size();
     made.erase("byteOffset");
     document.added.back() = std::move(bytes);
-    document.root["bufferViews"][index] = std::move(made);
+    rootOf(document)["bufferViews"][index] = std::move(made);
 }
 
 // Views that something else than the dense part of an accessor uses.
@@ -131,20 +131,20 @@ std::vector<bool> otherUses(const Json& root)
 
 std::size_t strideOf(const GltfDocument& document, std::size_t view)
 {
-    return gltf::valueOr(document.root["bufferViews"][view], "byteStride", std::size_t(0));
+    return gltf::valueOr(rootOf(document)["bufferViews"][view], "byteStride", std::size_t(0));
 }
 
 } // namespace
 
 void repackViews(GltfDocument& document, const std::vector<bool>& removed)
 {
-    const std::size_t views = countOf(document.root, "bufferViews");
+    const std::size_t views = countOf(rootOf(document), "bufferViews");
     if (views == 0)
         return;
     std::vector<std::vector<Range>> kept(views);
     std::vector<bool> lost(views, false);
     for (std::size_t a = 0; a < removed.size(); ++a) {
-        const gltf::Accessor accessor = gltf::readAccessor(document.root["accessors"][a]);
+        const gltf::Accessor accessor = gltf::readAccessor(rootOf(document)["accessors"][a]);
         if (accessor.view < 0)
             continue;
         const auto view = std::size_t(accessor.view);
@@ -157,7 +157,7 @@ void repackViews(GltfDocument& document, const std::vector<bool>& removed)
         const std::size_t end = accessor.count == 0 ? begin : begin + (accessor.count - 1) * stride + size;
         kept[view].push_back({a, begin, end, size});
     }
-    const std::vector<bool> other = otherUses(document.root);
+    const std::vector<bool> other = otherUses(rootOf(document));
     for (std::size_t view = 0; view < views; ++view) {
         if (!lost[view] || kept[view].empty() || other[view])
             continue;

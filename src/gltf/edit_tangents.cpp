@@ -21,7 +21,7 @@ struct Group {
 
 Json& primitiveOf(GltfDocument& document, const GltfCornerTangents& t)
 {
-    return document.root["meshes"][t.mesh]["primitives"][t.primitive];
+    return rootOf(document)["meshes"][t.mesh]["primitives"][t.primitive];
 }
 
 // What two primitives have in common if they share vertices, as text.
@@ -47,7 +47,7 @@ std::vector<Group> makeGroups(GltfDocument& document, std::span<const GltfCorner
         const auto [place, isNew] = known.emplace(sharedKey(primitive), groups.size());
         if (isNew)
             groups.emplace_back().vertexCount =
-                document.root["accessors"][attributes["POSITION"].get<std::size_t>()]["count"];
+                rootOf(document)["accessors"][attributes["POSITION"].get<std::size_t>()]["count"];
         Group& group = groups[place->second];
         group.members.push_back(&t);
         group.triangles.push_back(readTriangles(document, gltf::readPrimitive(primitive)));
@@ -141,7 +141,7 @@ Result<std::size_t> setGltfTangents(GltfDocument& document, std::span<const Gltf
 
 bool dropGltfTangents(GltfDocument& document, std::size_t mesh, std::size_t primitive)
 {
-    Json& p = document.root["meshes"][mesh]["primitives"][primitive];
+    Json& p = rootOf(document)["meshes"][mesh]["primitives"][primitive];
     if (p["attributes"].erase("TANGENT") == 0)
         return false;
     for (std::size_t t = 0; p.contains("targets") && t < p["targets"].size(); ++t) {
@@ -149,7 +149,7 @@ bool dropGltfTangents(GltfDocument& document, std::size_t mesh, std::size_t prim
         const auto tangents = target.find("TANGENT");
         if (tangents == target.end())
             continue;
-        const Json& count = document.root["accessors"][tangents->get<std::size_t>()]["count"];
+        const Json& count = rootOf(document)["accessors"][tangents->get<std::size_t>()]["count"];
         const auto vertices = count.get<std::size_t>();
         target.erase("TANGENT");
         if (target.empty())

@@ -100,7 +100,7 @@ bool allAmong(std::size_t count, Sources sources)
 
 std::size_t renewAccessor(GltfDocument& document, std::size_t index, Sources sources)
 {
-    Json accessor = document.root["accessors"][index]; // a copy: adding moves the original
+    Json accessor = rootOf(document)["accessors"][index]; // a copy: adding moves the original
     const gltf::Elements old = elementsOf(document, accessor);
     if (old.accessor.sparse)
         renewSparse(document, old, accessor, sources);
@@ -144,7 +144,7 @@ void setTriangles(GltfDocument& document, Json& primitive, std::span<const std::
 {
     Json accessor = Json::object();
     if (primitive.contains("indices"))
-        accessor = document.root["accessors"][primitive["indices"].get<std::size_t>()];
+        accessor = rootOf(document)["accessors"][primitive["indices"].get<std::size_t>()];
     // Bytes only where the file had them: some hardware is slow with them.
     const bool hadBytes = gltf::valueOr(accessor, "componentType", 0) == gltf::kUnsignedByte;
     auto [type, bytes] = smallestIndices(indices, vertexCount, hadBytes);

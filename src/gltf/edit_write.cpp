@@ -89,7 +89,7 @@ std::string mimeTypeOf(std::span<const std::byte> bytes)
 void embedImages(GltfDocument& document, const LoadLimits& limits)
 {
     std::map<fs::path, Json> embedded; // what the image gets in place of its uri
-    for (const auto& [i, file] : imageFiles(*document.source, document.root)) {
+    for (const auto& [i, file] : imageFiles(*document.source, rootOf(document))) {
         if (!embedded.contains(file)) {
             std::vector<std::byte> bytes = readOrFail(*document.source, file, limits);
             const std::string type = mimeTypeOf(bytes);
@@ -99,13 +99,13 @@ void embedImages(GltfDocument& document, const LoadLimits& limits)
         }
         if (embedded[file].is_null())
             continue;
-        document.root["images"][i].erase("uri");
-        document.root["images"][i].update(embedded[file]);
+        rootOf(document)["images"][i].erase("uri");
+        rootOf(document)["images"][i].update(embedded[file]);
     }
-    for (std::size_t i = 0; i < countOf(document.root, "images"); ++i)
-        if (isExternal(document.root["images"][i]))
+    for (std::size_t i = 0; i < countOf(rootOf(document), "images"); ++i)
+        if (isExternal(rootOf(document)["images"][i]))
             document.notes.push_back(fmt::format("images[{}]: \"{}\" is missing or no picture and stays a reference", i,
-                                                 oneLine(document.root["images"][i]["uri"].get<std::string>())));
+                                                 oneLine(rootOf(document)["images"][i]["uri"].get<std::string>())));
 }
 
 // ---- GLB ------------------------------------------------------------------------------------
@@ -225,11 +225,11 @@ void putImagesBeside(GltfDocument& document, const fs::path& file, const LoadLim
     std::vector<fs::path> read;
     for (const auto& [i, path] : imageFiles(source, source.root))
         read.push_back(path);
-    for (std::size_t i = 0; i < countOf(document.root, "images"); ++i) {
-        Json& image = document.root["images"][i];
+    for (std::size_t i = 0; i < countOf(rootOf(document), "images"); ++i) {
+        Json& image = rootOf(document)["images"][i];
         if (!image.contains("bufferView") || image["bufferView"].get<std::size_t>() < old)
             continue;
-        const std::string stem = file.stem().string() + "-" + nameOfImage(source, document.root, i);
+        const std::string stem = file.stem().string() + "-" + nameOfImage(source, rootOf(document), i);
         const auto format =
             std::ranges::find(kImageFormats, image.value("mimeType", std::string("image/png")), &ImageFormat::mime);
         const std::string ending(format == kImageFormats.end() ? ".png" : format->endings[0]);

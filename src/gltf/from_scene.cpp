@@ -70,10 +70,10 @@ Json primitiveOf(GltfDocument& document, const Mesh& mesh, const Material& mater
 
 std::size_t addTexture(GltfDocument& document, const Texture& texture)
 {
-    document.root["samplers"].push_back(gltf::writeSampler(texture.sampler));
-    document.root["textures"].push_back(
-        {{"source", std::size_t(texture.image)}, {"sampler", document.root["samplers"].size() - 1}});
-    return document.root["textures"].size() - 1;
+    rootOf(document)["samplers"].push_back(gltf::writeSampler(texture.sampler));
+    rootOf(document)["textures"].push_back(
+        {{"source", std::size_t(texture.image)}, {"sampler", rootOf(document)["samplers"].size() - 1}});
+    return rootOf(document)["textures"].size() - 1;
 }
 
 // KHR_texture_transform knows a turn and two scales: uRow = (c sx, s sy, ox), vRow = (-s sx, c sy, oy).
@@ -163,7 +163,7 @@ Result<GltfDocument> gltfDocumentOf(const Scene& scene)
     auto source = std::make_shared<GltfSource>();
     source->root = Json::object();
     document.source = std::move(source);
-    Json& root = document.root;
+    Json& root = rootOf(document);
     root = {{"asset", {{"version", "2.0"}, {"generator", "cotan"}}}, {"scene", 0}};
     for (const Image& image : scene.images) {
         if (image.type == PixelType::float32 || image.pixelCount() == 0)

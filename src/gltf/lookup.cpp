@@ -8,6 +8,13 @@ namespace cotan {
 
 using gltf::Json;
 
+GltfRoot::GltfRoot() : json(std::make_unique<GltfJson>()) {}
+GltfRoot::GltfRoot(const GltfRoot& other) : json(other.json ? std::make_unique<GltfJson>(*other.json) : nullptr) {}
+GltfRoot::GltfRoot(GltfRoot&& other) noexcept = default;
+GltfRoot& GltfRoot::operator=(const GltfRoot& other) { return *this = GltfRoot(other); }
+GltfRoot& GltfRoot::operator=(GltfRoot&& other) noexcept = default;
+GltfRoot::~GltfRoot() = default;
+
 namespace {
 
 // besides: a slot that is left out.

@@ -29,7 +29,7 @@ Result<GltfPrimitiveGeometry> readPrimitive(const GltfDocument& document, std::s
     auto geometry = gltfGeometry(document, m, p);
     if (!geometry)
         return geometry.error();
-    const Json& mesh = document.root["meshes"][m];
+    const Json& mesh = rootOf(document)["meshes"][m];
     GltfPrimitiveGeometry read{m, p, mesh.value("name", fmt::format("mesh {}", m)), std::move(*geometry), {}};
     if (mesh["primitives"].size() > 1)
         read.name += fmt::format("/{}", p);
@@ -58,10 +58,10 @@ Result<std::vector<PrimitiveTangents>> rowsOf(const GltfDocument& document, cons
             fmt::format("tangents: expected the frame mikktspace or vertex; found {}", name(options.frame)));
     std::vector<PrimitiveTangents> rows;
     std::size_t all = 0, done = 0;
-    for (std::size_t m = 0; m < countOf(document.root, "meshes"); ++m)
-        all += document.root["meshes"][m]["primitives"].size();
-    const Status status = forEachPrimitive(document.root, [&](std::size_t m, std::size_t p) -> Status {
-        if (!options.mappedOnly || hasNormalMap(document.root, m, p)) {
+    for (std::size_t m = 0; m < countOf(rootOf(document), "meshes"); ++m)
+        all += rootOf(document)["meshes"][m]["primitives"].size();
+    const Status status = forEachPrimitive(rootOf(document), [&](std::size_t m, std::size_t p) -> Status {
+        if (!options.mappedOnly || hasNormalMap(rootOf(document), m, p)) {
             const auto read = readPrimitive(document, m, p);
             if (!read)
                 return read.error();
@@ -98,7 +98,7 @@ std::vector<glm::vec4> unitForFile(std::vector<glm::vec4> tangents)
 Result<std::vector<GltfPrimitiveGeometry>> gltfPrimitives(const GltfDocument& document)
 {
     std::vector<GltfPrimitiveGeometry> all;
-    const Status status = forEachPrimitive(document.root, [&](std::size_t m, std::size_t p) -> Status {
+    const Status status = forEachPrimitive(rootOf(document), [&](std::size_t m, std::size_t p) -> Status {
         auto read = readPrimitive(document, m, p);
         if (!read)
             return read.error();

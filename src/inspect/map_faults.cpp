@@ -23,7 +23,8 @@ std::vector<std::string> mapFaults(const Scene& scene)
         const bool readUp = m.normalFormat.greenUp && !m.greenReversed; // else it is read as its tangents mean it
         const auto faults = maps::faultsOf(verdict.statistics, readUp ? &verdict : nullptr);
         if (!faults.empty())
-            sentences.push_back(maps::sentenceOf(map.name.empty() ? fmt::format("Image {}", image) : map.name, faults));
+            sentences.push_back(maps::sentenceOf(map.name.empty() ? fmt::format("Image {}", image) : map.name, faults,
+                                                 verdict.statistics));
     }
     return sentences;
 }

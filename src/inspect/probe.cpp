@@ -14,7 +14,7 @@ namespace {
 
 } // namespace
 
-Probed Prober::at(const Scene& scene, std::uint64_t number, const Hit& hit, Frame frame, TangentOrigin tangents)
+Probed Prober::at(const Scene& scene, std::uint64_t number, const PickedPoint& hit, Frame frame, TangentOrigin tangents)
 {
     const Instance& instance = scene.instances[std::size_t(hit.instance)];
     const Mesh& mesh = scene.meshes[std::size_t(hit.mesh)];

@@ -112,7 +112,7 @@ PrimitiveLint lintPrimitive(const Scene& scene, const Mesh& mesh, const MappedSu
     p.mesh = mesh.name;
     p.material = material.name;
     p.tangentsFor = material.tangentsFor;
-    const std::vector<SurfacePoint> points = pointsOver(surface, pointCount);
+    const std::vector<MeshPoint> points = pointsOver(surface, pointCount);
     if (!p.tangentsFor.empty())
         eachAdvised(p.turned, [&](Frame frame) {
             return directionTurn(surface, points, {.from = Frame::mikktspace, .to = frame});

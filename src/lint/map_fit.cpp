@@ -17,7 +17,7 @@ constexpr std::size_t kMostUses = kMostPoints / kLeast; // of more, evenly chose
 
 // The normal that a frame makes of a map at a place.
 glm::dvec3 normalOf(const Image& map, const MapUse& use, const Convention& stored, Frame frame, TangentOrigin tangents,
-                    const SurfacePoint& p)
+                    const MeshPoint& p)
 {
     Texture texture;
     texture.sampler.wrapU = use.wrapU;
@@ -44,14 +44,14 @@ void addGenerated(FrameSet& set, Frame frame, TangentOrigin tangents, bool store
 } // namespace
 
 // In the triangles by the sequence of the plastic number (R2).
-std::vector<SurfacePoint> pointsOver(const MappedSurface& s, std::size_t count, double* area)
+std::vector<MeshPoint> pointsOver(const MappedSurface& s, std::size_t count, double* area)
 {
     double total = 0;
     for (std::size_t i = 0; i < s.triangleCount(); ++i)
         total += mappedArea(s, i);
     if (area)
         *area = total;
-    std::vector<SurfacePoint> points;
+    std::vector<MeshPoint> points;
     if (!(total > 0))
         return points;
     std::size_t triangle = 0;
@@ -84,10 +84,10 @@ std::vector<Spread> mapErrors(const Image& before, const Image& after, const std
         if (!(std::abs(use->strength) > kFlattened))
             continue;
         double area = 0;
-        const std::vector<SurfacePoint> points = pointsOver(use->surface, count, &area);
+        const std::vector<MeshPoint> points = pointsOver(use->surface, count, &area);
         Convention stored = use->stored; // of `after`
         stored.expansion = expansionAfter.value_or(stored.expansion);
-        for (const SurfacePoint& p : points)
+        for (const MeshPoint& p : points)
             for (std::size_t i = 0; i < frames.size(); ++i)
                 errors[i].emplace_back(
                     lint::degreesBetween(normalOf(before, *use, use->stored, frames[i].from, frames[i].fromTangents, p),
@@ -112,10 +112,10 @@ Spread mapError(const Image& before, const Image& after, const std::vector<const
     return mapErrors(before, after, uses, {&frames, 1}, expansionAfter).front();
 }
 
-Spread directionTurn(const MappedSurface& surface, const std::vector<SurfacePoint>& points, const FramePair& frames)
+Spread directionTurn(const MappedSurface& surface, const std::vector<MeshPoint>& points, const FramePair& frames)
 {
     std::vector<std::pair<double, double>> turns;
-    for (const SurfacePoint& p : points) {
+    for (const MeshPoint& p : points) {
         const auto way = [&](Frame frame, TangentOrigin tangents) {
             const f64::cotan_frame f = frameAt(surface, frame, tangents, p.triangle, p.barycentric);
             const glm::dvec3 n = f64::cotan_normalize_or(f.n, glm::dvec3(0));

@@ -13,7 +13,7 @@ constexpr double kSameWay = 0.7071; // cosine of kTurned
 // What engines show with tangents: MikkTSpace, but of unit vectors. mikktspace.h wants them as interpolated; three.js
 // and others normalise them, which on coarse meshes is a third of what is predicted here. With the directions of stored
 // tangents where they are within 45 degrees: on a mesh that is bent by its bones these were made before it was bent.
-f64::cotan_frame meantFrame(const MappedSurface& s, const SurfacePoint& p)
+f64::cotan_frame meantFrame(const MappedSurface& s, const MeshPoint& p)
 {
     f64::cotan_frame frame = frameAt(s, Frame::mikktspace, TangentOrigin::generated, p.triangle, p.barycentric);
     if (!s.hasStored() || !s.hasGenerated(Frame::mikktspace))
@@ -31,7 +31,7 @@ f64::cotan_frame meantFrame(const MappedSurface& s, const SurfacePoint& p)
 
 } // namespace
 
-std::vector<Reading> readings(const MappedSurface& s, const std::vector<SurfacePoint>& points, Frame madeFor,
+std::vector<Reading> readings(const MappedSurface& s, const std::vector<MeshPoint>& points, Frame madeFor,
                               const Material& material, const Image& map)
 {
     struct Reader {
@@ -49,7 +49,7 @@ std::vector<Reading> readings(const MappedSurface& s, const std::vector<SurfaceP
     const f64::cotan_normal_format format = formatOf(material, map.type);
     const std::vector<double> weights = seen(s, points, material.doubleSided);
     for (std::size_t k = 0; k < points.size(); ++k) {
-        const SurfacePoint& p = points[k];
+        const MeshPoint& p = points[k];
         const glm::dvec3 m = decodedAt(map, material.normalMap, format, uvAt(s, p.triangle, p.barycentric));
         const auto readBy = [&](Frame frame, TangentOrigin tangents) {
             return f64::cotan_apply(frameAt(s, frame, tangents, p.triangle, p.barycentric), m);

@@ -126,6 +126,15 @@ std::string otherGreen(const LintReport& report)
     return listed(names);
 }
 
+// What turns them; about 127.5 where that is zero in all of them.
+std::string turningOptions(const LintReport& report)
+{
+    bool biased = true;
+    for (const GreenEvidence& g : report.maps)
+        biased = biased && (g.asDeclared() || g.verdict.statistics.centre == maps::Centre::biased);
+    return biased ? "--from directx,biased --to gltf,biased" : "--from directx --to gltf";
+}
+
 // What is wrong with the maps as files, and how each is mended; empty if nothing.
 std::string brokenMaps(const LintReport& report)
 {
@@ -135,7 +144,8 @@ std::string brokenMaps(const LintReport& report)
         if (faults.empty())
             continue;
         text += text.empty() ? "" : " ";
-        text += maps::sentenceOf(g.name.empty() ? fmt::format("Image {}", g.image) : g.name, faults);
+        text +=
+            maps::sentenceOf(g.name.empty() ? fmt::format("Image {}", g.image) : g.name, faults, g.verdict.statistics);
     }
     return text;
 }
@@ -167,9 +177,8 @@ std::string defectsOfFrames(const LintReport& report)
     if (!text.empty() && green.empty() && !distrustStored(report))
         text += " Whether green is right cannot be told from the maps, so the tangents are followed.";
     if (!green.empty())
-        text += fmt::format(
-            "{}Green seems to point the other way in {} (cotan map convert --from directx --to gltf turns it).",
-            text.empty() ? "" : " ", green);
+        text += fmt::format("{}Green seems to point the other way in {} (cotan map convert {} turns it).",
+                            text.empty() ? "" : " ", green, turningOptions(report));
     return text;
 }
 

@@ -82,7 +82,7 @@ std::vector<DepthPicture> picturesAround(glm::dvec3 middle, double radius, std::
     return pictures;
 }
 
-glm::dvec3 positionAt(const MappedSurface& s, const SurfacePoint& p)
+glm::dvec3 positionAt(const MappedSurface& s, const MeshPoint& p)
 {
     const std::size_t a = 3 * p.triangle;
     return s.position(a) * p.barycentric.x + s.position(a + 1) * p.barycentric.y + s.position(a + 2) * p.barycentric.z;
@@ -129,7 +129,7 @@ bool shows(const DepthPicture& picture, glm::dvec3 position, double cosine)
 
 } // namespace
 
-std::vector<double> seen(const MappedSurface& s, const std::vector<SurfacePoint>& points, bool bothSides)
+std::vector<double> seen(const MappedSurface& s, const std::vector<MeshPoint>& points, bool bothSides)
 {
     std::vector<double> weights(points.size(), 0);
     glm::dvec3 low(std::numeric_limits<double>::infinity()), high = -low;
@@ -158,7 +158,7 @@ std::vector<double> seen(const MappedSurface& s, const std::vector<SurfacePoint>
                 draw(corners, picture);
     }
     for (std::size_t k = 0; k < points.size(); ++k) {
-        const SurfacePoint& point = points[k];
+        const MeshPoint& point = points[k];
         const glm::dvec3 face = outwards(s, point.triangle), position = positionAt(s, point);
         for (const DepthPicture& picture : pictures)
             if (const double cosine = cosineOf(face, picture); cosine > kLeastCosine)

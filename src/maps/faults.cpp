@@ -45,13 +45,14 @@ std::vector<Fault> faultsOf(const NormalStatistics& s, const GreenVerdict* green
 {
     using Kind = Fault::Kind;
     std::vector<Fault> faults;
-    if (s.transfer == Transfer::srgb)
+    const bool normals = s.content != Content::other && s.content != Content::grey;
+    if (normals && s.transfer == Transfer::srgb)
         faults.push_back(
             {Kind::srgb, "it was saved as a colour, through the sRGB curve: flat is near 188 instead of 128"});
-    if (s.transfer == Transfer::linearised)
+    if (normals && s.transfer == Transfer::linearised)
         faults.push_back({Kind::linearised,
                           "the sRGB curve was undone on values that never had it: flat is near 55 instead of 128"});
-    if (s.redIsZ)
+    if (normals && s.redIsZ)
         faults.push_back(
             {Kind::redAndBlue, "red and blue are exchanged: red points outwards everywhere, blue does not"});
     const bool tangentSpace = s.content == Content::tangentSpace && s.transfer == Transfer::linear && !s.redIsZ;
@@ -68,16 +69,18 @@ std::vector<Fault> faultsOf(const NormalStatistics& s, const GreenVerdict* green
     return faults;
 }
 
-std::string mendingOptions(const std::vector<Fault>& faults)
+std::string mendingOptions(const std::vector<Fault>& faults, const NormalStatistics& statistics)
 {
     if (faults.empty())
         return {};
     using Kind = Fault::Kind;
-    std::string options = has(faults, Kind::greenDown) ? "--from directx" : "--from gltf";
+    const bool down = has(faults, Kind::greenDown);
+    const char* const expansion = down && statistics.centre == Centre::biased ? ",biased" : "";
+    std::string options = std::string(down ? "--from directx" : "--from gltf") + expansion;
     for (const Kind kind : {Kind::srgb, Kind::linearised, Kind::redAndBlue, Kind::redAndGreen})
         if (has(faults, kind))
             options += std::string(",") + name(kind);
-    options += " --to gltf";
+    options += std::string(" --to gltf") + expansion;
     if (has(faults, Kind::tooShort) || has(faults, Kind::tooLong))
         options += " --normalise";
     if (has(faults, Kind::eightBitsIn16))
@@ -85,14 +88,14 @@ std::string mendingOptions(const std::vector<Fault>& faults)
     return options;
 }
 
-std::string sentenceOf(const std::string& name, const std::vector<Fault>& faults)
+std::string sentenceOf(const std::string& name, const std::vector<Fault>& faults, const NormalStatistics& statistics)
 {
     if (faults.empty())
         return {};
     std::string text = name + ": ";
     for (const Fault& fault : faults)
         text += fault.text + "; ";
-    return text + "cotan map convert " + mendingOptions(faults) + " mends it.";
+    return text + "cotan map convert " + mendingOptions(faults, statistics) + " mends it.";
 }
 
 } // namespace cotan::maps

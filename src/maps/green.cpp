@@ -191,6 +191,8 @@ std::string unreadable(int width, int height, const NormalStatistics& s)
     case Content::flat: return "every texel has the same value: there is no relief to judge by";
     case Content::grey: return "the picture is grey: a height map has no green direction";
     case Content::objectSpace:
+        if (s.redIsZ)
+            return "red and blue are exchanged: no relief can be read before they are put right";
         return "the map is in object space: its directions follow a mesh, and no relief can be read from it alone";
     case Content::other: return "the lengths are not those of a normal map";
     default: return {};

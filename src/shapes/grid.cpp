@@ -15,7 +15,7 @@ std::uint32_t appendRow(Mesh& mesh, const Grid& grid, const Surface& surface, in
     const int count = pole ? grid.cellsU : grid.cellsU + 1;
     for (int i = 0; i < count; ++i) {
         const double u = (i + (pole ? 0.5 : 0.0)) / grid.cellsU;
-        const SurfacePoint point = surface(u, v);
+        const ShapePoint point = surface(u, v);
         mesh.positions.emplace_back(point.position);
         mesh.normals.emplace_back(point.normal);
         mesh.texcoords[0].emplace_back(float(u), float(v));

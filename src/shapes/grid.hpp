@@ -9,14 +9,14 @@
 
 namespace cotan {
 
-struct SurfacePoint {
+struct ShapePoint {
     glm::dvec3 position{0};
     glm::dvec3 normal{0, 0, 1}; // unit, outwards
 };
 
 // A point of the surface at (u,v) in the unit square. Seen from outside u runs to the right and v
 // downwards, so that triangles come out counter-clockwise and images unmirrored.
-using Surface = std::function<SurfacePoint(double u, double v)>;
+using Surface = std::function<ShapePoint(double u, double v)>;
 
 struct Grid {
     int cellsU = 1;

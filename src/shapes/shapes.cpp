@@ -23,7 +23,7 @@ Mesh namedMesh(const char* name)
 Surface flatSurface(glm::dvec3 corner, glm::dvec3 right, glm::dvec3 down)
 {
     const glm::dvec3 normal = glm::normalize(glm::cross(down, right));
-    return [=](double u, double v) { return SurfacePoint{corner + right * u + down * v, normal}; };
+    return [=](double u, double v) { return ShapePoint{corner + right * u + down * v, normal}; };
 }
 
 // A planar curve with a radius, and their derivatives.
@@ -54,7 +54,7 @@ TubePoint spoutCurve(double v)
     return t;
 }
 
-SurfacePoint spoutPoint(double u, double v)
+ShapePoint spoutPoint(double u, double v)
 {
     const TubePoint c = spoutCurve(v);
     // The frame of the cross section: `side` in the plane of the curve, z across it.
@@ -110,7 +110,7 @@ Mesh makeSphere(float radius, int segments)
         // sin by the nearer pole, so that both poles are exactly on the axis
         const double ring = std::sin(std::numbers::pi * std::min(v, 1 - v));
         const glm::dvec3 n{ring * std::sin(longitude), std::cos(colatitude), ring * std::cos(longitude)};
-        return SurfacePoint{n * double(radius), n};
+        return ShapePoint{n * double(radius), n};
     });
     return mesh;
 }
@@ -125,7 +125,7 @@ Mesh makeTorus(float majorRadius, float minorRadius, int segments, float repeatU
         const double section = turns(0.25 - v); // v = 0 on top, 1/4 outermost
         const glm::dvec3 out{std::sin(around), 0, std::cos(around)};
         const glm::dvec3 n = out * std::cos(section) + glm::dvec3(0, std::sin(section), 0);
-        return SurfacePoint{out * double(majorRadius) + n * double(minorRadius), n};
+        return ShapePoint{out * double(majorRadius) + n * double(minorRadius), n};
     });
     scaleTexcoords(mesh, repeatU, repeatV);
     return mesh;

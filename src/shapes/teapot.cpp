@@ -42,7 +42,7 @@ bool collapsed(const teapot::Patch& patch)
 }
 
 // u runs against the columns and v along the rows: u rightwards and v downwards seen from outside.
-SurfacePoint patchPoint(const teapot::Patch& patch, double u, double v)
+ShapePoint patchPoint(const teapot::Patch& patch, double u, double v)
 {
     const Cubic across = cubic(1 - u), along = cubic(v);
     glm::dvec3 p(0), byColumn(0), byRow(0), byBoth(0);

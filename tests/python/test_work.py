@@ -48,16 +48,18 @@ def calls(tmp_path):
         "render": lambda progress: cotan.render(shape="teapot", size=(1600, 900), device="reference", progress=progress),
         "lint": lambda progress: cotan.lint(model, progress=progress),
         "convert": lambda progress: cotan.convert(model, progress=progress),
+        "tangents": lambda progress: cotan.tangents(bumps(1000), threads=1, progress=progress),
+        "smooth_cotangents": lambda progress: cotan.smooth_cotangents(bumps(1000), threads=1, progress=progress),
     }
 
 
-@pytest.mark.parametrize("name", ["bake", "render"])
+@pytest.mark.parametrize("name", ["bake", "render", "tangents", "smooth_cotangents"])
 def test_false_stops(name, tmp_path):
     with pytest.raises(cotan.StoppedError):
         calls(tmp_path)[name](lambda done: False)
 
 
-@pytest.mark.parametrize("name", ["bake", "render"])
+@pytest.mark.parametrize("name", ["bake", "render", "tangents", "smooth_cotangents"])
 def test_what_progress_raises_comes_through(name, tmp_path):
     def progress(done):
         raise ZeroDivisionError
@@ -77,6 +79,14 @@ def test_a_stopped_bake_leaves_out_as_it_was():
     out = np.full((2048, 2048, 4), 7, np.uint8)
     with pytest.raises(cotan.StoppedError):
         cotan.bake(bumps(8), bumps(60), size=2048, samples=16, out=out, progress=lambda done: False)
+    assert (out == 7).all()
+
+
+def test_stopped_tangents_leave_out_as_it_was():
+    mesh = bumps(1000)
+    out = np.full((len(mesh.indices), 4), 7, np.float32)
+    with pytest.raises(cotan.StoppedError):
+        cotan.tangents(mesh, threads=1, out=out, progress=lambda done: False)
     assert (out == 7).all()
 
 
@@ -102,6 +112,7 @@ except KeyboardInterrupt:
         "cotan.bake(low, high, size=4096, samples=16)",
         "cotan.bake(low, high, size=4096, samples=16, progress=lambda done: None)",
         "cotan.render(shape='teapot', size=(4096, 4096), device='reference')",
+        "cotan.tangents(bumps(2000), threads=1)",
     ],
 )
 def test_ctrl_c_ends_long_calls(call, source):

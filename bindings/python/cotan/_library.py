@@ -9,7 +9,7 @@ import threading
 from . import _structs as structs
 from .errors import UnavailableError, error_of
 
-API_VERSION = 5  # of cotan.h, the least that the library must have
+API_VERSION = 6  # of cotan.h, the least that the library must have
 
 if sys.platform == "win32":
     _NAMES = ("cotan.dll", "libcotan.dll")

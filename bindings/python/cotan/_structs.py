@@ -173,6 +173,8 @@ _STATUS = {
     "cotan_vertex_frame_encode": (text, VertexPlaces, pointer, pointer),
     "cotan_tangents": (text, CMesh, integer, pointer),
     "cotan_smooth_cotangents": (CMesh, pointer, pointer),
+    "cotan_tangents_with_progress": (text, CMesh, integer, Progress, pointer, pointer),
+    "cotan_smooth_cotangents_with_progress": (CMesh, integer, Progress, pointer, pointer, pointer),
     "cotan_split_vertices": (size_t, size_t, pointer, pointer, pointer, pointer, size_out),
     "cotan_split_mirrored": (CMesh, pointer, pointer, size_out),
     "cotan_triangle_vectors": (CMesh, integer, pointer, pointer),

@@ -1,9 +1,12 @@
 """Long calls: their progress, and how Ctrl-C ends them."""
 
 import threading
+from collections.abc import Callable
+from typing import Any
 
 from . import _structs as structs
 
+Progress = Callable[[float], Any]  # of the caller: gets the share that is done; False stops
 _SECONDS = 0.05  # between two calls of the caller's progress function
 
 

@@ -11,11 +11,11 @@ from . import _arrays as arrays
 from . import _structs as structs
 from ._handles import is_path
 from ._library import call, taken
-from ._work import long_call
+from ._work import Progress, long_call
 from .errors import InputError
 from .geometry import Mesh
 from .maps import Map
-from .models import Model, Progress, load
+from .models import Model, load
 from .pictures import Path, pixels_of
 from .words import BakeKind, Convention, Frame, HighNormals, Search, TangentOrigin, Up
 

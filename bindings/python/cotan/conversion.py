@@ -13,12 +13,11 @@ from . import _arrays as arrays
 from . import _structs as structs
 from ._handles import array_of_picture
 from ._library import call, library, taken
-from ._work import long_call
+from ._work import Progress, long_call
 from .models import (
     Bytes,
     Converted,
     Decode,
-    Progress,
     Source,
     check_tangents,
     convert_options,

@@ -10,6 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 from . import _arrays as arrays
 from . import _structs as structs
 from ._library import call, library
+from ._work import Progress, long_call
 from .words import Frame, TangentKind, VertexFrame
 
 Floats = NDArray[np.float32]
@@ -184,21 +185,33 @@ def vertex_frame_encode(
     )
 
 
-def tangents(mesh: Mesh, kind: TangentKind = "mikktspace", threads: int = 0, out: Optional[Floats] = None) -> Floats:
+def tangents(
+    mesh: Mesh,
+    kind: TangentKind = "mikktspace",
+    threads: int = 0,
+    out: Optional[Floats] = None,
+    progress: Optional[Progress] = None,
+) -> Floats:
     """One tangent for each index: (3 t, 4) float32; x, y, z along increasing u, w as glTF's TANGENT.
 
     kind: "mikktspace" or "vertex". threads: 0 for all cores; the result does not depend on it. The mesh needs
-    texcoords. Raises UsageError, and InputError for an index that is out of range.
+    texcoords. progress: as of `bake`; "vertex" only hears of it at its begin and end. Raises UsageError, InputError for
+    an index that is out of range, and StoppedError, which leaves `out` as it was.
     """
     out = arrays.made(out, "out", (len(mesh.indices), 4), np.float32)
-    call("cotan_tangents", arrays.encoded(kind, "kind"), mesh._c(), arrays.threads_of(threads), arrays.at(out))
+    given = arrays.encoded(kind, "kind"), mesh._c(), arrays.threads_of(threads)
+    long_call(lambda told: call("cotan_tangents_with_progress", *given, told, None, arrays.at(out)), progress)
     return out
 
 
-def smooth_cotangents(mesh: Mesh) -> tuple[Floats, Floats]:
-    """The cotangents of the frame "smooth": u and v, (n, 3) float32 each, one pair for each vertex."""
+def smooth_cotangents(mesh: Mesh, threads: int = 0, progress: Optional[Progress] = None) -> tuple[Floats, Floats]:
+    """The cotangents of the frame "smooth": u and v, (n, 3) float32 each, one pair for each vertex.
+
+    threads: 0 for all cores; the result does not depend on it. progress: as of `bake`.
+    """
     u, v = np.empty_like(mesh.positions), np.empty_like(mesh.positions)
-    call("cotan_smooth_cotangents", mesh._c(), arrays.at(u), arrays.at(v))
+    given, to = (mesh._c(), arrays.threads_of(threads)), (arrays.at(u), arrays.at(v))
+    long_call(lambda told: call("cotan_smooth_cotangents_with_progress", *given, told, None, *to), progress)
     return u, v
 
 

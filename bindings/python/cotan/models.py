@@ -15,14 +15,13 @@ from . import _arrays as arrays
 from . import _structs as structs
 from ._handles import array_of_picture, is_path
 from ._library import call, library, taken
-from ._work import long_call
+from ._work import Progress, long_call
 from .errors import InputError, MissingFileError, OutputError, UsageError
 from .geometry import Mesh
 from .pictures import Path
 from .words import Expansion, Frame, Reading, TangentOrigin, Up
 
 Bytes = Union[bytes, bytearray, memoryview]
-Progress = Callable[[float], Any]
 Decode = Callable[[str, bytes], Any]
 Encode = Callable[[np.ndarray], bytes]
 

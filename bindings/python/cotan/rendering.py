@@ -11,8 +11,8 @@ from . import _arrays as arrays
 from . import _structs as structs
 from ._handles import array_of, is_path
 from ._library import call, taken
-from ._work import long_call
-from .models import Bytes, Progress, Source
+from ._work import Progress, long_call
+from .models import Bytes, Source
 from .pictures import Path
 from .words import Convention, DrawnFrame, TangentOrigin, Up
 

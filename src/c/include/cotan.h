@@ -22,7 +22,7 @@
 extern "C" {
 #endif
 
-#define COTAN_API_VERSION 5
+#define COTAN_API_VERSION 6
 /* clang-format off */
 #ifdef __cplusplus
 #define COTAN_INIT(type) cotan_init<type>()
@@ -131,6 +131,15 @@ cotan_status cotan_tangents(const char* kind, const cotan_mesh* mesh, int thread
 
 /* The cotangents of the frame "smooth", one pair for each vertex: u and v, 3 * vertex_count floats each. */
 cotan_status cotan_smooth_cotangents(const cotan_mesh* mesh, float* u, float* v, char* message, size_t message_size);
+
+/* The same two for large meshes: progress, which may be null, is called at least once in a hundred milliseconds a
+ * million triangles, and may stop them (COTAN_STOPPED). "vertex" calls it before and after its work. Since version 6.
+ */
+cotan_status cotan_tangents_with_progress(const char* kind, const cotan_mesh* mesh, int threads,
+                                          cotan_progress progress, void* user, float* tangents, char* message,
+                                          size_t message_size);
+cotan_status cotan_smooth_cotangents_with_progress(const cotan_mesh* mesh, int threads, cotan_progress progress,
+                                                   void* user, float* u, float* v, char* message, size_t message_size);
 
 /* The same triangles over more vertices, so that what is made for corners can be stored at vertices: a vertex is copied
  * where the corners that share it have different values (4 floats each, as of cotan_tangents), or where mirrored and

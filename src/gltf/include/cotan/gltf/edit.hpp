@@ -5,7 +5,7 @@
 //     auto changed = setGltfTangents(*document, tangents);
 //     auto written = writeGltf(*document, "out.glb");
 //
-// Indices of materials, textures, images, meshes and nodes in `root` stay as they are while the
+// Indices of materials, textures, images, meshes and nodes are the file's, and stay as they are while the
 // document is open. Only writing removes what has fallen out of use, and works on a copy.
 #pragma once
 
@@ -20,10 +20,8 @@
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
-#include <nlohmann/json.hpp>
 
 #include "cotan/files/limits.hpp"
-#include "cotan/gltf/lookup.hpp"
 #include "cotan/provoking.hpp"
 #include "cotan/result.hpp"
 #include "cotan/scene/scene.hpp"
@@ -32,11 +30,24 @@ namespace cotan {
 
 struct GltfSource; // the file as it was read; never changes
 
+struct GltfJson; // what it says, as changed since
+
+// The JSON of a document, which only Cotan's own parts look into: no JSON library is needed to use these functions. A
+// copy is a whole one. What was moved from may be assigned to and destroyed.
+struct GltfRoot {
+    GltfRoot();
+    GltfRoot(const GltfRoot& other);
+    GltfRoot(GltfRoot&& other) noexcept;
+    GltfRoot& operator=(const GltfRoot& other);
+    GltfRoot& operator=(GltfRoot&& other) noexcept;
+    ~GltfRoot();
+
+    std::unique_ptr<GltfJson> json;
+};
+
 struct GltfDocument {
-    // The file's JSON, members in their order, its structure checked. May be changed at will but for
-    // `accessors`, `bufferViews` and `buffers`: the functions below take care of those. Buffer views
-    // from `source` on are new; their bytes are in `added`.
-    nlohmann::ordered_json root;
+    GltfRoot root;
+    // Of the buffer views that are new: those after the ones in `source`.
     std::vector<std::vector<std::byte>> added;
     std::vector<std::string> notes; // what the user should know about the changes; one line each
     std::shared_ptr<const GltfSource> source;
@@ -71,8 +82,12 @@ struct GltfGeometry {
     int texcoordSet = 0;                // which uv set that is
 };
 
-// mesh, primitive: indices into `root`. slot: the map whose uv are read; uv set 0 where there is none. material: in the
-// place of the primitive's own. Points and lines, and primitives without POSITION, give an empty geometry. Errors
+// Where a material has normal maps: its own and that of its clear coat (KHR_materials_clearcoat).
+enum class NormalSlot { surface, coat };
+inline constexpr NormalSlot kNormalSlots[] = {NormalSlot::surface, NormalSlot::coat};
+
+// mesh, primitive: indices into the file's. slot: the map whose uv are read; uv set 0 where there is none. material: in
+// the place of the primitive's own. Points and lines, and primitives without POSITION, give an empty geometry. Errors
 // (ErrorKind::input): indices out of range.
 Result<GltfGeometry> gltfGeometry(const GltfDocument& document, std::size_t mesh, std::size_t primitive,
                                   NormalSlot slot = NormalSlot::surface,

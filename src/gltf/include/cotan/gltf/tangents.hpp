@@ -20,7 +20,7 @@ namespace cotan {
 
 // A primitive with what its tangents are made from.
 struct GltfPrimitiveGeometry {
-    std::size_t mesh = 0, primitive = 0; // indices into `root`
+    std::size_t mesh = 0, primitive = 0; // indices into the file's
     std::string name;      // of the mesh; where it has several primitives with "/" and the primitive's number
     GltfGeometry geometry; // with unit normals
     std::string cannot;    // why there are no tangents to be had: "no NORMAL"; empty if there are

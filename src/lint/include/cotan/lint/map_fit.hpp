@@ -29,15 +29,15 @@ struct FramePair {
 // Whether a use shows anything of its map: factors on the slopes below this flatten it.
 inline constexpr double kFlattened = 1e-6;
 
-// A place on a surface.
-struct SurfacePoint {
+// A point of a triangle mesh.
+struct MeshPoint {
     std::size_t triangle = 0;
     glm::dvec3 barycentric{1, 0, 0};
 };
 
 // `count` points at equal steps of area, over the triangles that have area in space and in uv; none where no
 // triangle has. The same for the same surface. area: gets that of these triangles; may be null.
-std::vector<SurfacePoint> pointsOver(const MappedSurface& surface, std::size_t count, double* area = nullptr);
+std::vector<MeshPoint> pointsOver(const MappedSurface& surface, std::size_t count, double* area = nullptr);
 
 // Degrees between the normals that frames.from makes of `before` and those that frames.to makes of `after`, at
 // points spread over the surfaces, weighted by area. Nearest texel of the finest level. Both images: with all
@@ -62,7 +62,7 @@ std::size_t pointsOfEach(std::size_t surfaces);
 // no direction.
 Spread directionTurn(const MappedSurface& surface, const FramePair& frames);
 // The same where the points are known: pointsOver(surface, kPointsOfSurface).
-Spread directionTurn(const MappedSurface& surface, const std::vector<SurfacePoint>& points, const FramePair& frames);
+Spread directionTurn(const MappedSurface& surface, const std::vector<MeshPoint>& points, const FramePair& frames);
 
 // What of a surface has to be derived for mapError and directionTurn with frames.from and frames.to. stored: whether
 // the surface has tangents of its file.

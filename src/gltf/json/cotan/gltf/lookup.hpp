@@ -1,4 +1,4 @@
-// Finding one's way in the JSON of a glTF file. All functions want a root as openGltfDocument has checked it.
+// The JSON of a glTF file, and finding one's way in it. All functions want a root as openGltfDocument has checked it.
 #pragma once
 
 #include <cstddef>
@@ -6,10 +6,19 @@
 #include <string>
 #include <vector>
 
+#include "cotan/gltf/edit.hpp"
 #include "cotan/gltf/views.hpp"
 #include "cotan/result.hpp"
 
 namespace cotan {
+
+// Members are in the order of the file. May be changed at will but for `accessors`, `bufferViews` and `buffers`: the
+// functions of edit.hpp take care of those.
+struct GltfJson {
+    nlohmann::ordered_json root;
+};
+inline nlohmann::ordered_json& rootOf(GltfDocument& document) { return document.root.json->root; }
+inline const nlohmann::ordered_json& rootOf(const GltfDocument& document) { return document.root.json->root; }
 
 // The length of a collection of the root; 0 where it is missing.
 inline std::size_t countOf(const nlohmann::ordered_json& root, const char* collection)
@@ -35,10 +44,6 @@ template<class Visit> Status forEachPrimitive(const nlohmann::ordered_json& root
 // Indices of the materials that a primitive is seen with: its own, then those of KHR_materials_variants. Empty where it
 // has none.
 std::vector<std::size_t> materialsOf(const nlohmann::ordered_json& root, const nlohmann::ordered_json& primitive);
-
-// Where a material has normal maps: its own and that of its clear coat (KHR_materials_clearcoat).
-enum class NormalSlot { surface, coat };
-inline constexpr NormalSlot kNormalSlots[] = {NormalSlot::surface, NormalSlot::coat};
 
 // How a material uses a normal map; no texture where it has none. And the texture info itself, of one that it has.
 gltf::TextureUse normalMapOf(const nlohmann::ordered_json& root, std::size_t material,

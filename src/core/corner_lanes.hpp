@@ -1,0 +1,124 @@
+// What the corners of triangles give to the cotangents of their vertices, several corners side by side.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+
+#include <glm/geometric.hpp>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+
+#include "corner_groups.hpp"
+#include "tangents_mesh.hpp"
+
+namespace cotan::tangents {
+
+// A corner of a triangle, and its vertex's normal.
+struct CornerEdges {
+    glm::vec3 dp1, dp2; // to the next corner and to the previous one
+    glm::vec2 duv1, duv2;
+    glm::vec3 normal, unit; // as given, and at length 1
+};
+
+struct CornerGradients {
+    glm::vec3 u, v; // of the triangle, times `weight`
+    float weight;   // the angle seen along the normal
+    bool mirrored;
+    bool usual; // else nothing of this holds
+};
+
+inline int isUsual(float squared) { return int(squared > 1e-12f) & int(squared < 1e12f); }
+
+// The same as sideAt and addCorner for a corner of a triangle that is neither thin nor tiny nor huge, in space or uv:
+// to the bit, since what is left out here scales by powers of two and changes no sign. Without branches, so that
+// compilers do it for several corners at once.
+[[gnu::always_inline]] inline CornerGradients gradientsOf(const CornerEdges& e)
+{
+    constexpr float kThin = 1e-6f; // of a squared sine; floats are sure of the sign of one from 1e-12
+    const float p1 = glm::dot(e.dp1, e.dp1), p2 = glm::dot(e.dp2, e.dp2);
+    const float uv1 = glm::dot(e.duv1, e.duv1), uv2 = glm::dot(e.duv2, e.duv2);
+    const glm::vec3 acrossNext = glm::cross(e.dp2, e.unit), acrossPrevious = glm::cross(e.unit, e.dp1);
+    const float facing = glm::dot(e.dp1, acrossNext), uvArea = e.duv1.x * e.duv2.y - e.duv1.y * e.duv2.x;
+    const float longer = std::max(p1, p2);
+    // projectedAngle, but for lengths that would have to be taken in double
+    const glm::vec3 a = e.dp1 - e.normal * glm::dot(e.normal, e.dp1), b = e.dp2 - e.normal * glm::dot(e.normal, e.dp2);
+    const float aa = glm::dot(a, a), bb = glm::dot(b, b);
+    const int usual = isUsual(p1) & isUsual(p2) & isUsual(uv1) & isUsual(uv2) & int(aa > 1e-15f) & int(aa < 1e15f)
+        & int(bb > 1e-15f) & int(bb < 1e15f) & int(facing * facing > kThin * std::max(p1 * p2, kThin * longer * longer))
+        & int(uvArea * uvArea > kThin * uv1 * uv2);
+    const float weight = fastArcCosine(glm::dot(a, b) / std::sqrt(aa * bb)), scale = 1 / facing;
+    return {(acrossNext * e.duv1.x + acrossPrevious * e.duv2.x) * scale * weight,
+            (acrossNext * e.duv1.y + acrossPrevious * e.duv2.y) * scale * weight, weight, (facing > 0) == (uvArea > 0),
+            usual != 0};
+}
+
+// Corners side by side, one a lane.
+struct CornerLanes {
+    static constexpr std::size_t kLanes = 256;
+    using Lane = float[kLanes];
+
+    std::size_t count = 0;
+    Lane dp1[3], dp2[3], duv1[2], duv2[2], normal[3], unit[3];
+    Lane u[3], v[3], weight;
+    std::int32_t mirrored[kLanes], usual[kLanes];
+
+    void put(std::size_t lane, const CornerEdges& e)
+    {
+        put(dp1, lane, e.dp1);
+        put(dp2, lane, e.dp2);
+        put(normal, lane, e.normal);
+        put(unit, lane, e.unit);
+        duv1[0][lane] = e.duv1.x;
+        duv1[1][lane] = e.duv1.y;
+        duv2[0][lane] = e.duv2.x;
+        duv2[1][lane] = e.duv2.y;
+    }
+    CornerEdges edges(std::size_t lane) const
+    {
+        return {vector(dp1, lane),    vector(dp2, lane), {duv1[0][lane], duv1[1][lane]}, {duv2[0][lane], duv2[1][lane]},
+                vector(normal, lane), vector(unit, lane)};
+    }
+    void put(std::size_t lane, const CornerGradients& g)
+    {
+        put(u, lane, g.u);
+        put(v, lane, g.v);
+        weight[lane] = g.weight;
+        mirrored[lane] = g.mirrored;
+        usual[lane] = g.usual;
+    }
+    // The side of all corners from `begin` to `end` where they have one side and are usual; else none.
+    Side sideOf(std::size_t begin, std::size_t end) const
+    {
+        std::int32_t all = 1, turned = 0;
+        for (std::size_t lane = begin; lane < end; ++lane) {
+            all &= usual[lane];
+            turned += mirrored[lane];
+        }
+        if (all == 0 || begin == end)
+            return Side::none;
+        return turned == 0 ? Side::unmirrored : std::size_t(turned) == end - begin ? Side::mirrored : Side::none;
+    }
+    CornerGradients gradients(std::size_t lane) const
+    {
+        return {vector(u, lane), vector(v, lane), weight[lane], mirrored[lane] != 0, usual[lane] != 0};
+    }
+
+private:
+    static glm::vec3 vector(const Lane (&axes)[3], std::size_t lane)
+    {
+        return {axes[0][lane], axes[1][lane], axes[2][lane]};
+    }
+    static void put(Lane (&axes)[3], std::size_t lane, glm::vec3 v)
+    {
+        axes[0][lane] = v.x;
+        axes[1][lane] = v.y;
+        axes[2][lane] = v.z;
+    }
+};
+
+// gradientsOf, for all lanes in use.
+void deriveGradients(CornerLanes& lanes);
+
+} // namespace cotan::tangents
