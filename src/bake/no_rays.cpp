@@ -10,7 +10,7 @@ struct HighSurface::State {
 };
 
 std::optional<Error> HighSurface::unavailable() { return notBuiltWith("Embree", "libembree-dev"); }
-Result<HighSurface> HighSurface::make(const std::vector<Scene>&, int) { return *unavailable(); }
+Result<HighSurface> HighSurface::make(const std::vector<Scene>&, int, bool) { return *unavailable(); }
 
 HighSurface::HighSurface(std::unique_ptr<State> state) : state_(std::move(state)) {}
 HighSurface::HighSurface(HighSurface&&) noexcept = default;

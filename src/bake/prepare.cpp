@@ -228,7 +228,7 @@ Result<BakeSetup> prepareBake(const Scene& low, HighModel high, const BakeModelO
             return positions.error();
         cage = std::move(*positions);
     }
-    auto highSurface = HighSurface::make(high.scenes, options.bake.threads);
+    auto highSurface = HighSurface::make(high.scenes, options.bake.threads, options.matchByName);
     if (!highSurface)
         return highSurface.error();
     for (const Status& placed :

@@ -313,7 +313,9 @@ void measure(const HighSurface& high, float spacing, Measuring& measuring)
         parallelRanges<std::size_t>(0, part.indices.size() / 3, 1024, [&](std::size_t begin, std::size_t end) {
             Last last;
             for (std::size_t f = begin; f != end; ++f)
-                pointsBetween(part, f, spacing, [&](glm::vec3 p, glm::vec3 n) { measuring.add(p, n, instance, last); });
+                if (part.repeated.empty() || !part.repeated[f])
+                    pointsBetween(part, f, spacing,
+                                  [&](glm::vec3 p, glm::vec3 n) { measuring.add(p, n, instance, last); });
         });
     }
     measuring.addRays();
