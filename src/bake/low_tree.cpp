@@ -153,17 +153,19 @@ LowTree::Nearest LowTree::nearestOf(glm::vec3 to, float radius, const void* acce
         state_->scene, &query, &context,
         [](RTCPointQueryFunctionArguments* a) {
             Question& q = *static_cast<Question*>(a->userPtr);
+            ++q.best.asked;
             if (!q.call(q.accepts, a->primID))
                 return false;
-            const glm::vec3 p0 = q.tree.corner(a->primID, 0), p1 = q.tree.corner(a->primID, 1),
-                            p2 = q.tree.corner(a->primID, 2);
+            const State& state = *q.tree.state_;
+            const std::uint32_t* const c = &state.indices[3 * std::size_t(a->primID)];
+            const glm::vec3 p0 = state.positions[c[0]], p1 = state.positions[c[1]], p2 = state.positions[c[2]];
             const Coordinates on = nearestOn(p0, p1, p2, q.to);
             const glm::vec3 point = p0 * (1 - on.b1 - on.b2) + p1 * on.b1 + p2 * on.b2;
             const float distance = glm::length(point - q.to);
             Nearest& best = q.best;
             if (distance > best.distance || (best.found && distance == best.distance && a->primID > best.triangle))
                 return false;
-            best = {true, a->primID, on.b1, on.b2, point, distance};
+            best = {true, a->primID, on.b1, on.b2, point, distance, best.asked};
             // A little more than the distance, so that all that are equally near are asked about.
             a->query->radius = distance * 1.00001f;
             return true;

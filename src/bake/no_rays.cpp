@@ -24,6 +24,7 @@ void HighSurface::nearest(const Probes&, float, HighNormals, Hits&) const {}
 void HighSurface::outermost(const Probes&, HighNormals, Hits&) const {}
 void HighSurface::anyBetween(const Probes&, Lanes<int>&) const {}
 bool HighSurface::blocked(const Ray&) const { return false; }
+std::size_t HighSurface::met(const Ray&) const { return 0; }
 HighSurface::Triangles HighSurface::triangles(std::size_t) const { return {}; }
 const std::vector<std::string>& HighSurface::names() const { return state_->names; }
 std::size_t HighSurface::triangleCount() const { return 0; }

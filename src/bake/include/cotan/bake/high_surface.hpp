@@ -99,6 +99,8 @@ public:
     void anyBetween(const Probes& probes, Lanes<int>& any) const;
     // Whether anything lies on the ray.
     bool blocked(const Ray& ray) const;
+    // How many triangles the ray meets, one behind the other.
+    std::size_t met(const Ray& ray) const;
 
     // One instance in world space.
     struct Triangles {
