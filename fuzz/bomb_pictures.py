@@ -1,5 +1,5 @@
-"""Pictures under 1 MB of very many pixels, scans, chunks or frames, for fuzz/bombs.py. Each maker takes a random.Random
-and returns bytes."""
+"""PNG and JPEG under 1 MB of very many pixels, scans or chunks, for fuzz/bombs.py. Each maker takes a random.Random and
+returns bytes."""
 import struct
 import zlib
 
@@ -98,149 +98,66 @@ def progressive_jpeg(r):
     return jpeg_head(0xc2, side, side, 1) + first + ac + scan * count + b"\xff\xd9"
 
 
-def exr(r):
-    """OpenEXR of zeros in ZIP or RLE blocks."""
-    width, height = r.choice([(16_384, 2048), (8192, 8192), (4096, 16_384), (16_000, 10_000)])
-    channels = r.choice(["Y", "BGR", "ABGR", "ABGRZ"])
-    packing = r.choice([1, 3])
-    lines = 16 if packing == 3 else 1
+def filtered_png(r):
+    """PNG of 16 bits whose rows are each filtered in the slowest way."""
+    side = r.choice([4096, 5000, 7000])
+    size = side * 8
+    row = b"\4" + bytes([r.randrange(2)]) * size
+    head = struct.pack(">IIBBBBB", side, side, 16, 6, 0, 0, 0)
+    return b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", head) + chunk(b"IDAT", deflated([(row, side)])) + chunk(b"IEND", b"")
 
-    def attribute(name, kind, data):
-        return name + b"\0" + kind + b"\0" + struct.pack("<I", len(data)) + data
-    listed = b"".join(c.encode() + b"\0" + struct.pack("<IIII", 1, 0, 1, 1) for c in sorted(set(channels))) + b"\0"
-    box = struct.pack("<4i", 0, 0, width - 1, height - 1)
-    head = (b"\x76\x2f\x31\x01\2\0\0\0" + attribute(b"channels", b"chlist", listed) + attribute(b"compression", b"compression", bytes([packing]))
-            + attribute(b"dataWindow", b"box2i", box) + attribute(b"displayWindow", b"box2i", box)
-            + attribute(b"lineOrder", b"lineOrder", b"\0") + attribute(b"pixelAspectRatio", b"float", struct.pack("<f", 1))
-            + attribute(b"screenWindowCenter", b"v2f", struct.pack("<2f", 0, 0))
-            + attribute(b"screenWindowWidth", b"float", struct.pack("<f", 1)) + b"\0")
-    size = width * 2 * len(set(channels))
 
-    def packed(rows):
-        if packing == 3:
-            return deflated([(b"\0" + b"\x80" * (size * rows - 1), 1)])
-        return b"\x7f\0" * (size // 128 + 1)
-    block = packed(lines)
-    count = -(-height // lines)
-    at = len(head) + 8 * count
-    table, blocks = [], []
+def animated_png(r):
+    """PNG of thousands of frames, each of the whole canvas."""
+    side, count = r.choice([64, 1000, 8192]), r.choice([10, 3000])
+    data = deflated([(b"\0" * (3 * side + 1), side)])
+    count = min(count, 900_000 // (len(data) + 100))
+    head = struct.pack(">IIBBBBB", side, side, 8, 2, 0, 0, 0)
+    out = b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", head) + chunk(b"acTL", struct.pack(">II", count + 1, 0))
+    out += chunk(b"fcTL", struct.pack(">IIIIIHHBB", 0, side, side, 0, 0, 1, 10, 0, 0)) + chunk(b"IDAT", data)
     for k in range(count):
-        data = block if (k + 1) * lines <= height else packed(height - k * lines)
-        table.append(struct.pack("<Q", at))
-        blocks.append(struct.pack("<iI", k * lines, len(data)) + data)
-        at += len(blocks[-1])
-    return head + b"".join(table) + b"".join(blocks)
+        out += chunk(b"fcTL", struct.pack(">IIIIIHHBB", 2 * k + 1, side, side, 0, 0, 1, 10, 0, 0))
+        out += chunk(b"fdAT", struct.pack(">I", 2 * k + 2) + data)
+    return out + chunk(b"IEND", b"")
 
 
-def hdr(r):
-    """Radiance of old runs, four bytes for any number of pixels."""
-    side = r.choice([2048, 6000, 12_000])
-    row = b"\x80\x80\x80\x80" + struct.pack("4B", 1, 1, 1, (side - 1) % 256) + struct.pack("4B", 1, 1, 1, (side - 1) // 256)
-    return f"#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y {side} +X {side}\n".encode() + row * side
+def nearly_flat_png(r):
+    """An ordinary flat normal map, with marks here and there."""
+    side = r.choice([4096, 8192])
+    rows = []
+    for _ in range(side // 64):
+        marked = bytearray(bytes([128, 128, 255]) * side)
+        for _ in range(r.choice([0, 5])):
+            at = 3 * r.randrange(side - 20)
+            marked[at:at + 30] = r.randbytes(30)
+        rows += [(b"\0" + bytes(marked), 1), (b"\0" + bytes([128, 128, 255]) * side, 63)]
+    head = struct.pack(">IIBBBBB", side, side, 8, 2, 0, 0, 0)
+    return b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", head) + chunk(b"IDAT", deflated(rows)) + chunk(b"IEND", b"")
 
 
-def dds(r):
-    """DDS of blocks, eight bytes for 16 pixels, or a head that promises more."""
-    side = r.choice([1024, 1152, 16_384])
-    letters = r.choice([b"DXT1", b"ATI1"])
-    head = struct.pack("<4s7I44x", b"DDS ", 124, 0x81007, side, side, side * side // 2, 0, r.choice([1, 15, 0xffffffff]))
-    head += struct.pack("<2I4s5I", 32, 4, letters, 0, 0, 0, 0, 0) + struct.pack("<5I", 0x1000, 0, 0, 0, 0)
-    return head + b"\0" * min(side * side // 2, 900_000)
-
-
-def zstd(size):
-    """Zeros by blocks of one repeated byte, four bytes for 128 KiB."""
-    out = b"\x28\xb5\x2f\xfd\xa0" + struct.pack("<I", size)
-    while size > 0:
-        part = min(size, 1 << 17)
-        size -= part
-        out += struct.pack("<I", (size == 0) | 1 << 1 | part << 3)[:3] + b"\0"
-    return out
-
-
-def ktx2(r):
-    """KTX2 in zstd or zlib, of one level."""
-    width, height = r.choice([(4096, 4096), (12_000, 12_000), (16_384, 8192), (16_384, 300)])
-    scheme = r.choice([2, 3])
-    size = width * height * 4
-    data = zstd(size) if scheme == 2 else deflated([(b"\0" * (1 << 20), min(size >> 20, 800))])
-    samples = b"".join(struct.pack("<HBBII2I"[:0] + "<HBBIII", 8 * k, 7, 15 if k == 3 else k, 0, 0, 255) for k in range(4))
-    block = struct.pack("<HHHHBBBB4B8B", 0, 0, 2, 24 + 16 * 4, 1, 1, 1, 0, 0, 0, 0, 0, 4, 0, 0, 0, 0, 0, 0, 0) + samples
-    described = struct.pack("<I", 4 + len(block)) + block
-    at = 12 + 36 + 32 + 24
-    head = b"\xabKTX 20\xbb\r\n\x1a\n" + struct.pack("<9I", 37, 1, width, height, 0, 0, 1, 1, scheme)
-    head += struct.pack("<4I2Q", at, len(described), 0, 0, 0, 0) + struct.pack("<3Q", at + len(described), len(data), size)
-    return head + described + data
-
-
-def webp_lossless(r):
-    """WebP without loss of one colour: no bit for a pixel."""
-    width, height = r.choice([(16_383, 16_383), (8192, 8192), (16_383, 4000), (12_000, 10_000)])
-    bits, count = 0, 0
-
-    def put(value, size):
-        nonlocal bits, count
-        bits |= value << count
-        count += size
-    put(width - 1, 14), put(height - 1, 14), put(1, 1), put(0, 3)  # alpha, version
-    put(0, 1), put(0, 1), put(0, 1)                              # no transform, cache, groups
-    for symbol in (128, 128, 255, 255, 0):                       # a code of one symbol each: green, red, blue, alpha, distance
-        put(1, 1), put(0, 1), put(1, 1), put(symbol, 8)
-    data = b"\x2f" + bits.to_bytes(count // 8 + 1, "little")
-    data += b"\0" * (len(data) % 2)
-    return b"RIFF" + struct.pack("<I", 12 + len(data)) + b"WEBPVP8L" + struct.pack("<I", len(data)) + data
-
-
-def gif(r):
-    """GIF of many frames of the whole canvas."""
-    side = r.choice([64, 1000, 16_000])
-    head = b"GIF89a" + struct.pack("<HHBBB", side, side, 0x80, 0, 0) + b"\0\0\0\xff\xff\xff"
-    frame = b"," + struct.pack("<HHHHB", 0, 0, side, side, 0) + b"\2\2\x4c\1\0"
-    return head + frame * r.choice([1, 40_000]) + b";"
-
-
-def bmp(r):
-    """BMP in runs of 255 pixels."""
-    side = r.choice([4096, 8192, 12_000])
-    row = (b"\xff\0" * (side // 255) + bytes([side % 255, 0]) + b"\0\0")
-    data = (row * side)[:900_000] + b"\0\1"
-    return (b"BM" + struct.pack("<IHHI", 54 + 1024 + len(data), 0, 0, 54 + 1024)
-            + struct.pack("<IiiHHIIiiII", 40, side, side, 1, 8, 1, len(data), 0, 0, 256, 0) + b"\0\0\0\0" * 256 + data)
-
-
-def tga(r):
-    """TGA in runs of 128 pixels."""
-    side = r.choice([2048, 4000, 5000])
-    runs = side * side // 128
-    return struct.pack("<BBBHHBHHHHBB", 0, 0, 11, 0, 0, 0, 0, 0, side, side, 8, 0) + (b"\xff\x80" * runs)[:900_000]
-
-
-def tiff(r):
-    """TIFF of deflated strips, or of very many pictures or strips."""
-    width, height = r.choice([(8192, 8192), (16_384, 16_384), (16_384, 1000)])
-    strips = r.choice([1, 8, 1000])
-    rows = -(-height // strips)
-    count = -(-height // rows)
-    bits = r.choice([8, 16])
-    strip = deflated([(b"\0" * (width * bits // 8), rows)])
-    pictures = r.choice([1, 300])
-    data = b"II*\0" + struct.pack("<I", 8 + len(strip) + 8 * count) + strip
-    offsets = 8 + len(strip)
-    data += struct.pack(f"<{count}I", *[8] * count) + struct.pack(f"<{count}I", *[len(strip)] * count)
-    one = count == 1
-    fields = [(256, 4, 1, width), (257, 4, 1, height), (258, 3, 1, bits), (259, 3, 1, 8), (262, 3, 1, 1),
-              (273, 4, count, 8 if one else offsets), (277, 3, 1, 1), (278, 4, 1, rows),
-              (279, 4, count, len(strip) if one else offsets + 4 * count)]
-    for k in range(pictures):
-        after = len(data) + 2 + 12 * len(fields) + 4
-        data += struct.pack("<H", len(fields)) + b"".join(struct.pack("<HHII", *field) for field in fields)
-        data += struct.pack("<I", after if k + 1 < pictures else 0)
-    return data
+def sampled_jpeg(r):
+    """Baseline JPEG of four components sampled unevenly, with a restart after each row or block."""
+    side = r.choice([2048, 4096, 8192])
+    tables = marker(0xdb, b"\0" + b"\1" * 64) + marker(0xc4, b"\0" + b"\1" + b"\0" * 15 + b"\0")
+    tables += marker(0xc4, b"\x10" + b"\1" + b"\0" * 15 + b"\0")
+    first = r.choice([0x11, 0x22, 0x41])
+    components = b"".join(bytes([k + 1, first if k == 0 else 0x11, 0]) for k in range(4))
+    units = (-(-side // (8 * (first >> 4)))) * (-(-side // (8 * (first & 15))))
+    bits = 2 * ((first >> 4) * (first & 15) + 3)
+    rest = r.choice([0, 1000])
+    data = b"\0" * (units * bits // 8 + 1)
+    if rest:
+        part = b"\0" * (-(-rest * bits // 8))
+        data = b"".join(part + bytes([0xff, 0xd0 + k % 8]) for k in range(units // rest))
+    head = b"\xff\xd8" + tables + marker(0xc0, struct.pack(">BHHB", 8, side, side, 4) + components)
+    head += marker(0xdd, struct.pack(">H", rest)) if rest else b""
+    scan = marker(0xda, b"\4" + b"".join(bytes([k + 1, 0]) for k in range(4)) + b"\0\x3f\0")
+    return head + scan + data[:900_000] + b"\xff\xd9"
 
 
 MAKERS = {
     "png_wide": (wide_png, "png"), "png_largest": (largest_png, "png"), "png_interlaced": (interlaced_png, "png"),
-    "png_chunks": (chunks_png, "png"), "jpeg_flat": (flat_jpeg, "jpg"), "jpeg_scans": (progressive_jpeg, "jpg"), "exr": (exr, "exr"),
-    "hdr": (hdr, "hdr"), "dds": (dds, "dds"), "ktx2": (ktx2, "ktx2"), "webp": (webp_lossless, "webp"), "gif": (gif, "gif"),
-    "bmp": (bmp, "bmp"), "tga": (tga, "tga"), "tiff": (tiff, "tif"),
+    "png_chunks": (chunks_png, "png"), "png_filtered": (filtered_png, "png"), "png_animated": (animated_png, "png"),
+    "png_nearly_flat": (nearly_flat_png, "png"), "jpeg_flat": (flat_jpeg, "jpg"), "jpeg_scans": (progressive_jpeg, "jpg"),
+    "jpeg_sampled": (sampled_jpeg, "jpg"),
 }

@@ -14,10 +14,13 @@
 #include "baker.hpp"
 #include "cotan/parallel/loops.hpp"
 #include "cotan/surface/uv_raster.hpp"
+#include "repeated.hpp"
 
 namespace cotan {
 
 namespace {
+
+constexpr double kMostRows = 4e7; // of texels under all triangles, and two a texel
 
 using StateCounts = std::array<std::size_t, 256>; // how many texels are in each combination of TexelState
 
@@ -161,6 +164,45 @@ private:
     Lanes3 values_;
 };
 
+// The low surface's triangles without those that have the same uv as two earlier ones: the first of them is baked, the
+// second says that a texel is claimed twice.
+std::vector<std::uint32_t> indicesToBake(const LowSurface& low)
+{
+    std::vector<std::uint32_t> indices = low.indices;
+    const auto uv = [&](std::uint32_t v) { return glm::vec3(low.texcoords[v], 0); };
+    const std::vector<std::uint8_t> repeated = repeatedTriangles(low.triangleCount(), [&](std::size_t f) {
+        const std::uint32_t* const c = &low.indices[3 * f];
+        return CornersOfTriangle{{uv(c[0]), uv(c[1]), uv(c[2])}};
+    });
+    for (std::size_t f = 0; f < repeated.size(); ++f)
+        if (repeated[f] > 1)
+            std::fill_n(indices.begin() + std::ptrdiff_t(3 * f), 3, low.indices[3 * f]); // without area: not drawn
+    return indices;
+}
+
+// Refuses triangles that lie over one another in so many rows of texels that finding each texel's first takes too long:
+// those of one layer are in few more rows than there are texels.
+Status checkRows(const UvTriangles& triangles, glm::dvec2 size)
+{
+    double rows = 0;
+    for (std::size_t i = 0; i + 2 < triangles.indices.size(); i += 3) {
+        double low = 1e30, high = -1e30;
+        for (std::size_t k = 0; k < 3; ++k) {
+            const double v = double(triangles.texcoords[triangles.indices[i + k]].y) * size.y;
+            low = std::min(low, v);
+            high = std::max(high, v);
+        }
+        if (const bool drawn = high > low; drawn)
+            rows += std::min(high - low, size.y);
+    }
+    const double most = kMostRows + 2 * size.x * size.y;
+    if (rows > most)
+        return inputError(fmt::format("low: its triangles lie over one another in {:.3g} rows of texels; expected at "
+                                      "most {:.3g}: fewer, or a smaller map",
+                                      rows, most));
+    return Done{};
+}
+
 void countTexels(const StateCounts& states, BakeStatistics& s)
 {
     for (std::size_t state = 0; state < states.size(); ++state) {
@@ -206,8 +248,12 @@ Result<Baked> bake(const LowSurface& low, const HighSurface& high, const BakeOpt
     out.height = options.height;
     out.values.assign(std::size_t(options.width) * std::size_t(options.height), glm::vec3(0));
     out.states.assign(out.values.size(), 0);
-    const UvRaster raster({low.texcoords, low.indices}, options.width * options.samples,
-                          options.height * options.samples, options.tile);
+    const std::vector<std::uint32_t> indices = indicesToBake(low);
+    const UvTriangles triangles{low.texcoords, indices};
+    const glm::ivec2 size(options.width * options.samples, options.height * options.samples);
+    if (Status fits = checkRows(triangles, glm::dvec2(size)); !fits)
+        return fits.error();
+    const UvRaster raster(triangles, size.x, size.y, options.tile);
     const Baker baker(low, high, options);
     std::mutex counting;
     CountedSteps done(progress, std::size_t(options.height)); // rows

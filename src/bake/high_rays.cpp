@@ -113,6 +113,25 @@ void HighSurface::anyBetween(const Probes& probes, Lanes<int>& any) const
         any[i] = packet.valid[i] != 0 && packet.rays.ray.tfar[i] < 0; // Embree's mark for an occluded ray
 }
 
+std::size_t HighSurface::met(const Ray& ray) const
+{
+    struct Counting {
+        RayQuery query; // first, as Embree hands it to filters
+        std::size_t count = 0;
+    } counting{RayQuery(Coherence::incoherent,
+                        [](const RTCFilterFunctionNArguments* a) {
+                            for (unsigned i = 0; i < a->N; ++i)
+                                if (a->valid[i]) {
+                                    ++reinterpret_cast<Counting*>(a->context)->count;
+                                    a->valid[i] = 0; // and on
+                                }
+                        }),
+               0};
+    RTCRay r = toEmbree(ray).ray;
+    occluded(state_->scene, counting.query, r);
+    return counting.count;
+}
+
 bool HighSurface::blocked(const Ray& ray) const
 {
     RayQuery query(Coherence::incoherent);

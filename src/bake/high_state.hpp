@@ -1,6 +1,7 @@
 // What a HighSurface holds.
 #pragma once
 
+#include <algorithm>
 #include <limits>
 
 #include <glm/geometric.hpp>
@@ -14,6 +15,8 @@ namespace cotan {
 struct Part { // one instance, in world space
     std::vector<glm::vec3> positions, normals;
     std::vector<std::uint32_t> indices;
+    std::vector<std::uint8_t> repeated; // one a triangle: not 0 where it lies on an earlier one; empty: none is left out
+    std::vector<std::uint32_t> seen;    // indices as rays see them, where some are left out
     std::vector<ShapeOperator> shapes; // of the vertices; empty: not prepared
     float front = 1; // -1: most of the triangles are wound against their vertices' normals, which count
 };
@@ -93,15 +96,29 @@ struct HighSurface::State {
                 }
     }
 
+    // Rays see the first of triangles that lie on one another: repeated ones get corners that are not finite, which
+    // Embree leaves out, so that the others keep their numbers.
+    void leaveOutRepeated(Part& part)
+    {
+        part.seen = part.indices;
+        for (std::size_t f = 0; f < part.repeated.size(); ++f)
+            if (part.repeated[f])
+                std::fill_n(part.seen.begin() + std::ptrdiff_t(3 * f), 3, std::uint32_t(part.positions.size()));
+        part.positions.emplace_back(std::numeric_limits<float>::quiet_NaN());
+    }
+
     void attach(Part& part)
     {
         RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
         // Embree reads 16 bytes at every vertex: one more at the end is needed.
+        if (!part.repeated.empty())
+            leaveOutRepeated(part);
+        const std::vector<std::uint32_t>& indices = part.repeated.empty() ? part.indices : part.seen;
         part.positions.emplace_back(0.0f);
         rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, part.positions.data(), 0,
                                    sizeof(glm::vec3), part.positions.size() - 1);
-        rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, part.indices.data(), 0,
-                                   3 * sizeof(std::uint32_t), part.indices.size() / 3);
+        rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, indices.data(), 0,
+                                   3 * sizeof(std::uint32_t), indices.size() / 3);
         rtcCommitGeometry(geometry);
         rtcAttachGeometry(scene, geometry); // ids count up from 0
         rtcReleaseGeometry(geometry);

@@ -11,6 +11,7 @@
 
 #include "cotan/covector.hpp"
 #include "high_state.hpp"
+#include "repeated.hpp"
 
 namespace cotan {
 
@@ -49,11 +50,32 @@ Part placed(const Mesh& mesh, const glm::mat4& toWorld)
     return part;
 }
 
+// Which triangles lie on earlier ones, of any instance.
+void findRepeated(std::vector<Part>& parts)
+{
+    std::vector<std::size_t> first; // triangle of each part
+    std::size_t count = 0;
+    for (const Part& part : parts) {
+        first.push_back(count);
+        count += part.indices.size() / 3;
+    }
+    const std::vector<std::uint8_t> repeated = repeatedTriangles(count, [&](std::size_t i) {
+        const auto n = std::size_t(std::upper_bound(first.begin(), first.end(), i) - first.begin()) - 1;
+        const std::uint32_t* const c = &parts[n].indices[3 * (i - first[n])];
+        const std::vector<glm::vec3>& p = parts[n].positions;
+        return CornersOfTriangle{{p[c[0]], p[c[1]], p[c[2]]}};
+    });
+    for (std::size_t n = 0; n < parts.size() && !repeated.empty(); ++n) {
+        const auto from = repeated.begin() + std::ptrdiff_t(first[n]);
+        parts[n].repeated.assign(from, from + std::ptrdiff_t(parts[n].indices.size() / 3));
+    }
+}
+
 } // namespace
 
 std::optional<Error> HighSurface::unavailable() { return std::nullopt; }
 
-Result<HighSurface> HighSurface::make(const std::vector<Scene>& scenes, int threads)
+Result<HighSurface> HighSurface::make(const std::vector<Scene>& scenes, int threads, bool byInstance)
 {
     auto state = std::make_unique<State>();
     for (const Scene& scene : scenes)
@@ -78,6 +100,8 @@ Result<HighSurface> HighSurface::make(const std::vector<Scene>& scenes, int thre
     state->scene = rtcNewScene(state->device);
     // Robust: rays along edges find one of the two triangles. Filters: packets.hpp.
     rtcSetSceneFlags(state->scene, RTC_SCENE_FLAG_ROBUST | kFiltersInQueries);
+    if (!byInstance) // else each is asked for its own
+        findRepeated(state->parts);
     for (Part& part : state->parts)
         state->attach(part);
     rtcCommitScene(state->scene);
@@ -100,7 +124,7 @@ void HighSurface::curve(int threads)
 HighSurface::Triangles HighSurface::triangles(std::size_t instance) const
 {
     const Part& part = state_->parts[instance];
-    return {{part.positions.data(), part.normals.size()}, part.normals, part.indices, part.front};
+    return {{part.positions.data(), part.normals.size()}, part.normals, part.indices, part.repeated, part.front};
 }
 
 const std::vector<std::string>& HighSurface::names() const { return state_->names; }

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <span>
 
 #include <fmt/format.h>
 
@@ -9,14 +11,16 @@
 #include <glm/geometric.hpp>
 
 #include "packets.hpp"
+#include "repeated.hpp"
 
 namespace cotan {
 
 struct LowTree::State {
     RTCDevice device = nullptr;
     RTCScene scene = nullptr;
-    std::vector<glm::vec3> positions; // and one more, as Embree reads 16 bytes at every vertex
+    std::vector<glm::vec3> positions; // and two more: one not finite, one as Embree reads 16 bytes at every vertex
     std::vector<std::uint32_t> indices;
+    std::vector<std::uint32_t> seen; // indices as Embree has them, where some triangles are left out
     std::vector<glm::vec3> faces;
     std::vector<std::int64_t> shown;
 
@@ -64,6 +68,25 @@ Coordinates nearestOn(glm::vec3 a, glm::vec3 b, glm::vec3 c, glm::vec3 p)
     return sum > 0 ? Coordinates{vb / sum, vc / sum} : Coordinates{0, 0};
 }
 
+// The indices with corners that are not finite, which Embree leaves out, for triangles that lie on earlier ones that
+// show the same: of equally near ones the first counts. Empty where few do.
+std::vector<std::uint32_t> indicesSeen(const std::vector<glm::vec3>& positions,
+                                       const std::vector<std::uint32_t>& indices, std::span<const std::int64_t> shown,
+                                       std::uint32_t notFinite)
+{
+    const std::vector<std::uint8_t> repeated = repeatedTriangles(indices.size() / 3, [&](std::size_t f) {
+        const std::uint32_t* const c = &indices[3 * f];
+        return CornersOfTriangle{{positions[c[0]], positions[c[1]], positions[c[2]]}, shown.empty() ? 0 : shown[f]};
+    });
+    if (repeated.empty())
+        return {};
+    std::vector<std::uint32_t> seen = indices;
+    for (std::size_t f = 0; f < repeated.size(); ++f)
+        if (repeated[f])
+            std::fill_n(seen.begin() + std::ptrdiff_t(3 * f), 3, notFinite);
+    return seen;
+}
+
 } // namespace
 
 Result<LowTree> LowTree::make(std::vector<glm::vec3> positions, std::vector<std::uint32_t> indices,
@@ -80,7 +103,10 @@ Result<LowTree> LowTree::make(std::vector<glm::vec3> positions, std::vector<std:
         const float length = glm::length(area);
         state->faces.push_back(length > 0 ? area / length : glm::vec3(0));
     }
+    state->seen = indicesSeen(state->positions, state->indices, state->shown, std::uint32_t(state->positions.size()));
+    state->positions.emplace_back(std::numeric_limits<float>::quiet_NaN());
     state->positions.emplace_back(0.0f);
+    const std::vector<std::uint32_t>& seen = state->seen.empty() ? state->indices : state->seen;
     state->device = rtcNewDevice(threads > 0 ? fmt::format("threads={}", threads).c_str() : nullptr);
     if (!state->device)
         return unavailableError("Embree: no device");
@@ -89,8 +115,8 @@ Result<LowTree> LowTree::make(std::vector<glm::vec3> positions, std::vector<std:
     RTCGeometry geometry = rtcNewGeometry(state->device, RTC_GEOMETRY_TYPE_TRIANGLE);
     rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, state->positions.data(), 0,
                                sizeof(glm::vec3), state->positions.size() - 1);
-    rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, state->indices.data(), 0,
-                               3 * sizeof(std::uint32_t), state->indices.size() / 3);
+    rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, seen.data(), 0,
+                               3 * sizeof(std::uint32_t), seen.size() / 3);
     rtcCommitGeometry(geometry);
     rtcAttachGeometry(state->scene, geometry);
     rtcReleaseGeometry(geometry);
@@ -127,17 +153,19 @@ LowTree::Nearest LowTree::nearestOf(glm::vec3 to, float radius, const void* acce
         state_->scene, &query, &context,
         [](RTCPointQueryFunctionArguments* a) {
             Question& q = *static_cast<Question*>(a->userPtr);
+            ++q.best.asked;
             if (!q.call(q.accepts, a->primID))
                 return false;
-            const glm::vec3 p0 = q.tree.corner(a->primID, 0), p1 = q.tree.corner(a->primID, 1),
-                            p2 = q.tree.corner(a->primID, 2);
+            const State& state = *q.tree.state_;
+            const std::uint32_t* const c = &state.indices[3 * std::size_t(a->primID)];
+            const glm::vec3 p0 = state.positions[c[0]], p1 = state.positions[c[1]], p2 = state.positions[c[2]];
             const Coordinates on = nearestOn(p0, p1, p2, q.to);
             const glm::vec3 point = p0 * (1 - on.b1 - on.b2) + p1 * on.b1 + p2 * on.b2;
             const float distance = glm::length(point - q.to);
             Nearest& best = q.best;
             if (distance > best.distance || (best.found && distance == best.distance && a->primID > best.triangle))
                 return false;
-            best = {true, a->primID, on.b1, on.b2, point, distance};
+            best = {true, a->primID, on.b1, on.b2, point, distance, best.asked};
             // A little more than the distance, so that all that are equally near are asked about.
             a->query->radius = distance * 1.00001f;
             return true;

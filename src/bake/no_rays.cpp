@@ -10,7 +10,7 @@ struct HighSurface::State {
 };
 
 std::optional<Error> HighSurface::unavailable() { return notBuiltWith("Embree", "libembree-dev"); }
-Result<HighSurface> HighSurface::make(const std::vector<Scene>&, int) { return *unavailable(); }
+Result<HighSurface> HighSurface::make(const std::vector<Scene>&, int, bool) { return *unavailable(); }
 
 HighSurface::HighSurface(std::unique_ptr<State> state) : state_(std::move(state)) {}
 HighSurface::HighSurface(HighSurface&&) noexcept = default;
@@ -24,6 +24,7 @@ void HighSurface::nearest(const Probes&, float, HighNormals, Hits&) const {}
 void HighSurface::outermost(const Probes&, HighNormals, Hits&) const {}
 void HighSurface::anyBetween(const Probes&, Lanes<int>&) const {}
 bool HighSurface::blocked(const Ray&) const { return false; }
+std::size_t HighSurface::met(const Ray&) const { return 0; }
 HighSurface::Triangles HighSurface::triangles(std::size_t) const { return {}; }
 const std::vector<std::string>& HighSurface::names() const { return state_->names; }
 std::size_t HighSurface::triangleCount() const { return 0; }

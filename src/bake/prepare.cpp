@@ -9,6 +9,7 @@
 #include "cotan/covector.hpp"
 #include "cotan/scene/check.hpp"
 #include "cotan/scene/objects.hpp"
+#include "cotan/scene/parts.hpp"
 #include "cotan/scene/put_picture.hpp"
 #include "cotan/scene/stored_green.hpp"
 
@@ -112,6 +113,30 @@ Status checkArea(const LowSurface& low)
     }
     return inputError(
         fmt::format("low: expected a triangle with an area; all {} have none as they are placed", low.triangleCount()));
+}
+
+// Refuses a high surface of which rays meet thousands of triangles one behind the other: each ray of a bake would.
+Status checkCrowded(const LowSurface& low, const HighSurface& high)
+{
+    constexpr std::size_t kTried = 256, kCrowded = 2000;
+    const float diagonal = glm::length(high.high() - high.low());
+    std::vector<std::size_t> met;
+    for (std::size_t f = 0; f < low.triangleCount(); f += 1 + low.triangleCount() / kTried) {
+        const std::uint32_t* const c = &low.indices[3 * f];
+        const glm::vec3 n = low.normals[c[0]];
+        const glm::vec3 point = (low.positions[c[0]] + low.positions[c[1]] + low.positions[c[2]]) / 3.0f;
+        if (glm::dot(n, n) > 0)
+            met.push_back(high.met({point + n * diagonal, -n, 0, 2 * diagonal}));
+    }
+    if (met.empty())
+        return Done{};
+    const auto middle = met.begin() + std::ptrdiff_t(met.size() / 2);
+    std::nth_element(met.begin(), middle, met.end());
+    if (*middle > kCrowded)
+        return inputError(fmt::format("high: rays meet about {} of its triangles one behind the other, expected at "
+                                      "most {}: leave out those that nobody sees",
+                                      *middle, kCrowded));
+    return Done{};
 }
 
 // Makes the materials say what HighModel::maps and highFormat say.
@@ -228,12 +253,16 @@ Result<BakeSetup> prepareBake(const Scene& low, HighModel high, const BakeModelO
             return positions.error();
         cage = std::move(*positions);
     }
-    auto highSurface = HighSurface::make(high.scenes, options.bake.threads);
+    for (Scene& scene : high.scenes)
+        if (!options.matchByName) // nobody asks for a part of it
+            joinParts(scene);
+    auto highSurface = HighSurface::make(high.scenes, options.bake.threads, options.matchByName);
     if (!highSurface)
         return highSurface.error();
     for (const Status& placed :
          {checkPlaces(lowSurface->positions, "low"), checkArea(*lowSurface), checkPlaces(cage, "options.cage"),
-          checkPlaces({highSurface->low(), highSurface->high()}, "high")})
+          checkPlaces({highSurface->low(), highSurface->high()}, "high"),
+          checkCrowded(*lowSurface, *highSurface)})
         if (!placed)
             return placed.error();
     BakeSetup setup{std::move(*lowSurface), std::move(*highSurface), options, {}, hasStoredTangents(low, options)};

@@ -7,10 +7,13 @@
 #include <numeric>
 #include <tuple>
 
+#include <fmt/format.h>
+
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
 #include "cotan/parallel/loops.hpp"
+#include "high_points.hpp"
 
 namespace cotan {
 
@@ -24,9 +27,11 @@ constexpr float kLeastSlope = 0.3f; // cosine by which distances are divided at 
 constexpr float kFaces = 0.1f;      // cosine from which two surfaces count as facing the same way
 constexpr float kAside = 0.35f;     // cosine below which the nearest point lies aside
 constexpr std::size_t kMostVertices = 400000; // that are measured: of more every second, third and so on
+constexpr double kMostAsked = 6e7;            // triangles that all points together may look at
+constexpr std::size_t kTried = 256;           // triangles that say how many a point looks at
+constexpr std::size_t kCrowded = 2000;        // triangles that half of all points look at least at: too many
 constexpr float kSpacing = 1.0f / 256;        // of the diagonal, between points of large triangles
 constexpr float kSkip = 1e-4f;                // of the diagonal
-constexpr int kMostCuts = 64;                 // of an edge of these
 
 // Numbers for vertices: equal for those of one instance at one position.
 struct Groups {
@@ -153,14 +158,26 @@ public:
     {
     }
 
+    // Whether a triangle faces the way that a point of the high surface does, and shows it.
+    auto accepting(glm::vec3 normal, std::uint32_t instance) const
+    {
+        return [this, normal, instance](std::uint32_t triangle) {
+            return glm::dot(body_.outsides[triangle], normal) > kFaces && sees(triangle, instance);
+        };
+    }
+
+    // How many triangles a point looks at.
+    std::size_t asked(glm::vec3 point, glm::vec3 normal, std::uint32_t instance) const
+    {
+        return body_.tree->nearest(point, starts_.limit, accepting(normal, instance)).asked;
+    }
+
     // One point of the high surface with its normal.
     void add(glm::vec3 point, glm::vec3 normal, std::uint32_t instance, Last& last)
     {
         if (!(glm::dot(normal, normal) > 0))
             return;
-        const auto accepts = [&](std::uint32_t triangle) {
-            return glm::dot(body_.outsides[triangle], normal) > kFaces && sees(triangle, instance);
-        };
+        const auto accepts = accepting(normal, instance);
         float radius = starts_.limit;
         if (last.known && accepts(last.triangle)) // nothing that is further away than that can be the nearest
             radius = std::min(radius, glm::length(point - last.point) * 1.0001f + 1e-7f * body_.diagonal);
@@ -274,33 +291,54 @@ private:
     std::vector<std::uint8_t> reached_;    // something belongs to the group
 };
 
-// Calls add(point, normal) for points between the corners of a triangle, about `spacing` apart.
-template<class Add>
-void pointsBetween(const HighSurface::Triangles& part, std::size_t triangle, float spacing, const Add& add)
+// Of which triangles and vertices the points are taken: 1 of all, 2 of every second. Where many triangles lie over one
+// another each point looks at many, and fewer points have to do. An error where far too many do.
+Result<std::size_t> stepFor(const HighSurface& high, float spacing, const Measuring& measuring)
 {
-    const std::uint32_t* c = &part.indices[3 * triangle];
-    const glm::vec3 p0 = part.positions[c[0]], p1 = part.positions[c[1]], p2 = part.positions[c[2]];
-    const float longest =
-        std::sqrt(std::max({glm::dot(p1 - p0, p1 - p0), glm::dot(p2 - p1, p2 - p1), glm::dot(p0 - p2, p0 - p2)}));
-    if (!(longest > spacing))
-        return;
-    const int cuts = int(std::min(std::ceil(longest / spacing), float(kMostCuts)));
-    for (int i = 0; i <= cuts; ++i)
-        for (int j = 0; j <= cuts - i; ++j) {
-            const float b1 = float(i) / float(cuts), b2 = float(j) / float(cuts), b0 = 1 - b1 - b2;
-            const glm::vec3 n = part.normals[c[0]] * b0 + part.normals[c[1]] * b1 + part.normals[c[2]] * b2;
-            const float length = glm::length(n);
-            if (length > 0)
-                add(p0 * b0 + p1 * b1 + p2 * b2, n / length);
+    std::size_t vertices = 0, between = 0, triangles = 0;
+    for (std::size_t instance = 0; instance < high.names().size(); ++instance) {
+        const HighSurface::Triangles part = high.triangles(instance);
+        vertices += part.positions.size();
+        triangles += part.indices.size() / 3;
+        for (std::size_t f = 0; f < part.indices.size() / 3; ++f)
+            if (const auto cuts = std::size_t(cutsOf(part, f, spacing)))
+                between += (cuts + 1) * (cuts + 2) / 2;
+    }
+    const std::size_t every = 1 + triangles / kTried;
+    std::vector<std::size_t> asked;
+    std::size_t next = 0; // of the instance's triangles
+    for (std::uint32_t instance = 0; instance < high.names().size(); ++instance) {
+        const HighSurface::Triangles part = high.triangles(instance);
+        for (; next < part.indices.size() / 3; next += every) {
+            const std::uint32_t* const c = &part.indices[3 * next];
+            glm::vec3 point = part.positions[c[0]];
+            if (asked.size() % 2 == 1)
+                point = (point + part.positions[c[1]] + part.positions[c[2]]) / 3.0f;
+            asked.push_back(measuring.asked(point, part.normals[c[0]], instance));
         }
+        next -= part.indices.size() / 3;
+    }
+    const auto middle = asked.begin() + std::ptrdiff_t(asked.size() / 2);
+    std::nth_element(asked.begin(), middle, asked.end());
+    if (*middle > kCrowded)
+        return inputError(fmt::format("low: about {} of its triangles lie over one another at each place, expected at "
+                                      "most {}: leave out those that nobody sees",
+                                      *middle, kCrowded));
+    const double mean = double(std::reduce(asked.begin(), asked.end())) / double(asked.size());
+    const double work = double(std::min(vertices, kMostVertices) + between) * mean;
+    return 1 + std::size_t(work / kMostAsked);
 }
 
-void measure(const HighSurface& high, float spacing, Measuring& measuring)
+Status measure(const HighSurface& high, float spacing, Measuring& measuring)
 {
     std::size_t vertices = 0;
     for (std::size_t instance = 0; instance < high.names().size(); ++instance)
         vertices += high.triangles(instance).positions.size();
-    const std::size_t step = 1 + vertices / kMostVertices;
+    const auto fitting = stepFor(high, spacing, measuring);
+    if (!fitting)
+        return fitting.error();
+    const std::size_t every = *fitting, step = std::max(1 + vertices / kMostVertices, every);
+    std::size_t before = 0; // triangles
     for (std::uint32_t instance = 0; instance < high.names().size(); ++instance) {
         const HighSurface::Triangles part = high.triangles(instance);
         parallelRanges<std::size_t>(0, (part.positions.size() + step - 1) / step, 4096,
@@ -313,10 +351,14 @@ void measure(const HighSurface& high, float spacing, Measuring& measuring)
         parallelRanges<std::size_t>(0, part.indices.size() / 3, 1024, [&](std::size_t begin, std::size_t end) {
             Last last;
             for (std::size_t f = begin; f != end; ++f)
-                pointsBetween(part, f, spacing, [&](glm::vec3 p, glm::vec3 n) { measuring.add(p, n, instance, last); });
+                if ((before + f) % every == 0)
+                    pointsBetween(part, f, spacing,
+                                  [&](glm::vec3 p, glm::vec3 n) { measuring.add(p, n, instance, last); });
         });
+        before += part.indices.size() / 3;
     }
     measuring.addRays();
+    return Done{};
 }
 
 // Whether some of the rays of a triangle would start behind another one.
@@ -396,12 +438,17 @@ Result<RayStarts> makeRayStarts(const LowSurface& low, const HighSurface& high, 
         return starts;
     }
     starts.tree = body->tree;
+    Status measured = Done{};
     withThreads(options.threads, [&] {
         Measuring measuring(low, high, options, *body, groups, starts);
-        measure(high, std::max(body->edge, kSpacing * body->diagonal), measuring);
+        measured = measure(high, std::max(body->edge, kSpacing * body->diagonal), measuring);
+        if (!measured)
+            return;
         starts.distances = measuring.distances();
         findCrossed(low, body->diagonal, starts);
     });
+    if (!measured)
+        return measured.error();
     starts.farthest = *std::max_element(starts.distances.begin(), starts.distances.end());
     return starts;
 }

@@ -26,6 +26,15 @@ Rectangle boundsOf(const RasterTriangle& triangle, Rectangle area)
             std::min(area.y1, (highY >> 8) + 1)};
 }
 
+bool mayCover(const std::array<Edge, 3>& edges, Rectangle area)
+{
+    return std::all_of(edges.begin(), edges.end(), [&](const Edge& e) {
+        // The corner of the area that is best for the edge.
+        const std::int64_t x = e.x > 0 ? area.x1 : area.x0, y = e.y > 0 ? area.y1 : area.y0;
+        return e.at(x * kSubPixels, y * kSubPixels) >= 0;
+    });
+}
+
 Rectangle narrowed(const std::array<Edge, 3>& edges, Rectangle bounds, int y)
 {
     const std::int64_t top = std::int64_t(y) * kSubPixels, bottom = top + 2 * kSubPixels;

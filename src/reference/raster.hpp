@@ -71,6 +71,9 @@ std::array<Edge, 3> edgesOf(const RasterTriangle& triangle);
 // The pixels whose samples the triangle may cover, inside the area.
 Rectangle boundsOf(const RasterTriangle& triangle, Rectangle area);
 
+// Whether the edges may keep a sample of the area: false for most tiles in the box of a sliver.
+bool mayCover(const std::array<Edge, 3>& edges, Rectangle area);
+
 // Narrows x0 and x1 of the bounds to the columns that the edges can keep in the rows y and y + 1,
 // give or take a pixel: a sliver costs what it covers, not what its bounds cover.
 Rectangle narrowed(const std::array<Edge, 3>& edges, Rectangle bounds, int y);

@@ -123,11 +123,15 @@ void sortIntoTiles(TiledTriangles& tiled, const Projection& projection)
     tiled.tiles.resize(std::size_t(tiled.columns) * std::size_t(tiled.rows));
     Rectangle picture{0, 0, projection.width, projection.height};
     for (std::size_t i = 0; i < tiled.triangles.size(); ++i) {
-        Rectangle b = boundsOf(tiled.triangles[i], picture);
+        const Rectangle b = boundsOf(tiled.triangles[i], picture);
+        const std::array<Edge, 3> edges = edgesOf(tiled.triangles[i]);
         for (int row = b.y0 / kTileSize; row <= (b.y1 - 1) / kTileSize; ++row)
-            for (int column = b.x0 / kTileSize; column <= (b.x1 - 1) / kTileSize; ++column)
-                tiled.tiles[std::size_t(row) * std::size_t(tiled.columns) + std::size_t(column)].push_back(
-                    std::uint32_t(i));
+            for (int column = b.x0 / kTileSize; column <= (b.x1 - 1) / kTileSize; ++column) {
+                const int x = column * kTileSize, y = row * kTileSize;
+                if (mayCover(edges, {x, y, x + kTileSize, y + kTileSize}))
+                    tiled.tiles[std::size_t(row) * std::size_t(tiled.columns) + std::size_t(column)].push_back(
+                        std::uint32_t(i));
+            }
     }
 }
 

@@ -3,6 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
+#include <span>
+#include <utility>
+#include <vector>
 
 #include <glm/geometric.hpp>
 
@@ -16,6 +20,9 @@ namespace cotan::reference {
 namespace {
 
 constexpr int kShadowTexels = 2048;
+constexpr std::size_t kManyInTile = 64; // triangles from which on a tile is drawn block by block
+constexpr int kBlock = 8;               // texels: side of a block
+constexpr int kDrawnUntilAsked = 8;     // triangles after which the farthest texel of a block is looked for again
 
 struct ShadowPass {
     const Scene& scene;
@@ -28,6 +35,7 @@ struct ShadowPass {
     std::uint32_t layerOf(const RasterTriangle& triangle) const;
     void drawQuad(const RasterTriangle& triangle, const Quad& quad) const;
     void drawTile(const TiledTriangles& tiled, std::size_t tile) const;
+    void drawBlock(const TiledTriangles& tiled, std::span<const std::uint32_t> triangles, Rectangle block) const;
 };
 
 // Which pattern of cotan_shadow_threshold a translucent surface takes: the front and the back of a thing, and of two
@@ -63,16 +71,57 @@ void ShadowPass::drawQuad(const RasterTriangle& triangle, const Quad& quad) cons
     }
 }
 
+// The nearest that the plane of a triangle comes in the area.
+double nearestIn(const Plane& z, Rectangle area)
+{
+    return z.at(z.x > 0 ? area.x1 : area.x0, z.y > 0 ? area.y1 : area.y0);
+}
+
+// The same texels from the nearest triangle on, whichever comes first in the scene: most of those behind are behind
+// all that is there, and are left out.
+void ShadowPass::drawBlock(const TiledTriangles& tiled, std::span<const std::uint32_t> triangles, Rectangle block) const
+{
+    std::vector<std::pair<double, std::uint32_t>> order;
+    for (const std::uint32_t index : triangles)
+        if (mayCover(edgesOf(tiled.triangles[index]), block))
+            order.emplace_back(nearestIn(tiled.triangles[index].z, block), index);
+    std::sort(order.begin(), order.end(), std::greater<>());
+    const auto farthest = [&] {
+        float least = map.nearness[std::size_t(block.y0) * std::size_t(map.size) + std::size_t(block.x0)];
+        for (int y = block.y0; y < block.y1; ++y)
+            for (int x = block.x0; x < block.x1; ++x)
+                least = std::min(least, map.at(x, y));
+        return least;
+    };
+    float least = 0;
+    int drawn = 0;
+    for (const auto& [nearest, index] : order) {
+        if (!(float(nearest) > least))
+            return; // nor do those that follow
+        const RasterTriangle& triangle = tiled.triangles[index];
+        forEachQuad(triangle, block, samplePattern(1), [&](const Quad& quad) { drawQuad(triangle, quad); });
+        if (++drawn % kDrawnUntilAsked == 0)
+            least = farthest();
+    }
+}
+
 void ShadowPass::drawTile(const TiledTriangles& tiled, std::size_t tile) const
 {
-    Rectangle area = tiled.area(tile, map.size, map.size);
-    for (std::uint32_t index : tiled.tiles[tile]) {
-        const RasterTriangle& triangle = tiled.triangles[index];
-        const Draw& draw = draws[triangle.draw];
-        if (!scene.materials[std::size_t(draw.material)].throwsShadow())
-            continue;
-        forEachQuad(triangle, area, samplePattern(1), [&](const Quad& quad) { drawQuad(triangle, quad); });
+    const Rectangle area = tiled.area(tile, map.size, map.size);
+    std::vector<std::uint32_t> casting;
+    for (const std::uint32_t index : tiled.tiles[tile])
+        if (scene.materials[std::size_t(draws[tiled.triangles[index].draw].material)].throwsShadow())
+            casting.push_back(index);
+    if (casting.size() < kManyInTile) {
+        for (const std::uint32_t index : casting) {
+            const RasterTriangle& triangle = tiled.triangles[index];
+            forEachQuad(triangle, area, samplePattern(1), [&](const Quad& quad) { drawQuad(triangle, quad); });
+        }
+        return;
     }
+    for (int y = area.y0; y < area.y1; y += kBlock)
+        for (int x = area.x0; x < area.x1; x += kBlock)
+            drawBlock(tiled, casting, {x, y, std::min(x + kBlock, area.x1), std::min(y + kBlock, area.y1)});
 }
 
 // What four texels in a row weigh when three bilinear reads side by side are averaged.

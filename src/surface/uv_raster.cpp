@@ -362,14 +362,20 @@ void UvRaster::firsts(int block, UvFirsts& result) const
         }
     };
     const auto take = [&](glm::ivec2 texel, const UvPlace& place, std::uint8_t* row) {
-        if (row[texel.x])
-            return result.again.push_back(texel);
         row[texel.x] = 1;
         found.push_back({texel, place});
         ++next[tileOf(texel) + 1];
     };
+    std::vector<std::uint8_t>& twice = result.scratch.twice;
+    twice.assign(taken.size(), 0);
     eachRow([&](const Shown& t, int y, std::uint8_t* row) {
-        scanCentres(t, y, nullptr, [&](int x, const UvPlace& place) { take({x, y}, place, row); });
+        std::uint8_t* const second = twice.data() + (row - taken.data());
+        scanCentres(t, y, second, [&](int x, const UvPlace& place) {
+            if (!row[x])
+                return take({x, y}, place, row);
+            second[x] = 1;
+            result.again.push_back({x, y});
+        });
     });
     eachRow([&](const Shown& t, int y, std::uint8_t* row) {
         scanTouching(t, y, row, [&](int x, const UvPlace& place) { take({x, y}, place, row); });

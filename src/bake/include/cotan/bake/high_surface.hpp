@@ -73,9 +73,10 @@ public:
     // Why none can be made here, whatever the scenes are: not built with Embree. To be asked before files are read.
     static std::optional<Error> unavailable();
 
-    // `threads`: 0 for all. Errors: ErrorKind::input where there is no triangle;
+    // `threads`: 0 for all. byInstance: probes ask for triangles of one instance (Probes::only); else, of many
+    // triangles that lie on one another, the first is seen. Errors: ErrorKind::input where there is no triangle;
     // ErrorKind::unavailable where memory does not suffice.
-    static Result<HighSurface> make(const std::vector<Scene>& scenes, int threads);
+    static Result<HighSurface> make(const std::vector<Scene>& scenes, int threads, bool byInstance = false);
 
     HighSurface(HighSurface&&) noexcept;
     HighSurface& operator=(HighSurface&&) noexcept;
@@ -98,11 +99,14 @@ public:
     void anyBetween(const Probes& probes, Lanes<int>& any) const;
     // Whether anything lies on the ray.
     bool blocked(const Ray& ray) const;
+    // How many triangles the ray meets, one behind the other.
+    std::size_t met(const Ray& ray) const;
 
     // One instance in world space.
     struct Triangles {
         std::span<const glm::vec3> positions, normals; // normals unit, or zero where unknown
         std::span<const std::uint32_t> indices;
+        std::span<const std::uint8_t> repeated; // one a triangle: not 0 where nothing sees it; empty: all are seen
         float front = 1; // -1: the order of the corners contradicts most of the normals, which count
     };
     Triangles triangles(std::size_t instance) const;

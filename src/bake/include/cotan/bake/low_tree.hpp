@@ -31,6 +31,7 @@ public:
         float b1 = 0, b2 = 0; // barycentric coordinates of its corners 1 and 2
         glm::vec3 point{0};
         float distance = 0;
+        std::size_t asked = 0; // triangles that were looked at
     };
     // The nearest point, at most `radius` away, of the triangles that `accepts` takes; of equally near ones that of the
     // first triangle.

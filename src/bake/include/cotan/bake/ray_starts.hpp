@@ -50,7 +50,8 @@ struct RayStartOptions {
 // distance that encloses it, and 5 % and 0.002 of the diagonal more. Where nothing belongs to a vertex, the outermost
 // front within the limit on its own ray counts. Rays start no further out than another part of the low surface
 // that shows the same detail: measured ones, not those with a given extrusion. The result does not depend on the number
-// of threads. Errors: those of LowTree::make.
+// of threads. Errors: those of LowTree::make;
+// ErrorKind::input where thousands of triangles of the low surface lie over one another at most points.
 Result<RayStarts> makeRayStarts(const LowSurface& low, const HighSurface& high, const RayStartOptions& options,
                                 const LowRest& rest = {});
 

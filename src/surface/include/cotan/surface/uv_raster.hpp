@@ -32,7 +32,7 @@ struct UvPlace {
 // What the raster works with. It stays with the result, so that a result that is used again takes no new memory.
 template<class Texel> struct UvScratch {
     std::vector<std::pair<Texel, UvPlace>> found; // in the order in which they were found
-    std::vector<std::uint8_t> taken;              // texels that have their place
+    std::vector<std::uint8_t> taken, twice;       // texels that have their place, and those that have two
     std::vector<std::uint32_t> next;              // where in the result the next of a group goes
     std::vector<std::uint32_t> orders, sorted;    // number of the triangle, beside `found` and beside the result
 };
@@ -72,7 +72,7 @@ struct UvSpan {
 struct UvFirsts {
     std::vector<glm::ivec2> texels; // beside places
     std::vector<UvPlace> places;
-    std::vector<glm::ivec2> again; // texels whose centre another triangle covers too; one that many cover comes again
+    std::vector<glm::ivec2> again; // texels whose centre another triangle covers too, once
     UvScratch<glm::ivec2> scratch; // no part of the result
 };
 
