@@ -1,6 +1,7 @@
 """Mistakes drawn at random over all code: what `scripts/mutants --random N --seed S` does."""
 import collections
 import concurrent.futures
+import hashlib
 import json
 import pathlib
 import random
@@ -55,10 +56,11 @@ TESTS = {
     "src/verify": "draw_test bake_command_test",
 }
 ENDINGS = (".cpp", ".hpp", ".h", ".py", ".js")
+BROKEN = WORK / "not_compiling.txt"  # so that another run over the same sources does not try them again
 EQUIVALENT = HOME / "tests/mutation/equivalent.txt"
 BAR = 0.85
 # What else of the suite comes to many places: tried after those above, the quickest first.
-OTHERS = """accuracy_test geometry_test assimp_test obj_test bake_test batch_test c_buffers_test cli_test convert_test core_test cost_test draw_test
+OTHERS = """defaults_test accuracy_test geometry_test assimp_test obj_test bake_test batch_test c_buffers_test cli_test convert_test core_test cost_test draw_test
 environment_test figures_test files_test frame_table_test gltf_bad_test gltf_edit_test gltf_models_test gltf_test help_test image_test
 judgement_command_test judgement_test auto_frame_test lighting_test lint_test map_command_test map_test models_test reference_test
 render_test report_test sandbox_test shader_text_test shapes_test tangents_command_test tangents_gltf_test tangents_test viewer_test
@@ -76,6 +78,7 @@ class Drawn:
         self.script = file.endswith((".py", ".js"))
         words = lambda s: " ".join(s.split())
         self.said = f"{file}:{self.line}: {mistake.kind}: {words(self.right)[:100]} => {words(mistake.wrong)[:100]}"
+        self.key = f"{hashlib.sha256(text.encode()).hexdigest()[:16]} {mistake.start} {mistake.kind} {words(mistake.wrong)}"
         source = text.split("\n")[self.line - 1]
         self.place = f"{file}: {words(source)[:160]}: {words(mistake.wrong)[:100]}"
 
@@ -190,14 +193,16 @@ def check_headers(changed, jobs):
 
 def build_what_compiles(drawn, texts, targets, jobs):
     """Builds, leaving out what does not compile; gives the mistakes that are in, and those that are not."""
-    inside, outside, headers_checked = list(drawn), [], False
+    known = set(BROKEN.read_text().split("\n")) if BROKEN.exists() else set()
+    outside = [d for d in drawn if d.key in known]
+    inside, headers_checked = [d for d in drawn if d.key not in known], False
     for _ in range(20):
         changed = planted_texts(inside, texts)
         plant.copy_sources({name: text for name, (text, _) in changed.items()})
         plant.configure()
         output = "" if headers_checked else check_headers(changed, jobs)
-        headers_checked = not output
-        if headers_checked:
+        headers_checked = True
+        if not output:
             code, output = plant.build(targets, jobs, go_on=True)
             if code == 0:
                 return inside, outside
@@ -207,6 +212,7 @@ def build_what_compiles(drawn, texts, targets, jobs):
         if not bad:
             raise SystemExit(f"mutants: the build fails, not by a mistake: {WORK / 'build.txt'}")
         outside += [d for d in inside if d.number in bad]
+        BROKEN.write_text("\n".join(sorted(known | {d.key for d in outside})))
         inside = [d for d in inside if d.number not in bad]
     raise SystemExit("mutants: the build fails again and again")
 
