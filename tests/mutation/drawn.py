@@ -195,7 +195,7 @@ def build_what_compiles(drawn, texts, targets, jobs):
     """Builds, leaving out what does not compile; gives the mistakes that are in, and those that are not."""
     known = set(BROKEN.read_text().split("\n")) if BROKEN.exists() else set()
     outside = [d for d in drawn if d.key in known]
-    inside, headers_checked = [d for d in drawn if d.key not in known], False
+    inside, headers_checked = [d for d in drawn if d.key not in known], bool(outside)
     for _ in range(20):
         changed = planted_texts(inside, texts)
         plant.copy_sources({name: text for name, (text, _) in changed.items()})
