@@ -27,7 +27,7 @@ if(Python3_FOUND)
 endif()
 # Words as values, without a process.
 cotan_test(words_test
-  SOURCES picture_options_test.cpp
+  SOURCES arguments_test.cpp picture_options_test.cpp
   LIBRARIES cotan_app cotan_shapes fmt::fmt)
 # The manual's pages, and completion by the shells themselves.
 foreach(part man words bash zsh fish)

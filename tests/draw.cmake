@@ -1,4 +1,5 @@
 # Drawing and verifying as a program calls them: no file, no process.
 cotan_test(draw_test
-  SOURCES draw_test.cpp scene_check_test.cpp scene_parts_test.cpp verify_test.cpp
+  SOURCES draw_test.cpp draw_random_test.cpp scene_check_test.cpp scene_parts_test.cpp
+    verify_frames_test.cpp verify_test.cpp
   LIBRARIES cotan_draw cotan_verify cotan_reference cotan_lint cotan_gltf cotan_shapes)

@@ -1,1 +1,3 @@
-cotan_test(report_test SOURCES report_test.cpp LIBRARIES cotan_report nlohmann_json::nlohmann_json)
+cotan_test(report_test
+  SOURCES report_test.cpp report_convert_test.cpp report_lines_test.cpp
+  LIBRARIES cotan_report cotan_shapes nlohmann_json::nlohmann_json)

@@ -1,6 +1,8 @@
 """Mistakes drawn at random over all code: what `scripts/mutants --random N --seed S` does."""
 import collections
 import concurrent.futures
+import hashlib
+import json
 import pathlib
 import random
 import re
@@ -16,7 +18,7 @@ from plant import HOME, WORK
 # Which tests could notice a mistake in a folder, the nearest first; `python:` and `c_api` run over the C library.
 TESTS = {
     "apps/cotan": "cli_test tangents_command_test files_test help_test words_test judgement_command_test map_command_test bake_command_test",
-    "apps/viewer": "viewer_test",
+    "apps/viewer": "viewer_test view_window_test",
     "bindings/js": "web",
     "bindings/python": "python:arrays python:bake python:maps python:models python:geometry python:render python:work python:json",
     "shaders/cotan": "core_test tangents_test reference_test frame_table_test shader_text_test",
@@ -54,22 +56,35 @@ TESTS = {
     "src/verify": "draw_test bake_command_test",
 }
 ENDINGS = (".cpp", ".hpp", ".h", ".py", ".js")
+BROKEN = WORK / "not_compiling.txt"  # so that another run over the same sources does not try them again
 EQUIVALENT = HOME / "tests/mutation/equivalent.txt"
 BAR = 0.85
+# What else of the suite comes to many places: tried after those above, the quickest first.
+OTHERS = """defaults_test accuracy_test geometry_test assimp_test obj_test bake_test batch_test c_buffers_test cli_test convert_test core_test cost_test draw_test
+environment_test figures_test files_test frame_table_test gltf_bad_test gltf_edit_test gltf_models_test gltf_test help_test image_test
+judgement_command_test judgement_test auto_frame_test lighting_test lint_test map_command_test map_test models_test reference_test
+render_test report_test sandbox_test shader_text_test shapes_test tangents_command_test tangents_gltf_test tangents_test viewer_test
+words_test bake_command_test batch_command_test c_facts c_api output_bytes json_fields python:arrays python:bake python:geometry
+python:json python:maps python:models python:render python:types python:work view_window_test""".split()
 MOST_OF_A_FILE = 6  # mistakes, so that none of them hides in another's text
 
 
 class Drawn:
-    def __init__(self, number, file, text, mistake):
-        self.number, self.file, self.mistake = number, file, mistake
+    def __init__(self, seed, file, text, mistake):
+        self.seed, self.file, self.mistake = seed, file, mistake
         self.part = "/".join(file.split("/")[:2])
         self.right = text[mistake.start:mistake.end]
         self.line = text.count("\n", 0, mistake.start) + 1
         self.script = file.endswith((".py", ".js"))
         words = lambda s: " ".join(s.split())
         self.said = f"{file}:{self.line}: {mistake.kind}: {words(self.right)[:100]} => {words(mistake.wrong)[:100]}"
+        self.key = f"{hashlib.sha256(text.encode()).hexdigest()[:16]} {mistake.start} {mistake.kind} {words(mistake.wrong)}"
         source = text.split("\n")[self.line - 1]
         self.place = f"{file}: {words(source)[:160]}: {words(mistake.wrong)[:100]}"
+
+    def meets(self, other):
+        here, there = self.mistake, other.mistake
+        return self.file == other.file and here.start < there.end + 1 and there.start < here.end + 1
 
     def planted(self):
         n, m = self.number, self.mistake
@@ -84,9 +99,10 @@ class Drawn:
 
 def draw(count, seed, parts):
     """Mistakes at lines drawn evenly from the code of `parts`, and of the kinds at a line one drawn evenly; none inside another."""
+    unbuilt = re.compile(r"/no_\w+\.cpp$")  # in the place of a library that is missing; scripts/try-optional builds them
     names = subprocess.run(["git", "-C", HOME, "ls-files", "src", "apps", "shaders/cotan", "bindings"], check=True,
                            capture_output=True, text=True).stdout.split()
-    texts = {n: (HOME / n).read_text() for n in sorted(names) if n.endswith(ENDINGS) and "/".join(n.split("/")[:2]) in parts}
+    texts = {n: (HOME / n).read_text() for n in sorted(names) if n.endswith(ENDINGS) and not unbuilt.search(n) and "/".join(n.split("/")[:2]) in parts}
     lines = [(name, i + 1) for name, text in texts.items() for i in range(text.count("\n"))]
     dice, drawn, found, used = random.Random(seed), [], {}, collections.defaultdict(list)
     for name, line in dice.sample(lines, len(lines)):
@@ -104,58 +120,99 @@ def draw(count, seed, parts):
         if any(mistake.start < end + 1 and start < mistake.end + 1 for start, end in used[name]):
             continue
         used[name].append((mistake.start, mistake.end))
-        drawn.append(Drawn(len(drawn) + 1, name, texts[name], mistake))
+        drawn.append(Drawn(seed, name, texts[name], mistake))
     return drawn, texts
 
 
 def planted_texts(drawn, texts):
-    changed = {}
-    for d in sorted(drawn, key=lambda d: d.mistake.start, reverse=True):
+    """By file: the text with its mistakes, and the lines of each mistake in it."""
+    changed, by_file = {}, collections.defaultdict(list)
+    for d in drawn:
         if not d.script:
-            text = changed.get(d.file, texts[d.file])
-            end = d.mistake.start if d.mistake.kind == "early return" else d.mistake.end
-            changed[d.file] = text[:d.mistake.start] + d.planted() + text[end:]
+            by_file[d.file].append(d)
+    for file, here in by_file.items():
+        text, done, at, spans = "", 0, 1, {}
+        for d in sorted(here, key=lambda d: d.mistake.start):
+            text += texts[file][done:d.mistake.start]
+            first = text.count("\n") + 1
+            text += d.planted()
+            spans[d.number] = range(first, text.count("\n") + 2)
+            done = d.mistake.start if d.mistake.kind == "early return" else d.mistake.end
+        changed[file] = (text + texts[file][done:], spans)
     return changed
 
 
-def those_that_do_not_compile(output, drawn, changed):
-    """The mistakes on the lines that the compiler complains of; where there is none, all of the files that it names."""
-    by_number = {d.number: d for d in drawn}
+COMPLAINT = re.compile(r"/(source|portable)/([^\s:]+):(\d+):\d+:\s+([^\n]*)")
+
+
+def those_that_do_not_compile(output, changed):
+    """The mistakes on the lines that the compiler complains of; where it names none, all of the files that it names."""
     bad, files = set(), set()
-    for block in re.split(r"\nFAILED: ", output)[1:]:
-        here, named = set(), set()
-        for root, file, line, what in re.findall(r"/(source|portable)/([^\s:]+):(\d+):\d+:\s+(\w+)", block):
+    for block in re.split(r"\nFAILED: ", "\n" + output)[1:]:
+        errors, mentioned, named = set(), set(), set()
+        for root, file, line, what in COMPLAINT.findall(block):
             name = file if root == "source" else f"shaders/{file}"
             if name not in changed:
                 continue
             named.add(name)
-            lines = changed[name].split("\n")
-            at = int(line) - (0 if name.startswith("shaders/cotan/") else 1) - 1
-            near = lines[at] if 0 <= at < len(lines) else ""
-            if what == "error" or not here:
-                here |= {int(n) for n in re.findall(r"cotan_mutant\((\d+)\)", near)} & by_number.keys()
-        bad |= here
-        if not here:
+            at = int(line) - (0 if name.startswith("shaders/cotan/") else 1)
+            here = {n for n, span in changed[name][1].items() if at in span}
+            mentioned |= here
+            if "error" in what:
+                errors |= here
+        bad |= errors or mentioned
+        if not mentioned:
             files |= named
-    return bad | {d.number for d in drawn if d.file in files and not d.script}
+    return bad | {n for file in files for n in changed[file][1]}
+
+
+def check_headers(changed, jobs):
+    """What the compiler says of the headers that are changed, each alone: else what includes them is compiled many times."""
+    commands = {}
+    for entry in json.loads((plant.BUILD / "compile_commands.json").read_text()):
+        part = re.search(r"/(src|apps)/(\w+)/", entry["output"] if "output" in entry else entry["file"])
+        if part:
+            commands.setdefault(part[0].strip("/"), entry)
+
+    def check(name):
+        entry = commands.get("/".join(name.split("/")[:2]), commands["src/reference"])
+        words = entry["command"].split()
+        words = words[1 if "ccache" in words[0] else 0:words.index("-o")]
+        with tempfile.TemporaryDirectory() as folder:
+            file = pathlib.Path(folder) / "header.cpp"
+            file.write_text(f'#include "{plant.SOURCE / name}"\n')
+            done = subprocess.run([*words, "-fsyntax-only", str(file)], cwd=entry["directory"], capture_output=True, text=True)
+        return f"\nFAILED: {name}\n{done.stderr}" if done.returncode else ""
+
+    headers = [name for name in changed if name.endswith((".hpp", ".h")) and not name.startswith("shaders/cotan/")]
+    if any(name.startswith("shaders/cotan/") for name in changed):
+        headers.append("include/cotan/portable.hpp")
+    with concurrent.futures.ThreadPoolExecutor(jobs) as pool:
+        return "".join(pool.map(check, headers))
 
 
 def build_what_compiles(drawn, texts, targets, jobs):
     """Builds, leaving out what does not compile; gives the mistakes that are in, and those that are not."""
-    inside, outside = list(drawn), []
-    for _ in range(12):
+    known = set(BROKEN.read_text().split("\n")) if BROKEN.exists() else set()
+    outside = [d for d in drawn if d.key in known]
+    inside, headers_checked = [d for d in drawn if d.key not in known], bool(outside)
+    for _ in range(20):
         changed = planted_texts(inside, texts)
-        plant.copy_sources(changed)
+        plant.copy_sources({name: text for name, (text, _) in changed.items()})
         plant.configure()
-        code, output = plant.build(targets, jobs, go_on=True)
-        if code == 0:
-            return inside, outside
+        output = "" if headers_checked else check_headers(changed, jobs)
+        headers_checked = True
+        if not output:
+            code, output = plant.build(targets, jobs, go_on=True)
+            if code == 0:
+                return inside, outside
         (WORK / "build.txt").write_text(output)
-        bad = those_that_do_not_compile(output, inside, changed)
+        bad = those_that_do_not_compile(output, changed)
         print(f"{len(bad)} mistakes do not compile", flush=True)
         if not bad:
             raise SystemExit(f"mutants: the build fails, not by a mistake: {WORK / 'build.txt'}")
         outside += [d for d in inside if d.number in bad]
+        BROKEN.write_text("\n".join(sorted(known | {d.key for d in outside})))
         inside = [d for d in inside if d.number not in bad]
     raise SystemExit("mutants: the build fails again and again")
 
@@ -206,25 +263,30 @@ def try_python(drawn, texts, programs, limit):
         return plant.try_mistake(0, programs, limit, python)
 
 
-def baselines(parts, seconds):
-    """Of each part the tests that pass without a mistake and take no longer together, with their seconds."""
-    took, chosen = {}, {}
-    for part in parts:
-        programs, total = [], 0.0
-        for program in TESTS[part].split():
-            if program == "web":
+class Reach:
+    """Which tests come to which mistakes, by a run of each program without a mistake: only those can notice."""
+
+    def __init__(self, programs, jobs):
+        self.tests, self.seconds, longest = {}, {}, 600
+        with concurrent.futures.ThreadPoolExecutor(jobs) as pool:
+            for program, (tests, took, outcome) in zip(programs, pool.map(lambda p: plant.reach(p, longest), programs)):
+                self.tests[program], self.seconds[program] = tests, took
+                passed = f"{sum(not name.endswith('.*') for name, _, _ in tests)} tests in {took:.1f} s"
+                print(f"{program}: {passed}{f', without a mistake: {outcome}' if outcome else ''}", flush=True)
+
+    def programs(self, part, number, seconds):
+        """Each program with the tests that come to a mistake and its limit; of scripts (number None) the part's."""
+        near, found = TESTS[part].split(), []
+        for program in self.tests:
+            here = [t for t in self.tests[program] if number in t[2]] if number else self.tests[program]
+            if not here or not number and program not in near:
                 continue
-            if program not in took:
-                outcome, took[program] = plant.run(program, 0, 900)
-                if outcome:
-                    raise SystemExit(f"mutants: {program} fails without a mistake: {outcome}")
-            if programs and total + took[program] > seconds:
-                continue
-            programs.append(program)
-            total += took[program]
-        chosen[part] = (programs, 2 * total + 10)
-        print(f"{part}: {' '.join(programs)} take {total:.1f} s", flush=True)
-    return chosen
+            took = sum(s for _, s, _ in here)
+            every = len(here) == len(self.tests[program]) or not here[0][0]
+            word = program if every else program + ":" + ":".join(name for name, _, _ in here)
+            rank = near.index(program) if program in near else len(near)
+            found.append((rank, took, word, 3 * min(self.seconds[program], took + 1) + 10))
+        return [(word, most) for rank, took, word, most in sorted(found) if took < seconds]
 
 
 def equivalents():
@@ -250,7 +312,7 @@ def report(results, outside, known, seed):
     return seen >= BAR * (seen + missed) and seen + missed > 0
 
 
-def main(count, seed, jobs, seconds, only):
+def main(count, seed, beside, jobs, seconds, only, again):
     for part in only:
         if part not in TESTS:
             raise SystemExit(f"mutants: expected a folder ({', '.join(TESTS)}); found '{part}'")
@@ -258,30 +320,44 @@ def main(count, seed, jobs, seconds, only):
     if "bindings/js" in wanted and web.missing():
         print("bindings/js is left out: the npm package is not built (ctest --preset dev -R web_package)")
         wanted.remove("bindings/js")
-    drawn, texts = draw(count + count // 2, seed, wanted)  # about a third does not compile
+    drawn = []
+    for s in sorted({seed, *beside}, reverse=True):  # about a third does not compile
+        more, texts = draw(count + count // 2, s, wanted)
+        drawn += [d for d in more if not any(d.meets(other) for other in drawn)]
+    for number, d in enumerate(drawn):
+        d.number = number + 1
     parts = sorted({d.part for d in drawn})
-    targets = set().union(*(plant.targets_of(p) for part in parts for p in TESTS[part].split() if p != "web")) | {"cotan_c", "cotan"}
+    programs = [p for p in dict.fromkeys(" ".join(TESTS[part] for part in parts).split() + OTHERS) if p != "web"]
+    targets = set().union(*map(plant.targets_of, programs)) | {"cotan_c", "cotan"}
     inside, outside = build_what_compiles(drawn, texts, targets, jobs)
-    outside = [d for d in outside if d.number <= inside[:count][-1].number]
-    inside = inside[:count]
-    tests = baselines(sorted({d.part for d in inside}), seconds)
+    inside = [d for d in inside if d.seed == seed][:count]
+    outside = [d for d in outside if d.seed == seed and d.number <= inside[-1].number]
+    reach = Reach(programs, jobs)
+    table, before = WORK / f"random-{seed}.tsv", {}
+    if again:
+        before = {row[3]: row[1] for row in (line.split("\t") for line in table.read_text().splitlines())}
 
     def judge(d):
-        programs, limit = tests[d.part]
+        if before.get(d.place, "UNNOTICED") not in ("UNNOTICED", "equivalent"):
+            return d, before[d.place], 0.0
         if d.part == "bindings/js":
             return d, *web.run(d, texts, 3 * seconds)
+        chosen = reach.programs(d.part, None if d.script else d.number, seconds)
         if d.script:
-            return d, *try_python(d, texts, programs, limit)
-        return d, *plant.try_mistake(d.number, programs, limit)
+            return d, *try_python(d, texts, chosen, seconds)
+        return d, *plant.try_mistake(d.number, chosen, seconds)
 
     results, known, start = [], equivalents(), time.monotonic()
-    with concurrent.futures.ThreadPoolExecutor(jobs) as pool, open(WORK / f"random-{seed}.tsv", "w") as file:
+    rows = []
+    with concurrent.futures.ThreadPoolExecutor(jobs) as pool:
         for d, outcome, took in pool.map(judge, inside):
             results.append((d, outcome))
             word = outcome or ("equivalent" if d.place in known else "UNNOTICED")
-            print(d.number, word, f"{took:.1f}", d.place, d.said, sep="\t", file=file, flush=True)
+            reached = "" if d.script or reach.programs(d.part, d.number, 1e9) else " (no test comes to it)"
+            rows.append("\t".join((str(d.number), word, f"{took:.1f}", d.place, d.said)))
             if word == "UNNOTICED":
-                print(f"unnoticed: {d.said}", flush=True)
+                print(f"unnoticed{reached}: {d.said}", flush=True)
             if len(results) % 50 == 0:
                 print(f"{len(results)} of {len(inside)} tried in {time.monotonic() - start:.0f} s", flush=True)
+    table.write_text("\n".join(rows) + "\n")
     return report(results, outside, known, seed)

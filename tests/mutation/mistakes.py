@@ -178,6 +178,8 @@ def _binary(f, i, found):
         found += [Mistake(kind, t.start, t.end, wrong) for wrong in OPERATORS[t.text]]
         return
     ends = f.operands(i)
+    if t.text in ("+", "-") and any(n.kind == "string" for n in f.tokens[max(0, i - 1):i + 2]):
+        return  # of text, which has no other operators
     if ends:
         start, end = f.tokens[ends[0]].start, f.tokens[ends[1]].end
         for wrong in OPERATORS[t.text]:
@@ -219,6 +221,14 @@ def _not(f, i, found):
         found.append(Mistake("boolean", t.start, end, f"bool({f.text[t.end:end]})"))
 
 
+PARAMETER = re.compile(r"(?:const )?[A-Za-z_][\w:]*(?:<.*>)?(?:[&*]+ ?\w*| \w+(?: = .*|\[\w*\])?)$", re.S)
+
+
+def looks_like(argument):
+    """What it is as far as one sees: arguments that look different are of different types."""
+    return next((c for c in ('"', "'", "[", "{", "&", "nullptr") if argument.startswith(c)), "")
+
+
 def _arguments(f, i, found):
     """A call whose neighbouring arguments are exchanged."""
     if f.tokens[i].text != "(" or i < 1 or f.tokens[i - 1].kind != "name" or f.tokens[i - 1].text in KEYWORDS | EITHER_WAY:
@@ -238,8 +248,10 @@ def _arguments(f, i, found):
                 parts.append((f.tokens[begin].start, f.tokens[j - 1].end))
             begin = j + 1
         j += 1
+    if not f.script and any(PARAMETER.match(f.text[a:b]) for a, b in parts):
+        return  # a declaration
     for (a, b), (c, d) in zip(parts, parts[1:]):
-        if f.text[a:b] != f.text[c:d]:
+        if f.text[a:b] != f.text[c:d] and (f.script or looks_like(f.text[a:b]) == looks_like(f.text[c:d])):
             swapped = f.text[c:d] + f.text[b:c] + f.text[a:b]
             if f.script:
                 found.append(Mistake("arguments", a, d, swapped))

@@ -1,0 +1,231 @@
+// A command of every kind of option: what each takes on both sides of its bounds, what is said of it, and what the help
+// has of it as values.
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "cotan/terminal/arguments.hpp"
+#include "cotan/terminal/command_words.hpp"
+
+namespace cotan {
+namespace {
+
+struct Everything {
+    int whole = 3, chosen = 4;
+    double real = 0.5;
+    float above = 1;
+    std::string autoOr = "auto", word = "b", file, output, plain = "x";
+    std::vector<std::string> list;
+    bool flag = false;
+    int runs = 0;
+    Arguments tool{"tool", "what it is", "1.2.3"};
+    Arguments command = tool.command("do", "what it does");
+
+    Everything()
+    {
+        tool.command("done", "another").does([] { return Status(Done{}); });
+        command.option("MODEL", file, "a model").reads().required();
+        command.option("-o,--output", output, "a file").in("FILE").writes();
+        command.option("--whole", whole, "a whole number").in("N").within(2, 5);
+        command.option("--chosen", chosen, "a number of these").in("K").from({1, 4, 16});
+        command.option("--real", real, "a number").in("X").within(-1.5, 2.25);
+        command.option("--above", above, "above none").in("X").above0();
+        command.option("--auto", autoOr, "above none, or auto").in("X").above0Or("auto");
+        command.option("--word", word, "one of them").in("WORD").from({"a", "b", "c"});
+        command.option("--list", list, "several").in("NAMES").separatedByCommas();
+        command.option("--plain", plain, "anything").in("WORD").offers({"p", "q"}).withoutDefault();
+        command.option("--hidden", plain, "old").unlisted();
+        command.flag("--flag", flag, "yes or no");
+        command.examples({"tool do a.glb", "tool do b.glb"}, "It ends with 0.");
+        command.does([this] {
+            ++runs;
+            return Status(Done{});
+        });
+    }
+    Status run(std::vector<std::string> words)
+    {
+        words.insert(words.begin(), {"do", "m.glb"});
+        return tool.run(words, [](const std::string&) {});
+    }
+};
+
+// The command takes the words, or says in one line what it expected.
+void expectTaken(const std::string& option, const std::string& value, const std::string& unless = "")
+{
+    Everything e;
+    const Status done = e.run({option, value});
+    EXPECT_EQ(bool(done), unless.empty()) << option << " " << value;
+    EXPECT_EQ(e.runs, unless.empty() ? 1 : 0);
+    if (!done) {
+        EXPECT_NE(done.error().message.find(unless), std::string::npos) << done.error().message;
+        EXPECT_EQ(done.error().message.find('\n'), std::string::npos);
+        EXPECT_EQ(done.error().kind, ErrorKind::usage);
+    }
+}
+
+TEST(Arguments, numbersAreTakenUpToTheirBoundsAndNotBeyond)
+{
+    for (const char* good : {"2", "3", "5"})
+        expectTaken("--whole", good);
+    for (const char* bad : {"1", "6", "-3", "2.5", "x", "4x", "nan"})
+        expectTaken("--whole", bad, "expected a whole number from 2 to 5; found '" + std::string(bad) + "'");
+    for (const char* good : {"-1.5", "0", "2.25", "1e-3"})
+        expectTaken("--real", good);
+    for (const char* bad : {"-1.51", "2.26", "nan", "inf", "x", "1x"})
+        expectTaken("--real", bad, "expected a number from -1.5 to 2.25; found '" + std::string(bad) + "'");
+    for (const char* good : {"1e-6", "1", "1e6"})
+        expectTaken("--above", good);
+    for (const char* bad : {"0", "-1", "1.1e6", "nan", "inf", "x", "1x"})
+        expectTaken("--above", bad, "expected a number above 0 and at most 1e6; found '" + std::string(bad) + "'");
+    for (const char* good : {"auto", "0.5", "1e6"})
+        expectTaken("--auto", good);
+    for (const char* bad : {"0", "automatic", "1.1e6", "nan"})
+        expectTaken("--auto", bad,
+                    "expected auto or a number above 0 and at most 1e6; found '" + std::string(bad) + "'");
+}
+
+TEST(Arguments, choicesAreTakenAndNothingElse)
+{
+    for (const char* good : {"1", "4", "16"})
+        expectTaken("--chosen", good);
+    for (const char* bad : {"0", "2", "15", "x"})
+        expectTaken("--chosen", bad, "expected 1, 4 or 16; found '" + std::string(bad) + "'");
+    for (const char* good : {"a", "b", "c"})
+        expectTaken("--word", good);
+    for (const char* bad : {"d", "A", "ab"})
+        expectTaken("--word", bad, bad);
+}
+
+TEST(Arguments, valuesArriveInTheirVariables)
+{
+    Everything e;
+    ASSERT_TRUE(e.run({"-o=out.png", "--whole", "5", "--chosen", "16", "--real", "-1", "--above", "2.5", "--auto", "7",
+                       "--word", "c", "--list", "x,y", "--flag", "--plain", "p"}));
+    EXPECT_EQ(e.file, "m.glb");
+    EXPECT_EQ(e.output, "out.png");
+    EXPECT_EQ(e.whole, 5);
+    EXPECT_EQ(e.chosen, 16);
+    EXPECT_EQ(e.real, -1);
+    EXPECT_EQ(e.above, 2.5f);
+    EXPECT_EQ(e.autoOr, "7");
+    EXPECT_EQ(e.word, "c");
+    EXPECT_EQ(e.list, (std::vector<std::string>{"x", "y"}));
+    EXPECT_TRUE(e.flag);
+    EXPECT_EQ(e.plain, "p");
+    Everything none;
+    ASSERT_TRUE(none.run({}));
+    EXPECT_EQ(none.whole, 3);
+    EXPECT_EQ(none.autoOr, "auto");
+    EXPECT_FALSE(none.flag);
+}
+
+TEST(Arguments, parsingRunsNothingAndTellsWhatWasGivenForWhat)
+{
+    const Everything e;
+    const auto given = e.tool.parse({"do", "m.glb", "-o", "a.png", "--flag"});
+    ASSERT_TRUE(given);
+    EXPECT_EQ(e.runs, 0);
+    EXPECT_EQ(given->name, "do");
+    ASSERT_EQ(given->options.size(), 3u);
+    EXPECT_EQ(given->options[0].name, "MODEL");
+    EXPECT_EQ(given->options[0].values, std::vector<std::string>{"m.glb"});
+    EXPECT_TRUE(given->options[0].use == FileUse::reads);
+    EXPECT_EQ(given->options[1].name, "output");
+    EXPECT_TRUE(given->options[1].use == FileUse::writes);
+    EXPECT_EQ(given->options[2].name, "flag");
+    EXPECT_TRUE(given->options[2].use == FileUse::none);
+    for (const std::vector<std::string>& words :
+         {std::vector<std::string>{}, {"do"}, {"do", "--help"}, {"--version"}, {"do", "m", "--nothing"}})
+        EXPECT_FALSE(Everything().tool.parse(words));
+}
+
+TEST(Arguments, helpAndVersionArePrintedAndRunNothing)
+{
+    Everything e;
+    std::string printed;
+    const auto print = [&](const std::string& text) { printed += text; };
+    ASSERT_TRUE(e.tool.run({"--version"}, print));
+    EXPECT_NE(printed.find("1.2.3"), std::string::npos);
+    printed.clear();
+    ASSERT_TRUE(e.tool.run({"do", "--help"}, print));
+    for (const char* part :
+         {"what it does", "--whole", "a whole number", "Examples:", "  tool do b.glb", "It ends with 0."})
+        EXPECT_NE(printed.find(part), std::string::npos) << part;
+    EXPECT_EQ(printed.find("--hidden"), std::string::npos);
+    EXPECT_EQ(e.runs, 0);
+}
+
+TEST(Arguments, descriptionsHaveAllThatTheHelpSays)
+{
+    const CommandHelp help = Everything().tool.describe();
+    EXPECT_EQ(help.name, "tool");
+    EXPECT_EQ(help.summary, "what it is");
+    ASSERT_EQ(help.commands.size(), 2u);
+    const CommandHelp& c = help.commands[0];
+    EXPECT_EQ(c.name, "do");
+    EXPECT_EQ(c.summary, "what it does");
+    EXPECT_EQ(c.examples, (std::vector<std::string>{"tool do a.glb", "tool do b.glb"}));
+    EXPECT_EQ(c.closing, "It ends with 0.");
+    const auto of = [&](const std::string& name) {
+        for (const OptionHelp& o : c.options)
+            if (o.names.back() == name)
+                return o;
+        ADD_FAILURE() << name;
+        return OptionHelp{};
+    };
+    const OptionHelp model = of("MODEL"), output = of("--output"), whole = of("--whole"), real = of("--real");
+    EXPECT_TRUE(model.positional);
+    EXPECT_TRUE(model.required);
+    EXPECT_FALSE(output.positional);
+    EXPECT_FALSE(output.required);
+    EXPECT_EQ(output.names, (std::vector<std::string>{"-o", "--output"}));
+    EXPECT_EQ(output.value, "FILE");
+    EXPECT_TRUE(output.kind == ValueKind::file);
+    EXPECT_EQ(output.usual, "");
+    EXPECT_EQ(whole.least, "2");
+    EXPECT_EQ(whole.most, "5");
+    EXPECT_EQ(whole.usual, "3");
+    EXPECT_EQ(whole.value, "N");
+    EXPECT_EQ(whole.help, "a whole number");
+    EXPECT_EQ(real.least, "-1.5");
+    EXPECT_EQ(real.most, "2.25");
+    EXPECT_EQ(of("--chosen").words, (std::vector<std::string>{"1", "4", "16"}));
+    EXPECT_EQ(of("--word").words, (std::vector<std::string>{"a", "b", "c"}));
+    EXPECT_EQ(of("--plain").words, (std::vector<std::string>{"p", "q"}));
+    EXPECT_EQ(of("--plain").usual, "");
+    EXPECT_TRUE(of("--list").repeated);
+    EXPECT_FALSE(of("--word").repeated);
+    EXPECT_EQ(of("--flag").value, "");
+    EXPECT_TRUE(of("--flag").kind == ValueKind::none);
+    for (const OptionHelp& o : c.options)
+        EXPECT_NE(o.names.back(), "--hidden");
+}
+
+TEST(CommandWords, theNearestCommandIsMeantWhereOneIsNear)
+{
+    const CommandNames tool{"tool", {{"render", {}}, {"map", {{"convert", {}}, {"mips", {}}}}}};
+    const auto said = [&](const std::vector<std::string>& words) {
+        const Status known = checkCommandWords(tool, words);
+        return known ? std::string() : known.error().message;
+    };
+    EXPECT_EQ(said({"render", "x"}), "");
+    EXPECT_EQ(said({"map", "mips"}), "");
+    EXPECT_EQ(said({"--help", "x"}), "");
+    EXPECT_EQ(said({"redner"}), "there is no command 'redner'; did you mean render?");
+    EXPECT_EQ(said({"re"}), "there is no command 're'; did you mean render?");
+    EXPECT_EQ(said({"map", "mip"}), "map: there is no command 'mip'; did you mean mips?");
+    EXPECT_EQ(said({"nothing"}), "there is no command 'nothing'; expected one of render, map");
+    EXPECT_NE(said({std::string(100, 'x')}).find("expected one of"), std::string::npos);
+    EXPECT_EQ(said({std::string(101, 'x')}), "there is no command of such a length");
+    EXPECT_EQ(editDistance("", "abc"), 3u);
+    EXPECT_EQ(editDistance("abc", ""), 3u);
+    EXPECT_EQ(editDistance("abcd", "acbd"), 1u); // neighbours exchanged
+    EXPECT_EQ(editDistance("kitten", "sitting"), 3u);
+    EXPECT_EQ(quoted("a-b_c/d.E9"), "a-b_c/d.E9");
+    EXPECT_EQ(quoted(""), "''");
+    EXPECT_EQ(quoted("it's"), "'it'\\''s'");
+    EXPECT_EQ(quoted("a b"), "'a b'");
+}
+
+} // namespace
+} // namespace cotan

@@ -1,0 +1,229 @@
+// Which primitives read which image, and how: each field of a job, of a document in which no two are equal. And what is
+// put back: in which slots, with what said about it.
+#include <gtest/gtest.h>
+
+#include <glm/gtc/matrix_transform.hpp>
+
+#include "cotan/convert/map_jobs.hpp"
+#include "cotan/convert/put_map.hpp"
+#include "cotan/image/file.hpp"
+#include "cotan/shapes/shapes.hpp"
+
+namespace cotan {
+namespace {
+
+std::vector<std::byte> pngOf(int side)
+{
+    Image image = makeImage(side, side, PixelType::unorm8, "made");
+    std::fill(image.data.begin(), image.data.end(), std::byte(200));
+    auto png = encodePng(image);
+    EXPECT_TRUE(png);
+    return png ? *std::move(png) : std::vector<std::byte>{};
+}
+
+// Two images; two meshes; the first material reads image 0 as its normal map and image 1 as its coat's, the second
+// image 1 as its own. The first mesh stands twice, once stretched.
+GltfDocument document()
+{
+    Scene scene;
+    scene.images = {makeReliefMap(Relief::waves, 8), makeReliefMap(Relief::domes, 4)};
+    scene.images[0].name = "waves", scene.images[1].name = "domes";
+    scene.meshes = {makePlane(2, 2, 1), makePlane(1, 1, 1)};
+    scene.meshes[1].tangents.assign(scene.meshes[1].vertexCount(), {1, 0, 0, 1});
+    scene.meshes[1].material = 1;
+    scene.materials.resize(2);
+    scene.materials[0].name = "first", scene.materials[1].name = "second";
+    scene.materials[0].normalMap.image = 0;
+    scene.materials[0].normalMap.sampler = {Wrap::clamp, Wrap::mirror, Filter::linear, Filter::linear,
+                                            MipFilter::linear};
+    scene.materials[0].normalScale = 0.5f;
+    scene.materials[1].normalMap.image = 1;
+    scene.materials[1].normalMap.sampler.wrapU = Wrap::mirror;
+    scene.materials[1].normalScale = 2;
+    scene.instances = {{"one", 0, glm::mat4(1)},
+                       {"stretched", 0, glm::scale(glm::mat4(1), {3, 1, 1})},
+                       {"turned", 0, glm::rotate(glm::mat4(1), 1.0f, glm::vec3(0, 1, 0))},
+                       {"other", 1, glm::mat4(1)}};
+    auto made = gltfDocumentOf(scene);
+    EXPECT_TRUE(made);
+    GltfDocument d = *std::move(made);
+    const std::size_t second = d.root["materials"][1]["normalTexture"]["index"];
+    d.root["materials"][0]["extensions"]["KHR_materials_clearcoat"] = {
+        {"clearcoatFactor", 0.5}, {"clearcoatNormalTexture", {{"index", second}, {"scale", 0.25}}}};
+    return d;
+}
+
+TEST(MapJobs, knowEachReaderWithItsStrengthWrapPlacingsAndTangents)
+{
+    std::vector<std::string> notes;
+    const auto jobs = mapJobs(document(), notes);
+    ASSERT_TRUE(jobs) << jobs.error().message;
+    EXPECT_TRUE(notes.empty());
+    ASSERT_EQ(jobs->size(), 2u);
+    const MapJob &a = (*jobs)[0], &b = (*jobs)[1];
+    EXPECT_EQ(a.image, 0u);
+    EXPECT_EQ(b.image, 1u);
+    EXPECT_EQ(a.name, "waves");
+    EXPECT_EQ(b.name, "domes");
+    EXPECT_FALSE(a.alsoElsewhere);
+    EXPECT_FALSE(b.alsoElsewhere);
+    EXPECT_EQ(a.places, (std::vector<MapPlace>{{0, NormalSlot::surface}}));
+    EXPECT_EQ(b.places, (std::vector<MapPlace>{{0, NormalSlot::coat}, {1, NormalSlot::surface}}));
+    ASSERT_EQ(a.readers.size(), 1u);
+    ASSERT_EQ(b.readers.size(), 2u);
+    const MapReader &r = a.readers[0], &coat = b.readers[0], &own = b.readers[1];
+    EXPECT_EQ(r.mesh, 0u);
+    EXPECT_EQ(own.mesh, 1u);
+    EXPECT_EQ(r.place, (MapPlace{0, NormalSlot::surface}));
+    EXPECT_EQ(coat.place, (MapPlace{0, NormalSlot::coat}));
+    EXPECT_EQ(r.strength, 0.5);
+    EXPECT_EQ(coat.strength, 0.25);
+    EXPECT_EQ(own.strength, 2);
+    EXPECT_TRUE(r.wrapU == Wrap::clamp);
+    EXPECT_TRUE(r.wrapV == Wrap::mirror);
+    EXPECT_TRUE(own.wrapU == Wrap::mirror);
+    EXPECT_TRUE(own.wrapV == Wrap::repeat);
+    EXPECT_EQ(r.triangles, 8u); // of a plane of 2 x 2 squares
+    EXPECT_EQ(r.vertices, 9u);
+    EXPECT_EQ(own.triangles, 2u);
+    EXPECT_EQ(own.vertices, 4u);
+    EXPECT_FALSE(r.stored);
+    EXPECT_TRUE(own.stored);
+    EXPECT_EQ(r.placed.size(), 2u); // a rotation makes no other surface
+    EXPECT_EQ(coat.placed.size(), 2u);
+    EXPECT_EQ(own.placed.size(), 1u);
+    EXPECT_EQ(surfacesOf(a), 2u);
+    EXPECT_EQ(surfacesOf(b), 3u);
+}
+
+TEST(MapJobs, usesFollowTheirReaders)
+{
+    const GltfDocument d = document();
+    std::vector<std::string> notes;
+    const auto jobs = mapJobs(d, notes);
+    ASSERT_TRUE(jobs);
+    const auto uses = usesOf(d, (*jobs)[1], {Frame::mikktspace, Frame::cotangent});
+    ASSERT_TRUE(uses);
+    ASSERT_EQ(uses->size(), 3u);
+    EXPECT_EQ((*uses)[0].strength, 0.25);
+    EXPECT_EQ((*uses)[2].strength, 2);
+    EXPECT_TRUE((*uses)[2].wrapU == Wrap::mirror);
+    EXPECT_TRUE((*uses)[2].wrapV == Wrap::repeat);
+}
+
+TEST(MapJobs, aCoatThatIsNotThereHasNoStrength)
+{
+    GltfDocument d = document();
+    d.root["materials"][0]["extensions"]["KHR_materials_clearcoat"].erase("clearcoatFactor");
+    std::vector<std::string> notes;
+    const auto jobs = mapJobs(d, notes);
+    ASSERT_TRUE(jobs);
+    EXPECT_EQ((*jobs)[1].readers[0].strength, 0);
+}
+
+TEST(MapJobs, anImageOfAnotherSlotIsAlsoElsewhereAndIsCopiedForTheNewMap)
+{
+    GltfDocument d = document();
+    const std::size_t old = d.root["materials"][0]["normalTexture"]["index"];
+    d.root["materials"][1]["occlusionTexture"] = {{"index", old}};
+    std::vector<std::string> notes;
+    const auto jobs = mapJobs(d, notes);
+    ASSERT_TRUE(jobs);
+    EXPECT_TRUE((*jobs)[0].alsoElsewhere);
+    EXPECT_FALSE((*jobs)[1].alsoElsewhere);
+    const auto before = gltfImageBytes(d, 0);
+    replaceMap(d, (*jobs)[0], pngOf(3), "image/png", notes);
+    EXPECT_EQ(d.root["materials"][1]["occlusionTexture"]["index"], old);
+    const std::size_t made = d.root["materials"][0]["normalTexture"]["index"];
+    EXPECT_NE(made, old);
+    ASSERT_EQ(d.root["images"].size(), 3u);
+    EXPECT_EQ(d.root["textures"][made]["source"], 2);
+    EXPECT_EQ(d.root["textures"][made]["sampler"], d.root["textures"][old]["sampler"]);
+    EXPECT_EQ(*gltfImageBytes(d, 0), *before);
+    EXPECT_EQ(*gltfImageBytes(d, 2), pngOf(3));
+    const auto second = gltfImageBytes(d, 1);
+    replaceMap(d, (*jobs)[1], pngOf(5), "image/png", notes); // nobody else reads it: in its place
+    EXPECT_EQ(d.root["images"].size(), 3u);
+    EXPECT_EQ(*gltfImageBytes(d, 1), pngOf(5));
+    EXPECT_NE(*gltfImageBytes(d, 1), *second);
+}
+
+TEST(MapJobs, aMapInWebpIsNamedSoOnceAndRequired)
+{
+    GltfDocument d = document();
+    std::vector<std::string> notes;
+    const auto jobs = mapJobs(d, notes);
+    ASSERT_TRUE(jobs);
+    for (const MapJob& job : *jobs)
+        replaceMap(d, job, pngOf(3), "image/webp", notes);
+    for (const char* list : {"extensionsUsed", "extensionsRequired"})
+        EXPECT_EQ(std::ranges::count(d.root[list], "EXT_texture_webp"), 1) << list;
+    for (const std::size_t m : {0u, 1u}) {
+        const auto& texture = d.root["textures"][d.root["materials"][m]["normalTexture"]["index"].get<std::size_t>()];
+        EXPECT_FALSE(texture.contains("source"));
+        EXPECT_EQ(texture["extensions"]["EXT_texture_webp"]["source"], m);
+    }
+}
+
+TEST(MapJobs, primitivesWithoutUvOrTrianglesAreLeftOutAndSaid)
+{
+    GltfDocument d = document();
+    d.root["meshes"][1]["primitives"][0]["attributes"].erase("TEXCOORD_0");
+    d.root["meshes"][0]["primitives"][0]["mode"] = 1; // lines
+    std::vector<std::string> notes;
+    const auto jobs = mapJobs(d, notes);
+    ASSERT_TRUE(jobs) << jobs.error().message;
+    EXPECT_TRUE(jobs->empty());
+    ASSERT_EQ(notes.size(), 3u);
+    EXPECT_NE(notes[0].find("meshes[0].primitives[0]: no triangles; its normal map"), std::string::npos) << notes[0];
+    EXPECT_NE(notes[1].find("no triangles; its coat's normal map"), std::string::npos) << notes[1];
+    EXPECT_NE(notes[2].find("meshes[1].primitives[0]: no uv for its normal map"), std::string::npos) << notes[2];
+}
+
+TEST(PutMap, goesToTheNamedMaterialAloneAndForgetsItsScale)
+{
+    GltfDocument d = document();
+    std::vector<std::string> notes;
+    PutMapOptions options;
+    options.frame = Frame::cotangent;
+    options.material = "second";
+    ASSERT_TRUE(putNormalMap(d, pngOf(3), options, notes));
+    const auto& first = d.root["materials"][0]["normalTexture"];
+    const auto& second = d.root["materials"][1]["normalTexture"];
+    EXPECT_EQ(first["scale"], 0.5);
+    EXPECT_FALSE(second.contains("scale"));
+    const std::size_t texture = second["index"];
+    EXPECT_EQ(*gltfImageBytes(d, d.root["textures"][texture]["source"].get<std::size_t>()), pngOf(3));
+    EXPECT_FALSE(d.root["meshes"][1]["primitives"][0]["attributes"].contains("TANGENT"));
+    ASSERT_FALSE(notes.empty());
+    EXPECT_NE(notes.back().find("cotangent"), std::string::npos);
+    options.material = "third";
+    const Status none = putNormalMap(d, pngOf(3), options, notes);
+    ASSERT_FALSE(none);
+    EXPECT_NE(none.error().message.find("'third' to put the map in; found 0"), std::string::npos);
+    d.root["materials"][0]["name"] = "second";
+    options.material = "second";
+    const Status two = putNormalMap(d, pngOf(3), options, notes);
+    ASSERT_FALSE(two);
+    EXPECT_NE(two.error().message.find("found 2"), std::string::npos);
+}
+
+TEST(PutMap, withoutANameAllPrimitivesGetItAndOneMaterialIsMadeForThoseWithoutAny)
+{
+    GltfDocument d = document();
+    d.root["meshes"][1]["primitives"][0].erase("material");
+    std::vector<std::string> notes;
+    PutMapOptions options;
+    options.frame = Frame::mikktspace;
+    ASSERT_TRUE(putNormalMap(d, pngOf(3), options, notes));
+    ASSERT_EQ(d.root["materials"].size(), 3u);
+    EXPECT_EQ(d.root["meshes"][1]["primitives"][0]["material"], 2);
+    EXPECT_EQ(d.root["materials"][0]["normalTexture"]["index"], d.root["materials"][2]["normalTexture"]["index"]);
+    EXPECT_NE(d.root["materials"][0]["normalTexture"]["index"], d.root["materials"][1]["normalTexture"]["index"]);
+    for (const std::size_t m : {0u, 1u})
+        EXPECT_TRUE(d.root["meshes"][m]["primitives"][0]["attributes"].contains("TANGENT")) << m;
+    EXPECT_TRUE(notes.empty()); // every reader knows MikkTSpace
+}
+
+} // namespace
+} // namespace cotan

@@ -1,0 +1,314 @@
+// Each command of the viewer: what it changes and nothing else, both sides of each bound, and each menu entry's tick.
+#include <gtest/gtest.h>
+
+#include <map>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "session.hpp"
+#include "viewer_state.hpp"
+
+namespace cotan::viewer {
+namespace {
+
+// What performing a line gives: the state after it.
+State after(const std::string& line, State state = withModel())
+{
+    const Status done = perform(state, line);
+    EXPECT_TRUE(done) << line;
+    return state;
+}
+
+bool refused(const std::string& line, State state = withModel()) { return !perform(state, line); }
+
+TEST(ViewerCommands, sizesAreOneTo16384OnEachSide)
+{
+    for (const auto& [width, height] : {std::pair{1, 1}, {1, 16384}, {16384, 1}, {640, 360}}) {
+        const State s = after(fmt::format("size {} {}", width, height));
+        ASSERT_EQ(s.wishes.size(), 1u);
+        EXPECT_TRUE(s.wishes[0].kind == Wish::Kind::resize);
+        EXPECT_EQ(s.wishes[0].size, glm::ivec2(width, height));
+        const State p = after(fmt::format("picture a.png {} {}", width, height));
+        ASSERT_EQ(p.wishes.size(), 1u);
+        EXPECT_TRUE(p.wishes[0].kind == Wish::Kind::writeFile);
+        EXPECT_EQ(p.wishes[0].size, glm::ivec2(width, height));
+        EXPECT_EQ(p.wishes[0].text, "a.png");
+    }
+    for (const char* wrong : {"0 1", "1 0", "16385 1", "1 16385", "-5 7", "7", "x 7", "7 x"}) {
+        EXPECT_TRUE(refused(fmt::format("size {}", wrong))) << wrong;
+        if (std::string(wrong) != "7" && std::string(wrong) != "x 7") { // a name of a file, with a space
+            EXPECT_TRUE(refused(fmt::format("picture a.png {}", wrong))) << wrong;
+        }
+    }
+    State s = withModel();
+    s.size = {300, 200};
+    s = after("picture my file.png", s);
+    EXPECT_EQ(s.wishes.at(0).text, "my file.png");
+    EXPECT_EQ(s.wishes.at(0).size, glm::ivec2(300, 200));
+}
+
+TEST(ViewerCommands, numbersAreHeldInTheirRange)
+{
+    for (const auto& [given, held] : {std::pair{-0.5f, 0.0f}, {0.0f, 0.0f}, {0.3f, 0.3f}, {1.0f, 1.0f}, {1.5f, 1.0f}})
+        EXPECT_EQ(after(fmt::format("divider {}", given)).divider, held) << given;
+    for (const auto& [given, held] :
+         {std::pair{-1.0f, 0.0f}, {0.0f, 0.0f}, {0.25f, 0.5f}, {0.5f, 0.5f}, {3.5f, 3.5f}, {4.0f, 4.0f}, {9.0f, 4.0f}})
+        EXPECT_EQ(after(fmt::format("scale {}", given)).scale, held) << given;
+}
+
+TEST(ViewerCommands, eachSwitchTurnsItsOwnFieldAndBack)
+{
+    const std::map<std::string, bool State::*> switches = {{"interface", &State::interfaceShown},
+                                                           {"help", &State::cheatSheet},
+                                                           {"settings", &State::settingsShown},
+                                                           {"hot-spots", &State::hotSpotsShown},
+                                                           {"card", &State::cardShown},
+                                                           {"statistics", &State::statisticsShown},
+                                                           {"look", &State::dark},
+                                                           {"loop", &State::loops},
+                                                           {"pin-light", &State::lightPinned}};
+    const State before = withModel();
+    for (const auto& [name, field] : switches) {
+        const State once = after("toggle " + name, before), twice = after("toggle " + name, once);
+        for (const auto& [other, otherField] : switches) {
+            EXPECT_EQ(once.*otherField != before.*otherField, other == name) << name << " and " << other;
+            EXPECT_EQ(twice.*otherField, before.*otherField) << name << " and " << other;
+        }
+    }
+    const State listed = after("toggle hot-spots", before);
+    ASSERT_EQ(listed.wishes.size(), 1u); // nobody has looked for them yet
+    EXPECT_TRUE(listed.wishes[0].kind == Wish::Kind::findHotSpots);
+    State found = before;
+    found.hotSpots.emplace();
+    EXPECT_TRUE(after("toggle hot-spots", found).wishes.empty());
+    found.hotSpotsShown = true;
+    found.hotSpot = 0;
+    EXPECT_FALSE(after("toggle hot-spots", found).hotSpot);
+}
+
+TEST(ViewerCommands, sidesAreSetApartAndExchanged)
+{
+    const char* const lines[] = {"frame smooth", "tangents generated", "normal-map a b.png", "convention directx"};
+    for (const char* line : lines) {
+        const State first = after(line), second = after(std::string("second ") + line);
+        EXPECT_EQ(first.b, Side()) << line;
+        EXPECT_EQ(second.a, Side()) << line;
+        EXPECT_FALSE(first.a == Side()) << line;
+        EXPECT_EQ(first.a, second.b) << line;
+        const State swapped = after("swap", first);
+        EXPECT_EQ(swapped.b, first.a);
+        EXPECT_EQ(swapped.a, Side());
+    }
+    State all = withModel();
+    for (const char* line : lines)
+        all = after(line, all);
+    EXPECT_EQ(all.a.frame, "smooth");
+    EXPECT_EQ(all.a.tangents, "generated");
+    EXPECT_EQ(all.a.normalMap, "a b.png");
+    EXPECT_EQ(all.a.convention, "directx");
+    EXPECT_EQ(after("convention ", all).a.convention, "");
+    for (const char* wrong : {"frame x", "tangents x", "convention x", "second x", "second frame x"})
+        EXPECT_TRUE(refused(wrong)) << wrong;
+}
+
+TEST(ViewerCommands, comparisonsBeginWithTheFirstAndAFlipShowsTheOther)
+{
+    for (const auto& [word, mode] : {std::pair("off", Compare::off),
+                                     {"divider", Compare::divider},
+                                     {"flip", Compare::flip},
+                                     {"angle", Compare::angle}}) {
+        State s = withModel();
+        s.second = true;
+        s = after(std::string("compare ") + word, s);
+        EXPECT_TRUE(s.compare == mode) << word;
+        EXPECT_FALSE(s.second) << word;
+    }
+    State s = withModel();
+    s.second = true; // of a comparison before
+    s = after("flip", s);
+    EXPECT_TRUE(s.compare == Compare::flip);
+    EXPECT_TRUE(s.second);
+    EXPECT_FALSE(after("flip", s).second);
+}
+
+TEST(ViewerCommands, whatTheSessionDoesIsAskedForWithItsWords)
+{
+    State s = withModel();
+    s.picture.model = "here.glb";
+    const std::vector<std::tuple<const char*, Wish::Kind, const char*>> asked = {
+        {"open a b.glb", Wish::Kind::load, "a b.glb"},     {"drop c.obj", Wish::Kind::load, "c.obj"},
+        {"reload", Wish::Kind::load, "here.glb"},          {"paste", Wish::Kind::paste, ""},
+        {"choose", Wish::Kind::chooseFile, ""},            {"find-hot-spots", Wish::Kind::findHotSpots, ""},
+        {"lose-surface", Wish::Kind::loseSurface, ""},     {"quit", Wish::Kind::quit, ""},
+        {"window w.png", Wish::Kind::writeWindow, "w.png"}, {"report r.txt", Wish::Kind::writeReport, "r.txt"}};
+    for (const auto& [line, kind, text] : asked) {
+        const State done = after(line, s);
+        ASSERT_EQ(done.wishes.size(), 1u) << line;
+        EXPECT_TRUE(done.wishes[0].kind == kind) << line;
+        EXPECT_EQ(done.wishes[0].text, text) << line;
+    }
+    for (const char* wrong : {"open", "drop", "window", "report"})
+        EXPECT_TRUE(refused(wrong, s)) << wrong;
+    const State command = after("copy command", s), camera = after("copy camera", s);
+    EXPECT_EQ(command.wishes.at(0).text.rfind("cotan render here.glb", 0), 0u) << command.wishes.at(0).text;
+    const State there = after("camera " + camera.wishes.at(0).text, after("orbit 40 10", s));
+    EXPECT_EQ(there.camera.eye, s.camera.eye);
+    EXPECT_EQ(there.camera.target, s.camera.target);
+}
+
+TEST(ViewerCommands, droppedPicturesAreMapsAndThoseOfFloatsLight)
+{
+    State s = withModel();
+    s.picture.model = "here.glb";
+    s.metered = 2;
+    State map = after("open m.png", s);
+    EXPECT_EQ(map.a.normalMap, "m.png");
+    EXPECT_EQ(map.picture.shape, "");
+    EXPECT_TRUE(map.wishes.empty());
+    EXPECT_EQ(map.metered, 2);
+    State light = after("open sky.hdr", s);
+    EXPECT_EQ(light.picture.environment, "sky.hdr");
+    EXPECT_EQ(light.a.normalMap, "");
+    EXPECT_EQ(light.metered, 0); // another light is metered again
+    map = after("open m.png", withModel());
+    EXPECT_EQ(map.picture.shape, "plane"); // without a model a map needs something to lie on
+    ASSERT_EQ(map.wishes.size(), 1u);
+    EXPECT_TRUE(map.wishes[0].kind == Wish::Kind::load);
+    EXPECT_EQ(map.wishes[0].text, "");
+    State shaped = withModel();
+    shaped.picture.shape = "torus";
+    map = after("open m.png", shaped);
+    EXPECT_EQ(map.picture.shape, "torus");
+    EXPECT_TRUE(map.wishes.empty());
+}
+
+TEST(ViewerCommands, withoutSurroundingsTheirOptionsGo)
+{
+    State s = withModel();
+    s = after("set environment-rotation 30", s);
+    s = after("set environment-intensity 2", s);
+    EXPECT_EQ(s.picture.environmentRotation, 30);
+    EXPECT_EQ(s.picture.environmentIntensity, 2);
+    for (const char* background : {"environment", "blur", "paper"}) {
+        State bare = after(fmt::format("set background {}", background), s);
+        bare = after("set environment none", bare);
+        EXPECT_EQ(bare.picture.environmentRotation, 0);
+        EXPECT_EQ(bare.picture.environmentIntensity, 1);
+        EXPECT_EQ(bare.picture.background, std::string(background) == "paper" ? "paper" : "");
+    }
+}
+
+// A choice is ticked once it is chosen and was not before; a switch is ticked every other time.
+TEST(ViewerMenus, whatIsChosenIsTickedAndNothingElseOfItsSubmenu)
+{
+    const State start = withModel();
+    std::size_t tried = 0;
+    for (const Entry& entry : entriesOf(start)) {
+        const bool choice = entry.menu == "Frame" || entry.menu == "Second" || entry.submenu == "Show"
+            || entry.submenu == "Surroundings" || entry.submenu == "Background" || entry.submenu == "Tones and shading"
+            || entry.submenu == "Shape of a map" || entry.submenu == "Look";
+        if (!choice || entry.command.empty() || !entry.usable || entry.label == "Dark")
+            continue;
+        State chosen = start;
+        ASSERT_TRUE(perform(chosen, entry.command)) << entry.command;
+        bool found = false;
+        for (const Entry& now : entriesOf(chosen))
+            if (now.menu == entry.menu && now.label == entry.label) {
+                EXPECT_TRUE(now.on) << entry.menu << ": " << entry.label;
+                found = true;
+            }
+        EXPECT_TRUE(found) << entry.label;
+        ++tried;
+    }
+    EXPECT_GT(tried, 50u);
+    const auto ticked = [](const State& s, const std::string& label) {
+        for (const Entry& entry : entriesOf(s))
+            if (entry.label == label)
+                return entry.on;
+        ADD_FAILURE() << label;
+        return false;
+    };
+    for (const char* label : {"Orthographic", "Side by side", "Angle between them", "Flip between both",
+                              "Degrees of what is seen", "What is under the pointer", "Hot spots of lint",
+                              "Normal maps", "Nearest texels", "Edges of triangles", "Seams", "Menus and panels",
+                              "Settings", "Keys", "Dark", "Pinned to the camera", "Shadows", "Ground",
+                              "Four samples a pixel", "Highlights antialiased"}) {
+        State s = start;
+        const bool before = ticked(s, label);
+        for (const bool expected : {!before, before}) {
+            std::string command;
+            for (const Entry& entry : entriesOf(s))
+                if (entry.label == label)
+                    command = entry.command;
+            ASSERT_TRUE(perform(s, command)) << command;
+            EXPECT_EQ(ticked(s, label), expected) << label << ", " << command;
+        }
+    }
+}
+
+TEST(ViewerMenus, entriesThatNeedSomethingAreGreyWithoutIt)
+{
+    const auto usable = [](const State& s, const std::string& label) {
+        for (const Entry& entry : entriesOf(s))
+            if (entry.label == label)
+                return entry.usable;
+        ADD_FAILURE() << label;
+        return false;
+    };
+    State s = withModel(), file = s, moving = s;
+    file.picture.model = "a.glb";
+    auto model = std::make_shared<Model>(*s.model);
+    model->animations = {{"walk", 2.5}};
+    moving.model = std::move(model);
+    moving.picture.animation = "0";
+    for (const char* label : {"Reload", "Next in the folder", "Previous in the folder"}) {
+        EXPECT_FALSE(usable(s, label)) << label;
+        EXPECT_TRUE(usable(file, label)) << label;
+    }
+    EXPECT_TRUE(usable(s, "Map on a torus"));
+    EXPECT_FALSE(usable(file, "Map on a torus"));
+    for (const char* label : {"Play", "Over and over", "Start", "End"}) {
+        EXPECT_FALSE(usable(s, label)) << label;
+        EXPECT_TRUE(usable(moving, label)) << label;
+    }
+    for (const Entry& entry : entriesOf(moving))
+        if (entry.label == "End") {
+            EXPECT_EQ(entry.command, "set time 2.5");
+        }
+}
+
+TEST(ViewerMemory, keepsEachSwitchAndSizesFrom160x120To8192)
+{
+    const std::vector<bool State::*> kept = {&State::dark, &State::settingsShown, &State::cardShown,
+                                             &State::statisticsShown};
+    for (const auto field : kept) {
+        State s;
+        s.*field = !(s.*field);
+        State back;
+        remember(memoryOf(s), back);
+        for (const auto other : kept)
+            EXPECT_EQ(back.*other, s.*other);
+    }
+    for (const auto& [size, taken] : {std::pair(glm::ivec2(160, 120), true),
+                                      {glm::ivec2(159, 120), false},
+                                      {glm::ivec2(160, 119), false},
+                                      {glm::ivec2(8192, 8192), true},
+                                      {glm::ivec2(8193, 600), false},
+                                      {glm::ivec2(600, 8193), false}}) {
+        State s;
+        remember(fmt::format("size {} {}\n", size.x, size.y), s);
+        EXPECT_EQ(s.size == size, taken) << size.x << " " << size.y;
+    }
+    State s;
+    for (int i = 0; i < 12; ++i)
+        s.recent.push_back(fmt::format("/{}.glb", i));
+    s.recent[3] = "/line\nbreak.glb";
+    State back;
+    remember(memoryOf(s), back);
+    ASSERT_EQ(back.recent.size(), kMostRecent);
+    EXPECT_EQ(back.recent[3], "/4.glb"); // what a line cannot hold is left out
+}
+
+} // namespace
+} // namespace cotan::viewer
