@@ -128,7 +128,7 @@ float addCorner(const Edges& e, glm::vec3 n, Sum& sum)
     return weight;
 }
 
-CornerEdges edgesIn(const MeshView& mesh, std::size_t c, glm::vec3 normal, glm::vec3 unit)
+[[gnu::always_inline]] inline CornerEdges edgesIn(const MeshView& mesh, std::size_t c, glm::vec3 normal, glm::vec3 unit)
 {
     const std::size_t k = c % 3;
     // Without branches, which nobody could foresee.
@@ -142,29 +142,42 @@ CornerEdges edgesIn(const MeshView& mesh, std::size_t c, glm::vec3 normal, glm::
             unit};
 }
 
-// The averages of vertices that are equal. Corners of several vertices are derived side by side.
+// The averages of vertices that are equal. Corners of several vertices are derived side by side; in WebAssembly one by
+// one, where that is faster and smaller.
+#ifdef __EMSCRIPTEN__
+constexpr bool kSideBySide = false;
+#else
+constexpr bool kSideBySide = true;
+#endif
+
 class Averaging {
 public:
     Averaging(const MeshView& mesh, const Chains& chains, std::vector<Side>& sides, const Averages& averages)
-        : mesh_(mesh), chains_(chains), sides_(sides), averages_(averages), lanes_(std::make_unique<CornerLanes>())
+        : mesh_(mesh), chains_(chains), sides_(sides), averages_(averages),
+          lanes_(kSideBySide ? std::make_unique<CornerLanes>() : nullptr)
     {
     }
 
     // Those of `first` and its equals, at the latest when finish() is called.
     void add(std::uint32_t first)
     {
-        if (!gathered(first)) {
+        if constexpr (!kSideBySide) {
+            addOneByOne(first);
+        } else if (gathered(first)) {
+            waiting_.push_back({first, lanes_->count});
+        } else {
             finish();
-            if (!gathered(first)) { // more corners than there are lanes
+            if (gathered(first))
+                waiting_.push_back({first, lanes_->count});
+            else // more corners than there are lanes
                 addOneByOne(first);
-                return;
-            }
         }
-        waiting_.push_back({first, lanes_->count});
     }
 
     void finish()
     {
+        if constexpr (!kSideBySide)
+            return;
         deriveGradients(*lanes_);
         std::size_t lane = 0;
         for (const Waiting& w : waiting_) {
