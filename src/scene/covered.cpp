@@ -108,8 +108,8 @@ Covered coveredBy(const Scene& scene, const View& view)
 
 Error tooMuch(const Scene& scene, const std::string& what, double found, double most, const std::string& advice)
 {
-    return inputError(scene.name + ": " + what + " " + std::to_string(std::llround(found)) + " times over, expected at most "
-                      + std::to_string(std::llround(most)) + ": " + advice);
+    return inputError(scene.name + ": " + what + " " + std::to_string(std::llround(found))
+                      + " times over, expected at most " + std::to_string(std::llround(most)) + ": " + advice);
 }
 
 } // namespace
