@@ -79,10 +79,12 @@ TEST_F(FileAccount, filesAreToldApartInFoldersDeeperThanNamesMayBeLong)
         ASSERT_EQ(mkdir(step.c_str(), 0700), 0);
         ASSERT_EQ(chdir(step.c_str()), 0);
     }
-    EXPECT_TRUE(planOutput("-o", "b.png"));
+    std::ofstream("a.png") << "input";
     EXPECT_TRUE(noteInput("a.png"));
-    EXPECT_FALSE(noteInput("b.png"));
+    EXPECT_TRUE(planOutput("-o", "b.png"));
     EXPECT_FALSE(planOutput("--json", "./b.png"));
+    EXPECT_FALSE(planOutput("--mask", "a.png"));
+    unlink("a.png");
     for (int i = 0; i < 25; ++i) {
         ASSERT_EQ(chdir(".."), 0);
         ASSERT_EQ(rmdir(step.c_str()), 0);
