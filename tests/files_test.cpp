@@ -66,6 +66,34 @@ TEST(Outputs, throughASymbolicLinkGoToWhatItLeadsTo)
     EXPECT_EQ(text, "made");
 }
 
+// Such a folder has no name that the system takes: names in it are told apart as they are written.
+TEST_F(FileAccount, filesAreToldApartInFoldersDeeperThanNamesMayBeLong)
+{
+    const int start = open(".", O_RDONLY | O_DIRECTORY);
+    ASSERT_GE(start, 0);
+    const std::string step(200, 'd');
+    const fs::path top = fs::temp_directory_path() / ("cotan-deep-" + std::to_string(getpid()));
+    fs::create_directory(top);
+    ASSERT_EQ(chdir(top.c_str()), 0);
+    for (int i = 0; i < 25; ++i) {
+        ASSERT_EQ(mkdir(step.c_str(), 0700), 0);
+        ASSERT_EQ(chdir(step.c_str()), 0);
+    }
+    std::ofstream("a.png") << "input";
+    EXPECT_TRUE(noteInput("a.png"));
+    EXPECT_TRUE(planOutput("-o", "b.png"));
+    EXPECT_FALSE(planOutput("--json", "./b.png"));
+    EXPECT_FALSE(planOutput("--mask", "a.png"));
+    unlink("a.png");
+    for (int i = 0; i < 25; ++i) {
+        ASSERT_EQ(chdir(".."), 0);
+        ASSERT_EQ(rmdir(step.c_str()), 0);
+    }
+    ASSERT_EQ(fchdir(start), 0);
+    close(start);
+    fs::remove(top);
+}
+
 TEST_F(FileAccount, anOutputIsRefusedByEveryNameOfAnInput)
 {
     for (const std::string& input : spellings)

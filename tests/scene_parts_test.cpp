@@ -1,6 +1,8 @@
 // Scenes turned and taken apart.
 #include <gtest/gtest.h>
 
+#include <string>
+
 #include "cotan/scene/objects.hpp"
 #include "cotan/scene/parts.hpp"
 #include "cotan/scene/up.hpp"
@@ -116,17 +118,24 @@ TEST(SceneParts, trianglesThatLieOnAnEarlierOneOfTheirMeshGoFromOpaqueOnes)
     EXPECT_EQ(scene.meshes[1].indices.size(), 12u);
 }
 
-TEST(SceneParts, thatCoverThePictureTooOftenAreRefusedUnlessTheyAreTheSame)
+// Looks at that triangle, which covers half of it.
+View triangleView()
 {
-    Scene scene = triangleScene();
-    scene.name = "model";
-    scene.instances = {{"", 0, glm::mat4(1)}};
     View view;
     view.width = view.height = 100;
     view.camera.orthographic = true;
     view.camera.verticalExtent = 1;
     view.camera.eye = {0.5f, 0.5f, 5};
     view.camera.target = {0.5f, 0.5f, 0};
+    return view;
+}
+
+TEST(SceneParts, thatCoverThePictureTooOftenAreRefusedUnlessTheyAreTheSame)
+{
+    Scene scene = triangleScene();
+    scene.name = "model";
+    scene.instances = {{"", 0, glm::mat4(1)}};
+    const View view = triangleView();
     EXPECT_NEAR(pixelsCovered(scene, view), 5000, 1e-3); // half of it
     for (int i = 0; i < 1000; ++i)
         scene.meshes[0].indices.insert(scene.meshes[0].indices.end(), {0, 1, 2});
@@ -137,8 +146,69 @@ TEST(SceneParts, thatCoverThePictureTooOftenAreRefusedUnlessTheyAreTheSame)
     const Status refused = settleCovered(other, view);
     ASSERT_FALSE(refused);
     EXPECT_EQ(refused.error().message,
-              "model: its triangles cover the picture 501 times over, expected at most 250: look from further away, or "
+              "model: its triangles cover the picture 501 times over, expected at most 64: look from further away, or "
               "leave some out");
+}
+
+TEST(SceneParts, ofWhichNothingIsDrawnFromBehindCoverNothingThere)
+{
+    Scene scene = triangleScene();
+    scene.instances = {{"", 0, glm::mat4(1)}};
+    View view = triangleView();
+    view.camera.eye.z = -5;
+    EXPECT_EQ(pixelsCovered(scene, view), 0);
+    scene.instances[0].toWorld[2][2] = -1; // mirrored: its front is on the other side
+    EXPECT_NEAR(pixelsCovered(scene, view), 5000, 1e-3);
+    scene.instances[0].toWorld[2][2] = 1;
+    scene.materials[0].doubleSided = true;
+    EXPECT_NEAR(pixelsCovered(scene, view), 5000, 1e-3);
+}
+
+std::string refusalOf(Scene scene, const View& view, std::size_t pictures = 1)
+{
+    scene.name = "model";
+    const Status settled = settleCovered(scene, view, pictures);
+    return settled ? "" : settled.error().message;
+}
+
+TEST(SceneParts, inTranslucentLayersAreRefusedEarlierAndOfRichMaterialsEarlierStill)
+{
+    Scene scene = triangleScene();
+    scene.materials[0].alphaMode = AlphaMode::blend;
+    scene.instances.assign(30, {"", 0, glm::mat4(1)}); // 15 times, each counted half
+    EXPECT_EQ(refusalOf(scene, triangleView()), "");
+    EXPECT_NE(refusalOf(scene, triangleView(), 2).find("its translucent triangles cover the picture 15 times over"),
+              std::string::npos);
+    scene.materials[0].coat.strength = 1;
+    EXPECT_NE(refusalOf(scene, triangleView()).find("expected at most 8"), std::string::npos);
+}
+
+TEST(SceneParts, ofLongEdgesAreRefusedUnlessTheModelIsLarge)
+{
+    Scene scene = triangleScene();
+    scene.meshes[0].positions = {{0, 0, 0}, {1e-4f, 0, 0}, {0, 1, 0}};
+    View view = triangleView();
+    scene.instances.assign(300, {"", 0, glm::mat4(1)}); // each about 84 pixels more than 16
+    EXPECT_NE(refusalOf(scene, view).find("the long edges of its triangles fill the picture 3 times over"),
+              std::string::npos);
+    scene.instances.resize(200);
+    EXPECT_EQ(refusalOf(scene, view), "");
+    scene.instances.assign(300, {"", 0, glm::mat4(1)});
+    scene.meshes[1].positions.resize(101'000);
+    EXPECT_EQ(refusalOf(scene, view), "");
+}
+
+TEST(SceneParts, underVeryManyLightsAreRefused)
+{
+    Scene scene = triangleScene();
+    scene.instances = {{"", 0, glm::mat4(1)}};
+    View view = triangleView();
+    view.lights.resize(990);
+    EXPECT_EQ(refusalOf(scene, view), "");
+    view.lights.resize(1010); // on half the picture
+    EXPECT_NE(refusalOf(scene, view).find("its lights shine on the picture 505 times over"), std::string::npos);
+    view.output = Output::normal; // nothing is lit
+    EXPECT_EQ(refusalOf(scene, view), "");
 }
 
 } // namespace

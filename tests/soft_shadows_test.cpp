@@ -5,6 +5,7 @@
 
 #include "cotan/environment/environment.hpp"
 #include "cotan/ground/ground.hpp"
+#include "cotan/reference/render.hpp"
 #include "ground_scene.hpp"
 
 namespace cotan {
@@ -55,6 +56,30 @@ TEST(SoftShadows, areThoseOfRaysToTheLampsDisc)
         EXPECT_LT(meanError(view), 0.003) << painter->device();
         EXPECT_GT(meanError(sharp), 0.007) << painter->device();
     }
+}
+
+// A crowded tile of the reference's shadow map is drawn in another order than a plain one.
+TEST(SoftShadows, ofManyThingsInOnePlaceAreThoseOfOne)
+{
+    const auto picture = [](int copies, int more) {
+        Scene scene;
+        add(scene, makePlane(6, 1, 1), glm::mat4(1));
+        for (int i = 0; i < copies; ++i)
+            add(scene, makePlane(1, 1, 1), placedAt({0, 0.8, 0}, dvec3(1)));
+        for (int i = 0; i < more; ++i) // below, in its shadow
+            add(scene, makePlane(0.5f, 1, 1), placedAt({0, 0.7 - 0.001 * i, 0}, dvec3(1)));
+        View view = sunnyView();
+        view.width = view.height = 48;
+        view.camera.orthographic = true; // the floor under them
+        view.camera.verticalExtent = 0.3f;
+        view.camera.eye = {0, 0.5f, 1};
+        view.camera.target = {0, 0, 0};
+        const auto drawn = renderReference(scene, view, 1);
+        EXPECT_TRUE(drawn);
+        return drawn ? drawn->data : std::vector<std::byte>();
+    };
+    EXPECT_EQ(picture(1, 0), picture(100, 0));
+    EXPECT_EQ(picture(1, 3), picture(80, 3));
 }
 
 // What a pane throws on the floor under it is 1 less its alpha, in both renderers and with every kind of edge: in the

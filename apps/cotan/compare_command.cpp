@@ -8,6 +8,7 @@
 
 #include "cotan/image/file.hpp"
 #include "cotan/scene/meant_frame.hpp"
+#include "cotan/scene/parts.hpp"
 #include "cotan/verify/frames.hpp"
 #include "parse.hpp"
 #include "picture.hpp"
@@ -61,6 +62,8 @@ Status run(const CompareCommandOptions& o)
     auto picture = loadPicture(o.picture, o, {(*pair)[0], (*pair)[1]});
     if (!picture)
         return picture.error();
+    if (Status fits = settleCovered(picture->scene, picture->view, 2); !fits)
+        return fits;
     const std::array<Frame, 2> frames = {picture->frames[0], picture->frames[1]};
     const std::string a(name(frames[0])), b(name(frames[1]));
     for (const Frame frame : frames)

@@ -15,7 +15,7 @@ namespace cotan {
 struct Part { // one instance, in world space
     std::vector<glm::vec3> positions, normals;
     std::vector<std::uint32_t> indices;
-    std::vector<std::uint8_t> repeated; // one a triangle: not 0 where it lies on an earlier one; empty: none is left out
+    std::vector<std::uint8_t> repeated; // one a triangle: not 0 where it lies on an earlier one; empty: none does
     std::vector<std::uint32_t> seen;    // indices as rays see them, where some are left out
     std::vector<ShapeOperator> shapes; // of the vertices; empty: not prepared
     float front = 1; // -1: most of the triangles are wound against their vertices' normals, which count

@@ -261,10 +261,11 @@ Result<BakeSetup> prepareBake(const Scene& low, HighModel high, const BakeModelO
         return highSurface.error();
     for (const Status& placed :
          {checkPlaces(lowSurface->positions, "low"), checkArea(*lowSurface), checkPlaces(cage, "options.cage"),
-          checkPlaces({highSurface->low(), highSurface->high()}, "high"),
-          checkCrowded(*lowSurface, *highSurface)})
+          checkPlaces({highSurface->low(), highSurface->high()}, "high")})
         if (!placed)
             return placed.error();
+    if (Status fits = checkCrowded(*lowSurface, *highSurface); !fits) // by rays, which must be able to start there
+        return fits.error();
     BakeSetup setup{std::move(*lowSurface), std::move(*highSurface), options, {}, hasStoredTangents(low, options)};
     BakeOptions& bake = setup.options.bake;
     setup.options.cage = setup.options.others = nullptr;

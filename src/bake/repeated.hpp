@@ -17,8 +17,8 @@ struct CornersOfTriangle {
 };
 
 // How many earlier ones have the corners of each of so many triangles, in the same order: 0, 1, or 2 for more. Empty
-// where few repeat, by a sample of them: then nobody waits for an answer about all. Whatever looks at all triangles that
-// are somewhere takes a thousand times as long where a thousand lie on one another.
+// where few repeat, by a sample of them: then nobody waits for an answer about all. Whatever looks at all triangles of
+// a place takes a thousand times as long where a thousand lie on one another.
 std::vector<std::uint8_t> repeatedTriangles(std::size_t count,
                                             const std::function<CornersOfTriangle(std::size_t)>& triangle);
 

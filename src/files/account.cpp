@@ -38,6 +38,8 @@ std::optional<Identity> identityOf(const fs::path& file)
     identity.number = status.st_ino;
     std::error_code error;
     identity.place = fs::weakly_canonical(fs::absolute(file, error), error);
+    if (error || identity.place.empty()) // the working folder lies deeper than names may be long
+        identity.place = file.lexically_normal();
     return identity;
 }
 

@@ -263,8 +263,6 @@ Result<Picture> openPicture(const PictureOptions& options, int threads, std::ini
     if (!view)
         return view.error();
     picture.view = std::move(*view);
-    if (Status fits = settleCovered(picture.scene, picture.view); !fits)
-        return fits.error();
     if (!like) {
         auto opened = surroundings.get();
         if (!opened)
@@ -273,6 +271,8 @@ Result<Picture> openPicture(const PictureOptions& options, int threads, std::ini
     }
     picture.meter = !like && meters(options);
     picture.view.lights = lightsOf(options, picture.scene);
+    if (Status fits = settleCovered(picture.scene, picture.view); !fits)
+        return fits.error();
     return picture;
 }
 

@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 #include <map>
-#include <string>
 #include <tuple>
 #include <unordered_set>
 #include <utility>
@@ -13,9 +12,6 @@
 #include <glm/matrix.hpp>
 
 #include "cotan/covector.hpp"
-#include "cotan/scene/camera_axes.hpp"
-#include "cotan/scene/geometry.hpp"
-#include "cotan/scene/view.hpp"
 #include "cotan/vector.hpp"
 
 namespace cotan {
@@ -24,8 +20,6 @@ namespace {
 
 constexpr std::size_t kSmall = 256;          // triangles of a mesh that is put together with others
 constexpr std::size_t kMostJoined = 4 << 20; // triangles
-constexpr double kMostCovered = 250;         // times that triangles may cover a picture
-constexpr double kOftenCovered = 50;         // times from which on it is worth looking for triangles that repeat
 
 // ---- parts ----------------------------------------------------------------------------------
 
@@ -137,26 +131,6 @@ void dropRepeated(Mesh& mesh)
     mesh.indices.resize(kept);
 }
 
-// ---- pixels ---------------------------------------------------------------------------------
-
-// The area of a triangle on the picture, at most that of its box there; half the picture where it reaches behind the
-// eye.
-double pixelsOf(const std::array<glm::dvec3, 3>& seen, double width, double height)
-{
-    if (seen[0].z <= 0 || seen[1].z <= 0 || seen[2].z <= 0)
-        return seen[0].z <= 0 && seen[1].z <= 0 && seen[2].z <= 0 ? 0 : width * height / 2;
-    std::array<glm::dvec2, 3> p;
-    for (std::size_t k = 0; k < 3; ++k)
-        p[k] = glm::dvec2(seen[k]) / seen[k].z * (height / 2);
-    const glm::dvec2 half(width / 2, height / 2);
-    const glm::dvec2 low = glm::max(glm::min(p[0], glm::min(p[1], p[2])), -half);
-    const glm::dvec2 high = glm::min(glm::max(p[0], glm::max(p[1], p[2])), half);
-    if (!(low.x < high.x && low.y < high.y))
-        return 0;
-    const glm::dvec2 a = p[1] - p[0], b = p[2] - p[0];
-    return std::min(std::abs(a.x * b.y - a.y * b.x) / 2, (high.x - low.x) * (high.y - low.y));
-}
-
 } // namespace
 
 void joinParts(Scene& scene, std::size_t mostParts)
@@ -171,46 +145,6 @@ void dropRepeated(Scene& scene)
         if (const Material& m = scene.materials[std::size_t(mesh.material)];
             m.alphaMode == AlphaMode::opaque && !m.translucent())
             dropRepeated(mesh);
-}
-
-double pixelsCovered(const Scene& scene, const View& view)
-{
-    const Camera& camera = view.camera;
-    const auto [eye, right, up, forward] = cameraAxes(camera);
-    const double scale =
-        camera.orthographic ? 2 / double(camera.verticalExtent) : 1 / std::tan(double(camera.verticalFieldOfView) / 2);
-    double pixels = 0;
-    for (const Instance& instance : scene.instances) {
-        const Mesh& mesh = scene.meshes[std::size_t(instance.mesh)];
-        const glm::dmat4 toWorld(instance.toWorld);
-        for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
-            std::array<glm::dvec3, 3> seen;
-            for (std::size_t k = 0; k < 3; ++k) {
-                const glm::dvec3 p =
-                    glm::dvec3(toWorld * glm::dvec4(glm::dvec3(mesh.positions[mesh.indices[i + k]]), 1)) - eye;
-                const double before = glm::dot(p, forward);
-                seen[k] = {glm::dot(p, right) * scale, glm::dot(p, up) * scale,
-                           camera.orthographic ? (before > 0 ? 1 : 0) : before};
-            }
-            if (const double covered = pixelsOf(seen, view.width, view.height); std::isfinite(covered))
-                pixels += covered;
-        }
-    }
-    return pixels;
-}
-
-Status settleCovered(Scene& scene, const View& view)
-{
-    const double picture = double(view.width) * view.height;
-    if (pixelsCovered(scene, view) <= kOftenCovered * picture)
-        return Done{};
-    dropRepeated(scene);
-    const double times = pixelsCovered(scene, view) / picture;
-    if (times > kMostCovered)
-        return inputError(scene.name + ": its triangles cover the picture " + std::to_string(std::llround(times))
-                          + " times over, expected at most " + std::to_string(std::llround(kMostCovered))
-                          + ": look from further away, or leave some out");
-    return Done{};
 }
 
 } // namespace cotan

@@ -1,0 +1,151 @@
+// How much work the pixels of a picture are, before it is drawn.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string>
+
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+
+#include "cotan/scene/camera_axes.hpp"
+#include "cotan/scene/parts.hpp"
+
+namespace cotan {
+
+namespace {
+
+// All in times the picture. On Mesa's driver for the CPU, 1280 x 720 pixels at one of these limits take about 10 s of
+// processor.
+constexpr double kDroppedFrom = 20; // from which on it is worth looking for triangles that repeat
+constexpr double kMostCovered = 128; // by what hides what is behind
+constexpr double kMostLayers = 16; // by what is translucent: each is shaded, and put in order
+constexpr double kPlainLayer = 0.5; // of such a one without a coat and the like
+constexpr double kMostLights = 1000; // times what is covered, at most once
+constexpr double kMostEdges = 4;    // by pixels along long edges, of which each is shaded and shows little
+constexpr double kLongEdge = 16;    // pixels: shorter ones are what many small triangles have
+// Large models have more edges: pixels for each vertex beyond so many.
+constexpr double kEdgesPerVertex = 200, kManyVertices = 100'000;
+
+// A camera's axes and scales.
+struct Seeing {
+    glm::dvec3 eye, forward, right, up;
+    double scale, width, height;
+    bool orthographic;
+
+    explicit Seeing(const View& view) : width(view.width), height(view.height)
+    {
+        const Camera& camera = view.camera;
+        const CameraAxes axes = cameraAxes(camera);
+        eye = axes.eye, forward = axes.forward, right = axes.right, up = axes.up;
+        orthographic = camera.orthographic;
+        scale =
+            orthographic ? 2 / double(camera.verticalExtent) : 1 / std::tan(double(camera.verticalFieldOfView) / 2);
+    }
+    // Beside the middle and above it, in halves of the picture's height times the distance; and the distance.
+    glm::dvec3 operator()(const glm::dvec3& p) const
+    {
+        const double before = glm::dot(p - eye, forward);
+        return {glm::dot(p - eye, right) * scale, glm::dot(p - eye, up) * scale,
+                orthographic ? (before > 0 ? 1 : 0) : before};
+    }
+};
+
+// Of a triangle on the picture.
+struct Pixels {
+    double area = 0, edges = 0;
+};
+
+// The area is at most that of its box; half the picture where it reaches behind the eye. side: 1 or -1 where only
+// triangles are drawn whose corners turn so, counter-clockwise or clockwise; 0: all are.
+Pixels pixelsOf(const std::array<glm::dvec3, 3>& seen, double width, double height, int side)
+{
+    if (seen[0].z <= 0 || seen[1].z <= 0 || seen[2].z <= 0)
+        return {seen[0].z <= 0 && seen[1].z <= 0 && seen[2].z <= 0 ? 0 : width * height / 2, 0};
+    std::array<glm::dvec2, 3> p;
+    for (std::size_t k = 0; k < 3; ++k)
+        p[k] = glm::dvec2(seen[k]) / seen[k].z * (height / 2);
+    const glm::dvec2 half(width / 2, height / 2);
+    const glm::dvec2 low = glm::max(glm::min(p[0], glm::min(p[1], p[2])), -half);
+    const glm::dvec2 high = glm::min(glm::max(p[0], glm::max(p[1], p[2])), half);
+    if (!(low.x < high.x && low.y < high.y))
+        return {};
+    const glm::dvec2 a = p[1] - p[0], b = p[2] - p[0], box = high - low;
+    const double area = (a.x * b.y - a.y * b.x) / 2;
+    if (area * side < 0)
+        return {};
+    return {std::min(std::abs(area), box.x * box.y),
+            std::max(0.0, glm::length(box) - kLongEdge)};
+}
+
+struct Covered {
+    double opaque = 0, translucent = 0, edges = 0; // pixels
+};
+
+Covered coveredBy(const Scene& scene, const View& view)
+{
+    const Seeing see(view);
+    Covered all;
+    for (const Instance& instance : scene.instances) {
+        const Mesh& mesh = scene.meshes[std::size_t(instance.mesh)];
+        const glm::dmat4 toWorld(instance.toWorld);
+        const Material& material = scene.materials[std::size_t(mesh.material)];
+        const bool extended = material.glossy() || material.sheen.present() || material.coat.strength > 0;
+        const double weight = material.translucent() && !extended ? kPlainLayer : 1;
+        double& area = material.translucent() ? all.translucent : all.opaque;
+        const int side = material.doubleSided ? 0 : glm::determinant(glm::dmat3(toWorld)) < 0 ? -1 : 1;
+        for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
+            std::array<glm::dvec3, 3> seen;
+            for (std::size_t k = 0; k < 3; ++k)
+                seen[k] = see(glm::dvec3(toWorld * glm::dvec4(glm::dvec3(mesh.positions[mesh.indices[i + k]]), 1)));
+            const Pixels covered = pixelsOf(seen, view.width, view.height, side);
+            if (std::isfinite(covered.area) && std::isfinite(covered.edges)) {
+                area += weight * covered.area;
+                all.edges += covered.edges;
+            }
+        }
+    }
+    return all;
+}
+
+Error tooMuch(const Scene& scene, const std::string& what, double found, double most, const std::string& advice)
+{
+    return inputError(scene.name + ": " + what + " " + std::to_string(std::llround(found))
+                      + " times over, expected at most " + std::to_string(std::llround(most)) + ": " + advice);
+}
+
+} // namespace
+
+double pixelsCovered(const Scene& scene, const View& view)
+{
+    const Covered covered = coveredBy(scene, view);
+    return covered.opaque + covered.translucent;
+}
+
+Status settleCovered(Scene& scene, const View& view, std::size_t pictures)
+{
+    const double picture = double(view.width) * view.height / double(pictures);
+    Covered covered = coveredBy(scene, view);
+    if (covered.opaque > kDroppedFrom * picture) {
+        dropRepeated(scene);
+        covered = coveredBy(scene, view);
+    }
+    const char* const further = "look from further away, or leave some out";
+    if (covered.opaque > kMostCovered * picture)
+        return tooMuch(scene, "its triangles cover the picture", covered.opaque / picture, kMostCovered, further);
+    if (covered.translucent > kMostLayers * picture)
+        return tooMuch(scene, "its translucent triangles cover the picture", covered.translucent / picture, kMostLayers,
+                       further);
+    std::size_t vertices = 0;
+    for (const Mesh& mesh : scene.meshes)
+        vertices += mesh.vertexCount();
+    const double edges = kMostEdges * picture + kEdgesPerVertex * std::max(0.0, double(vertices) - kManyVertices);
+    if (covered.edges > edges)
+        return tooMuch(scene, "the long edges of its triangles fill the picture", covered.edges / picture,
+                       edges / picture, further);
+    const double lit = double(view.lights.size()) * std::min(1.0, (covered.opaque + covered.translucent) / picture);
+    if (view.output == Output::shaded && lit > kMostLights)
+        return tooMuch(scene, "its lights shine on the picture", lit, kMostLights, "leave some out");
+    return Done{};
+}
+
+} // namespace cotan
