@@ -13,6 +13,8 @@
 #include "cotan/image/animation.hpp"
 #include "cotan/image/encode_like.hpp"
 #include "cotan/image/rows.hpp"
+#include "cotan/inspect/hot_spots.hpp"
+#include "cotan/inspect/probe.hpp"
 #include "cotan/lint/limits.hpp"
 #include "cotan/lint/lint.hpp"
 #include "cotan/map_files/convert.hpp"
@@ -175,6 +177,16 @@ TEST(EmptyResults, ofPicturesAndPlacesHaveNoSize)
     EXPECT_EQ(g.extent, glm::vec2(1));
     Bounds b;
     EXPECT_TRUE(b.empty());
+    HotSpot h;
+    EXPECT_EQ(h.mesh, 0u);
+    EXPECT_EQ(h.share, 0);
+    EXPECT_EQ(h.badness, 0);
+    EXPECT_FALSE(h.storedTangents);
+    Probed p;
+    EXPECT_EQ(p.normal, glm::vec3(0));
+    EXPECT_EQ(p.w, 0);
+    EXPECT_FALSE(p.hasUv);
+    EXPECT_EQ(p.texel, glm::ivec2(-1));
 }
 
 TEST(EmptyResults, ofJobsHaveTakenNothing)

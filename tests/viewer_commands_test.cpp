@@ -35,17 +35,22 @@ TEST(ViewerCommands, sizesAreOneTo16384OnEachSide)
         EXPECT_EQ(p.wishes[0].size, glm::ivec2(width, height));
         EXPECT_EQ(p.wishes[0].text, "a.png");
     }
-    for (const char* wrong : {"0 1", "1 0", "16385 1", "1 16385", "-5 7", "7", "x 7", "7 x"}) {
+    for (const char* wrong : {"0 1", "1 0", "16385 1", "1 16385", "-5 7", "7", "x 7", "7 x"})
         EXPECT_TRUE(refused(fmt::format("size {}", wrong))) << wrong;
-        if (std::string(wrong) != "7" && std::string(wrong) != "x 7") { // a name of a file, with a space
-            EXPECT_TRUE(refused(fmt::format("picture a.png {}", wrong))) << wrong;
-        }
-    }
+    for (const char* wrong : {"0 1", "1 0", "16385 1", "1 16385", "-5 7"})
+        EXPECT_TRUE(refused(fmt::format("picture a.png {}", wrong))) << wrong;
     State s = withModel();
     s.size = {300, 200};
-    s = after("picture my file.png", s);
-    EXPECT_EQ(s.wishes.at(0).text, "my file.png");
-    EXPECT_EQ(s.wishes.at(0).size, glm::ivec2(300, 200));
+    for (const char* file : {"my file.png", "a.png", "7.png", "a 7.png", "a b 7", "16 9 x.png"}) {
+        const State written = after(std::string("picture ") + file, s);
+        ASSERT_EQ(written.wishes.size(), 1u) << file;
+        EXPECT_EQ(written.wishes[0].text, file);
+        EXPECT_EQ(written.wishes[0].size, glm::ivec2(300, 200));
+    }
+    const State both = after("picture my file.png 64 32", s);
+    ASSERT_EQ(both.wishes.size(), 1u);
+    EXPECT_EQ(both.wishes[0].text, "my file.png");
+    EXPECT_EQ(both.wishes[0].size, glm::ivec2(64, 32));
 }
 
 TEST(ViewerCommands, numbersAreHeldInTheirRange)
@@ -137,11 +142,16 @@ TEST(ViewerCommands, whatTheSessionDoesIsAskedForWithItsWords)
     State s = withModel();
     s.picture.model = "here.glb";
     const std::vector<std::tuple<const char*, Wish::Kind, const char*>> asked = {
-        {"open a b.glb", Wish::Kind::load, "a b.glb"},     {"drop c.obj", Wish::Kind::load, "c.obj"},
-        {"reload", Wish::Kind::load, "here.glb"},          {"paste", Wish::Kind::paste, ""},
-        {"choose", Wish::Kind::chooseFile, ""},            {"find-hot-spots", Wish::Kind::findHotSpots, ""},
-        {"lose-surface", Wish::Kind::loseSurface, ""},     {"quit", Wish::Kind::quit, ""},
-        {"window w.png", Wish::Kind::writeWindow, "w.png"}, {"report r.txt", Wish::Kind::writeReport, "r.txt"}};
+        {"open a b.glb", Wish::Kind::load, "a b.glb"},
+        {"drop c.obj", Wish::Kind::load, "c.obj"},
+        {"reload", Wish::Kind::load, "here.glb"},
+        {"paste", Wish::Kind::paste, ""},
+        {"choose", Wish::Kind::chooseFile, ""},
+        {"find-hot-spots", Wish::Kind::findHotSpots, ""},
+        {"lose-surface", Wish::Kind::loseSurface, ""},
+        {"quit", Wish::Kind::quit, ""},
+        {"window w.png", Wish::Kind::writeWindow, "w.png"},
+        {"report r.txt", Wish::Kind::writeReport, "r.txt"}};
     for (const auto& [line, kind, text] : asked) {
         const State done = after(line, s);
         ASSERT_EQ(done.wishes.size(), 1u) << line;
@@ -229,11 +239,26 @@ TEST(ViewerMenus, whatIsChosenIsTickedAndNothingElseOfItsSubmenu)
         ADD_FAILURE() << label;
         return false;
     };
-    for (const char* label : {"Orthographic", "Side by side", "Angle between them", "Flip between both",
-                              "Degrees of what is seen", "What is under the pointer", "Hot spots of lint",
-                              "Normal maps", "Nearest texels", "Edges of triangles", "Seams", "Menus and panels",
-                              "Settings", "Keys", "Dark", "Pinned to the camera", "Shadows", "Ground",
-                              "Four samples a pixel", "Highlights antialiased"}) {
+    for (const char* label : {"Orthographic",
+                              "Side by side",
+                              "Angle between them",
+                              "Flip between both",
+                              "Degrees of what is seen",
+                              "What is under the pointer",
+                              "Hot spots of lint",
+                              "Normal maps",
+                              "Nearest texels",
+                              "Edges of triangles",
+                              "Seams",
+                              "Menus and panels",
+                              "Settings",
+                              "Keys",
+                              "Dark",
+                              "Pinned to the camera",
+                              "Shadows",
+                              "Ground",
+                              "Four samples a pixel",
+                              "Highlights antialiased"}) {
         State s = start;
         const bool before = ticked(s, label);
         for (const bool expected : {!before, before}) {

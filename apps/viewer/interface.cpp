@@ -74,7 +74,7 @@ std::string vectorText(const glm::vec3& v) { return fmt::format("{:.2f} {:.2f} {
 std::vector<std::string> cardOf(const State& s)
 {
     const Probed& p = s.probe.surface;
-    const Hit& hit = *s.probe.hit;
+    const Picked& hit = *s.probe.hit;
     std::vector<std::string> card;
     if (s.probe.degrees >= 0)
         card.push_back(degrees(s.probe.degrees) + " " + s.statisticsOf);
@@ -95,7 +95,7 @@ std::vector<std::string> cardOf(const State& s)
 // The frame on the surface, 60 pixels long.
 std::vector<Line2D> arrowsOf(const State& s)
 {
-    const Hit& hit = *s.probe.hit;
+    const Picked& hit = *s.probe.hit;
     const Probed& p = s.probe.surface;
     const float length = 60 * unitsOfPixel(s.camera, s.camera.orthographic ? 1 : hit.depth, s.size);
     const glm::vec2 from(onPicture(s.camera, hit.position, s.size));

@@ -67,7 +67,7 @@ struct Wish {
 
 // What is under the pointer.
 struct Probe {
-    std::optional<Hit> hit;
+    std::optional<Picked> hit;
     Probed surface;
     float degrees = -1; // in the picture of angles; below 0: none
 };

@@ -47,9 +47,9 @@ bool meets(const Ray& ray, const dvec3& a, const dvec3& b, const dvec3& c, bool 
 
 } // namespace
 
-std::optional<Hit> pick(const Scene& scene, const Camera& camera, glm::ivec2 size, glm::vec2 place)
+std::optional<Picked> pick(const Scene& scene, const Camera& camera, glm::ivec2 size, glm::vec2 place)
 {
-    std::optional<Hit> nearest;
+    std::optional<Picked> nearest;
     if (size.x < 1 || size.y < 1)
         return nearest;
     const Ray ray = rayAt(camera, size, place);
@@ -68,12 +68,12 @@ std::optional<Hit> pick(const Scene& scene, const Camera& camera, glm::ivec2 siz
             if (!meets(local, corner(0), corner(1), corner(2), bothSides, t, weights) || !(t > 0) || !(t < best))
                 continue;
             best = t;
-            nearest = Hit{int(i),
-                          instance.mesh,
-                          triangle,
-                          {1 - weights.x - weights.y, weights.x, weights.y},
-                          glm::vec3(ray.from + ray.along * t),
-                          float(t)};
+            nearest = Picked{int(i),
+                             instance.mesh,
+                             triangle,
+                             {1 - weights.x - weights.y, weights.x, weights.y},
+                             glm::vec3(ray.from + ray.along * t),
+                             float(t)};
         }
     }
     return nearest;

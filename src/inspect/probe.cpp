@@ -19,7 +19,7 @@ glm::vec3 unitOrZero(const glm::dvec3& v)
 
 } // namespace
 
-Probed Prober::at(const Scene& scene, std::uint64_t number, const Hit& hit, Frame frame, TangentOrigin tangents)
+Probed Prober::at(const Scene& scene, std::uint64_t number, const Picked& hit, Frame frame, TangentOrigin tangents)
 {
     const Instance& instance = scene.instances[std::size_t(hit.instance)];
     const Mesh& mesh = scene.meshes[std::size_t(hit.mesh)];

@@ -267,10 +267,12 @@ class Reach:
     """Which tests come to which mistakes, by a run of each program without a mistake: only those can notice."""
 
     def __init__(self, programs, jobs):
-        self.tests, self.seconds, longest = {}, {}, 600
+        self.tests, self.seconds, self.failing, longest = {}, {}, set(), 60
         with concurrent.futures.ThreadPoolExecutor(jobs) as pool:
             for program, (tests, took, outcome) in zip(programs, pool.map(lambda p: plant.reach(p, longest), programs)):
                 self.tests[program], self.seconds[program] = tests, took
+                if outcome:
+                    self.failing.add(program)
                 passed = f"{sum(not name.endswith('.*') for name, _, _ in tests)} tests in {took:.1f} s"
                 print(f"{program}: {passed}{f', without a mistake: {outcome}' if outcome else ''}", flush=True)
 
@@ -282,7 +284,7 @@ class Reach:
             if not here or not number and program not in near:
                 continue
             took = sum(s for _, s, _ in here)
-            every = len(here) == len(self.tests[program]) or not here[0][0]
+            every = program not in self.failing and len(here) == len(self.tests[program]) or not here[0][0]
             word = program if every else program + ":" + ":".join(name for name, _, _ in here)
             rank = near.index(program) if program in near else len(near)
             found.append((rank, took, word, 3 * min(self.seconds[program], took + 1) + 10))

@@ -11,7 +11,7 @@
 
 namespace cotan {
 
-struct Hit {
+struct Picked {
     int instance = 0, mesh = 0; // indices into the scene
     std::size_t triangle = 0;   // of the mesh
     glm::dvec3 barycentric{1, 0, 0};
@@ -22,6 +22,6 @@ struct Hit {
 // The nearest triangle that the camera sees at a place of a picture of that size, in pixels from its top left corner;
 // the middle of the first pixel is (0.5, 0.5). Back faces of single-sided materials are not seen; what a mask cuts out
 // is. Looks at every triangle: 100,000 take a millisecond.
-std::optional<Hit> pick(const Scene& scene, const Camera& camera, glm::ivec2 size, glm::vec2 place);
+std::optional<Picked> pick(const Scene& scene, const Camera& camera, glm::ivec2 size, glm::vec2 place);
 
 } // namespace cotan

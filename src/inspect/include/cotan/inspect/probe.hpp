@@ -24,7 +24,7 @@ class Prober {
 public:
     // The scene as it was loaded; `number`: another for another scene. What a frame reads at the vertices is derived
     // for the whole mesh where it is asked for first.
-    Probed at(const Scene& scene, std::uint64_t number, const Hit& hit, Frame frame, TangentOrigin tangents);
+    Probed at(const Scene& scene, std::uint64_t number, const Picked& hit, Frame frame, TangentOrigin tangents);
 
 private:
     std::uint64_t number_ = 0;
