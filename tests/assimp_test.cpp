@@ -485,6 +485,34 @@ TEST_F(AssimpFile, plyElementsOfOtherNamesAreReadBehindTheGeometryAndRefusedBefo
               std::string::npos);
 }
 
+// Each name has its size in the file: a byte less than that is too little.
+TEST_F(AssimpFile, plyNumbersOfEveryTypeTakeTheirBytes)
+{
+    const std::vector<std::pair<std::string, std::size_t>> types = {
+        {"char", 1},  {"uchar", 1},   {"int8", 1},   {"uint8", 1},  {"short", 2}, {"ushort", 2},
+        {"int16", 2}, {"uint16", 2},  {"int", 4},    {"uint", 4},   {"int32", 4}, {"uint32", 4},
+        {"float", 4}, {"float32", 4}, {"double", 8}, {"float64", 8}};
+    for (const auto& [type, bytes] : types) {
+        std::string text = plyHeader("binary_little_endian",
+                                     "property " + type
+                                         + " quality\nelement face 1\nproperty list uchar int "
+                                           "vertex_indices\n");
+        for (const auto& [x, y] : {std::pair(0.0f, 0.0f), {1.0f, 0.0f}, {0.0f, 1.0f}}) {
+            const float row[3] = {x, y, 0};
+            text.append(reinterpret_cast<const char*>(row), sizeof row);
+            text += std::string(bytes, '\0');
+        }
+        text += char(3);
+        for (const std::uint64_t i : {0u, 1u, 2u})
+            text += plyNumber(i, 4, false);
+        const Scene scene = load("a.ply", text);
+        ASSERT_EQ(scene.meshes.size(), 1u) << type;
+        EXPECT_EQ(scene.meshes[0].triangleCount(), 1u) << type;
+        text.pop_back();
+        EXPECT_NE(problem("a.ply", text), "") << type;
+    }
+}
+
 TEST_F(AssimpFile, plyListsAreWalkedBeforeMemoryIsTakenForThem)
 {
     const std::string faces = "element face 2\nproperty uchar flags\nproperty list uint int vertex_indices\n";

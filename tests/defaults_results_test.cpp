@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "cotan/bake/bake.hpp"
+#include "cotan/bake/ray_starts.hpp"
 #include "cotan/batch/record.hpp"
 #include "cotan/batch/run.hpp"
 #include "cotan/convert/convert_model.hpp"
@@ -43,6 +44,10 @@ TEST(EmptyResults, ofBakingCountNothing)
     Baked b;
     EXPECT_EQ(b.width, 0);
     EXPECT_EQ(b.height, 0);
+    RayStarts starts;
+    EXPECT_FALSE(starts.bent);
+    for (const float x : {starts.farthest, starts.skip, starts.limit})
+        EXPECT_EQ(x, 0);
     SeenHigh seen;
     EXPECT_EQ(seen.others, 0u);
     EXPECT_EQ(seen.compared, 0u);

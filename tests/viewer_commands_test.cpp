@@ -6,7 +6,10 @@
 
 #include <fmt/format.h>
 
+#include "cotan/picture/words.hpp"
+#include "cotan/terminal/arguments.hpp"
 #include "session.hpp"
+#include "settings.hpp"
 #include "viewer_state.hpp"
 
 namespace cotan::viewer {
@@ -206,6 +209,43 @@ TEST(ViewerCommands, withoutSurroundingsTheirOptionsGo)
         EXPECT_EQ(bare.picture.environmentRotation, 0);
         EXPECT_EQ(bare.picture.environmentIntensity, 1);
         EXPECT_EQ(bare.picture.background, std::string(background) == "paper" ? "paper" : "");
+    }
+}
+
+// The command line declares its options by itself: what it takes, a setting of that name takes, up to the same bounds.
+TEST(ViewerSettings, haveTheBoundsAndWordsOfTheCommandLine)
+{
+    PictureOptions declared;
+    Arguments tool("tool", "", "");
+    Arguments command = tool.command("render", "");
+    addPictureOptions(command, declared);
+    std::map<std::string, OptionHelp> help;
+    for (const OptionHelp& o : tool.describe().commands.at(0).options)
+        help[o.names.back()] = o;
+    std::size_t ranges = 0, words = 0;
+    for (const Setting& setting : settings()) {
+        const auto found = help.find(std::string("--") + setting.name);
+        ASSERT_TRUE(found != help.end()) << setting.name;
+        PictureOptions o;
+        if (const std::string& most = found->second.most; !most.empty()) {
+            ++ranges;
+            const double high = std::stod(most);
+            EXPECT_TRUE(setValue(setting, most, o)) << setting.name;
+            EXPECT_FALSE(setValue(setting, fmt::format("{}", high * 1.0000001), o)) << setting.name;
+        }
+        for (const std::string& word : found->second.words)
+            if (setting.words.size() > 1) {
+                ++words;
+                EXPECT_TRUE(setValue(setting, word, o)) << setting.name << " " << word;
+            }
+    }
+    EXPECT_GE(ranges, 3u); // rotation, softness, time
+    EXPECT_GE(words, 20u);
+    for (const char* name : {"exposure", "environment-intensity"}) { // above 0 and at most 1e6, as its help says
+        PictureOptions o;
+        EXPECT_TRUE(setValue(*findSetting(name), "1e6", o)) << name;
+        for (const char* wrong : {"1000000.5", "0", "-1", "nan"})
+            EXPECT_FALSE(setValue(*findSetting(name), wrong, o)) << name << " " << wrong;
     }
 }
 
