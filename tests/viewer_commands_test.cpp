@@ -15,15 +15,22 @@
 namespace cotan::viewer {
 namespace {
 
+// The built-in scene, made once.
+State start()
+{
+    static const State state = withModel();
+    return state;
+}
+
 // What performing a line gives: the state after it.
-State after(const std::string& line, State state = withModel())
+State after(const std::string& line, State state = start())
 {
     const Status done = perform(state, line);
     EXPECT_TRUE(done) << line;
     return state;
 }
 
-bool refused(const std::string& line, State state = withModel()) { return !perform(state, line); }
+bool refused(const std::string& line, State state = start()) { return !perform(state, line); }
 
 TEST(ViewerCommands, sizesAreOneTo16384OnEachSide)
 {
@@ -42,7 +49,7 @@ TEST(ViewerCommands, sizesAreOneTo16384OnEachSide)
         EXPECT_TRUE(refused(fmt::format("size {}", wrong))) << wrong;
     for (const char* wrong : {"0 1", "1 0", "16385 1", "1 16385", "-5 7"})
         EXPECT_TRUE(refused(fmt::format("picture a.png {}", wrong))) << wrong;
-    State s = withModel();
+    State s = start();
     s.size = {300, 200};
     for (const char* file : {"my file.png", "a.png", "7.png", "a 7.png", "a b 7", "16 9 x.png"}) {
         const State written = after(std::string("picture ") + file, s);
@@ -76,7 +83,7 @@ TEST(ViewerCommands, eachSwitchTurnsItsOwnFieldAndBack)
                                                            {"look", &State::dark},
                                                            {"loop", &State::loops},
                                                            {"pin-light", &State::lightPinned}};
-    const State before = withModel();
+    const State before = start();
     for (const auto& [name, field] : switches) {
         const State once = after("toggle " + name, before), twice = after("toggle " + name, once);
         for (const auto& [other, otherField] : switches) {
@@ -108,7 +115,7 @@ TEST(ViewerCommands, sidesAreSetApartAndExchanged)
         EXPECT_EQ(swapped.b, first.a);
         EXPECT_EQ(swapped.a, Side());
     }
-    State all = withModel();
+    State all = start();
     for (const char* line : lines)
         all = after(line, all);
     EXPECT_EQ(all.a.frame, "smooth");
@@ -126,13 +133,13 @@ TEST(ViewerCommands, comparisonsBeginWithTheFirstAndAFlipShowsTheOther)
                                      {"divider", Compare::divider},
                                      {"flip", Compare::flip},
                                      {"angle", Compare::angle}}) {
-        State s = withModel();
+        State s = start();
         s.second = true;
         s = after(std::string("compare ") + word, s);
         EXPECT_TRUE(s.compare == mode) << word;
         EXPECT_FALSE(s.second) << word;
     }
-    State s = withModel();
+    State s = start();
     s.second = true; // of a comparison before
     s = after("flip", s);
     EXPECT_TRUE(s.compare == Compare::flip);
@@ -142,7 +149,7 @@ TEST(ViewerCommands, comparisonsBeginWithTheFirstAndAFlipShowsTheOther)
 
 TEST(ViewerCommands, whatTheSessionDoesIsAskedForWithItsWords)
 {
-    State s = withModel();
+    State s = start();
     s.picture.model = "here.glb";
     const std::vector<std::tuple<const char*, Wish::Kind, const char*>> asked = {
         {"open a b.glb", Wish::Kind::load, "a b.glb"},
@@ -172,7 +179,7 @@ TEST(ViewerCommands, whatTheSessionDoesIsAskedForWithItsWords)
 
 TEST(ViewerCommands, droppedPicturesAreMapsAndThoseOfFloatsLight)
 {
-    State s = withModel();
+    State s = start();
     s.picture.model = "here.glb";
     s.metered = 2;
     State map = after("open m.png", s);
@@ -184,12 +191,12 @@ TEST(ViewerCommands, droppedPicturesAreMapsAndThoseOfFloatsLight)
     EXPECT_EQ(light.picture.environment, "sky.hdr");
     EXPECT_EQ(light.a.normalMap, "");
     EXPECT_EQ(light.metered, 0); // another light is metered again
-    map = after("open m.png", withModel());
+    map = after("open m.png", start());
     EXPECT_EQ(map.picture.shape, "plane"); // without a model a map needs something to lie on
     ASSERT_EQ(map.wishes.size(), 1u);
     EXPECT_TRUE(map.wishes[0].kind == Wish::Kind::load);
     EXPECT_EQ(map.wishes[0].text, "");
-    State shaped = withModel();
+    State shaped = start();
     shaped.picture.shape = "torus";
     map = after("open m.png", shaped);
     EXPECT_EQ(map.picture.shape, "torus");
@@ -198,7 +205,7 @@ TEST(ViewerCommands, droppedPicturesAreMapsAndThoseOfFloatsLight)
 
 TEST(ViewerCommands, withoutSurroundingsTheirOptionsGo)
 {
-    State s = withModel();
+    State s = start();
     s = after("set environment-rotation 30", s);
     s = after("set environment-intensity 2", s);
     EXPECT_EQ(s.picture.environmentRotation, 30);
@@ -220,7 +227,8 @@ TEST(ViewerSettings, haveTheBoundsAndWordsOfTheCommandLine)
     Arguments command = tool.command("render", "");
     addPictureOptions(command, declared);
     std::map<std::string, OptionHelp> help;
-    for (const OptionHelp& o : tool.describe().commands.at(0).options)
+    const CommandHelp described = tool.describe();
+    for (const OptionHelp& o : described.commands.at(0).options)
         help[o.names.back()] = o;
     std::size_t ranges = 0, words = 0;
     for (const Setting& setting : settings()) {
@@ -252,15 +260,15 @@ TEST(ViewerSettings, haveTheBoundsAndWordsOfTheCommandLine)
 // A choice is ticked once it is chosen and was not before; a switch is ticked every other time.
 TEST(ViewerMenus, whatIsChosenIsTickedAndNothingElseOfItsSubmenu)
 {
-    const State start = withModel();
+    const State beginning = start();
     std::size_t tried = 0;
-    for (const Entry& entry : entriesOf(start)) {
+    for (const Entry& entry : entriesOf(beginning)) {
         const bool choice = entry.menu == "Frame" || entry.menu == "Second" || entry.submenu == "Show"
             || entry.submenu == "Surroundings" || entry.submenu == "Background" || entry.submenu == "Tones and shading"
             || entry.submenu == "Shape of a map" || entry.submenu == "Look";
         if (!choice || entry.command.empty() || !entry.usable || entry.label == "Dark")
             continue;
-        State chosen = start;
+        State chosen = beginning;
         ASSERT_TRUE(perform(chosen, entry.command)) << entry.command;
         bool found = false;
         for (const Entry& now : entriesOf(chosen))
@@ -299,7 +307,7 @@ TEST(ViewerMenus, whatIsChosenIsTickedAndNothingElseOfItsSubmenu)
                               "Ground",
                               "Four samples a pixel",
                               "Highlights antialiased"}) {
-        State s = start;
+        State s = beginning;
         const bool before = ticked(s, label);
         for (const bool expected : {!before, before}) {
             std::string command;
@@ -321,7 +329,7 @@ TEST(ViewerMenus, entriesThatNeedSomethingAreGreyWithoutIt)
         ADD_FAILURE() << label;
         return false;
     };
-    State s = withModel(), file = s, moving = s;
+    State s = start(), file = s, moving = s;
     file.picture.model = "a.glb";
     auto model = std::make_shared<Model>(*s.model);
     model->animations = {{"walk", 2.5}};
