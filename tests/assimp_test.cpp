@@ -614,6 +614,33 @@ TEST_F(AssimpFile, colladaNodesBecomeInstancesOfOneMesh)
     EXPECT_EQ(box.high, glm::vec3(12, 1, 0));
 }
 
+// 60 degrees from left to right of a picture twice as wide as high.
+TEST_F(AssimpFile, colladaCamerasStandWhereTheirNodesDoWithTheLensOfTheirWidth)
+{
+    const Scene scene = load(
+        "a.dae",
+        "<?xml version=\"1.0\"?><COLLADA xmlns=\"http://www.collada.org/2005/11/COLLADASchema\" version=\"1.4.1\">"
+        "<asset><up_axis>Y_UP</up_axis></asset><library_cameras><camera id=\"c\" name=\"c\"><optics><technique_common>"
+        "<perspective><xfov>60</xfov><aspect_ratio>2</aspect_ratio><znear>0.1</znear><zfar>100</zfar></perspective>"
+        "</technique_common></optics></camera></library_cameras><library_geometries><geometry id=\"g\"><mesh>"
+        "<source id=\"p\"><float_array id=\"pa\" count=\"9\">0 0 0 1 0 0 0 1 0</float_array><technique_common>"
+        "<accessor source=\"#pa\" count=\"3\" stride=\"3\"><param name=\"X\" type=\"float\"/>"
+        "<param name=\"Y\" type=\"float\"/><param name=\"Z\" type=\"float\"/></accessor></technique_common></source>"
+        "<vertices id=\"v\"><input semantic=\"POSITION\" source=\"#p\"/></vertices><triangles count=\"1\">"
+        "<input semantic=\"VERTEX\" source=\"#v\" offset=\"0\"/><p>0 1 2</p></triangles></mesh></geometry>"
+        "</library_geometries><library_visual_scenes><visual_scene id=\"s\"><node id=\"a\">"
+        "<instance_geometry url=\"#g\"/></node><node id=\"n\"><translate>0.25 0.5 5</translate>"
+        "<instance_camera url=\"#c\"/></node></visual_scene></library_visual_scenes><scene>"
+        "<instance_visual_scene url=\"#s\"/></scene></COLLADA>");
+    ASSERT_EQ(scene.cameras.size(), 1u);
+    const Camera& camera = scene.cameras[0];
+    EXPECT_FALSE(camera.orthographic);
+    EXPECT_EQ(camera.eye, glm::vec3(0.25f, 0.5f, 5));
+    EXPECT_NEAR(glm::length(glm::normalize(camera.target - camera.eye) - glm::vec3(0, 0, -1)), 0, 1e-5);
+    EXPECT_NEAR(glm::length(glm::normalize(camera.up) - glm::vec3(0, 1, 0)), 0, 1e-5);
+    EXPECT_NEAR(camera.verticalFieldOfView, 2 * std::atan(std::tan(3.14159265 / 6) / 2), 1e-5);
+}
+
 TEST_F(AssimpFile, faceIndicesAndCountsOfOtherFormatsAreCheckedBeforeUse)
 {
     const std::string head = "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float "
