@@ -485,6 +485,34 @@ TEST_F(AssimpFile, plyElementsOfOtherNamesAreReadBehindTheGeometryAndRefusedBefo
               std::string::npos);
 }
 
+// Each name has its size in the file: a byte less than that is too little.
+TEST_F(AssimpFile, plyNumbersOfEveryTypeTakeTheirBytes)
+{
+    const std::vector<std::pair<std::string, std::size_t>> types = {
+        {"char", 1},  {"uchar", 1},   {"int8", 1},   {"uint8", 1},  {"short", 2}, {"ushort", 2},
+        {"int16", 2}, {"uint16", 2},  {"int", 4},    {"uint", 4},   {"int32", 4}, {"uint32", 4},
+        {"float", 4}, {"float32", 4}, {"double", 8}, {"float64", 8}};
+    for (const auto& [type, bytes] : types) {
+        std::string text = plyHeader("binary_little_endian",
+                                     "property " + type
+                                         + " quality\nelement face 1\nproperty list uchar int "
+                                           "vertex_indices\n");
+        for (const auto& [x, y] : {std::pair(0.0f, 0.0f), {1.0f, 0.0f}, {0.0f, 1.0f}}) {
+            const float row[3] = {x, y, 0};
+            text.append(reinterpret_cast<const char*>(row), sizeof row);
+            text += std::string(bytes, '\0');
+        }
+        text += char(3);
+        for (const std::uint64_t i : {0u, 1u, 2u})
+            text += plyNumber(i, 4, false);
+        const Scene scene = load("a.ply", text);
+        ASSERT_EQ(scene.meshes.size(), 1u) << type;
+        EXPECT_EQ(scene.meshes[0].triangleCount(), 1u) << type;
+        text.pop_back();
+        EXPECT_NE(problem("a.ply", text), "") << type;
+    }
+}
+
 TEST_F(AssimpFile, plyListsAreWalkedBeforeMemoryIsTakenForThem)
 {
     const std::string faces = "element face 2\nproperty uchar flags\nproperty list uint int vertex_indices\n";
@@ -584,6 +612,33 @@ TEST_F(AssimpFile, colladaNodesBecomeInstancesOfOneMesh)
     const Bounds box = bounds(scene);
     EXPECT_EQ(box.low, glm::vec3(10, -3, 0));
     EXPECT_EQ(box.high, glm::vec3(12, 1, 0));
+}
+
+// 60 degrees from left to right of a picture twice as wide as high.
+TEST_F(AssimpFile, colladaCamerasStandWhereTheirNodesDoWithTheLensOfTheirWidth)
+{
+    const Scene scene = load(
+        "a.dae",
+        "<?xml version=\"1.0\"?><COLLADA xmlns=\"http://www.collada.org/2005/11/COLLADASchema\" version=\"1.4.1\">"
+        "<asset><up_axis>Y_UP</up_axis></asset><library_cameras><camera id=\"c\" name=\"c\"><optics><technique_common>"
+        "<perspective><xfov>60</xfov><aspect_ratio>2</aspect_ratio><znear>0.1</znear><zfar>100</zfar></perspective>"
+        "</technique_common></optics></camera></library_cameras><library_geometries><geometry id=\"g\"><mesh>"
+        "<source id=\"p\"><float_array id=\"pa\" count=\"9\">0 0 0 1 0 0 0 1 0</float_array><technique_common>"
+        "<accessor source=\"#pa\" count=\"3\" stride=\"3\"><param name=\"X\" type=\"float\"/>"
+        "<param name=\"Y\" type=\"float\"/><param name=\"Z\" type=\"float\"/></accessor></technique_common></source>"
+        "<vertices id=\"v\"><input semantic=\"POSITION\" source=\"#p\"/></vertices><triangles count=\"1\">"
+        "<input semantic=\"VERTEX\" source=\"#v\" offset=\"0\"/><p>0 1 2</p></triangles></mesh></geometry>"
+        "</library_geometries><library_visual_scenes><visual_scene id=\"s\"><node id=\"a\">"
+        "<instance_geometry url=\"#g\"/></node><node id=\"n\"><translate>0.25 0.5 5</translate>"
+        "<instance_camera url=\"#c\"/></node></visual_scene></library_visual_scenes><scene>"
+        "<instance_visual_scene url=\"#s\"/></scene></COLLADA>");
+    ASSERT_EQ(scene.cameras.size(), 1u);
+    const Camera& camera = scene.cameras[0];
+    EXPECT_FALSE(camera.orthographic);
+    EXPECT_EQ(camera.eye, glm::vec3(0.25f, 0.5f, 5));
+    EXPECT_NEAR(glm::length(glm::normalize(camera.target - camera.eye) - glm::vec3(0, 0, -1)), 0, 1e-5);
+    EXPECT_NEAR(glm::length(glm::normalize(camera.up) - glm::vec3(0, 1, 0)), 0, 1e-5);
+    EXPECT_NEAR(camera.verticalFieldOfView, 2 * std::atan(std::tan(3.14159265 / 6) / 2), 1e-5);
 }
 
 TEST_F(AssimpFile, faceIndicesAndCountsOfOtherFormatsAreCheckedBeforeUse)

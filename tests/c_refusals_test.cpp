@@ -88,8 +88,8 @@ TEST(CRefusals, framesOfVerticesNeedTheArraysThatTheyRead)
                                       &cotan_vertex_places::cotangents_u, &cotan_vertex_places::cotangents_v}) {
                 cotan_vertex_places places = good;
                 places.*member = nullptr;
-                const bool reads = member == &cotan_vertex_places::normals
-                    || (member == &cotan_vertex_places::tangents) == !smooth;
+                const bool reads =
+                    member == &cotan_vertex_places::normals || (member == &cotan_vertex_places::tangents) == !smooth;
                 if (reads)
                     expectRefused(call(frame, &places, n, out, refusal, sizeof refusal), "places: expected normals");
                 else
@@ -147,10 +147,9 @@ TEST(CRefusals, meshesNeedWhatIsMadeOfThem)
             {&Square::normals, "mesh.normals[3]"},
             {&Square::texcoords, "mesh.texcoords[3]"}};
         for (const auto& [array, named] : arrays)
-            for (const auto& [number, written] :
-                 {std::pair(std::numeric_limits<float>::infinity(), "found inf"),
-                  {-std::numeric_limits<float>::infinity(), "found -inf"},
-                  {std::numeric_limits<float>::quiet_NaN(), "found nan"}}) {
+            for (const auto& [number, written] : {std::pair(std::numeric_limits<float>::infinity(), "found inf"),
+                                                  {-std::numeric_limits<float>::infinity(), "found -inf"},
+                                                  {std::numeric_limits<float>::quiet_NaN(), "found nan"}}) {
                 Square bad;
                 (bad.*array).back() = number;
                 mesh = bad.mesh();
@@ -181,12 +180,12 @@ TEST(CRefusals, packingNeedsEachArrayUnlessThereIsNothing)
         EXPECT_EQ(call(first, second, nullptr, out), COTAN_USAGE);
         EXPECT_EQ(call(first, second, third, nullptr), COTAN_USAGE);
     };
-    each([&](const float* n, const float* u, const float* v, std::int16_t* o) {
-        return cotan_pack_smooth8(1, n, u, v, o, refusal, sizeof refusal);
-    }, three, three, three, shorts.data());
-    each([&](const float* n, const float* u, const float* v, std::uint32_t* o) {
-        return cotan_pack_smooth4(1, n, u, v, o, refusal, sizeof refusal);
-    }, three, three, three, words.data());
+    each([&](const float* n, const float* u, const float* v,
+             std::int16_t* o) { return cotan_pack_smooth8(1, n, u, v, o, refusal, sizeof refusal); },
+         three, three, three, shorts.data());
+    each([&](const float* n, const float* u, const float* v,
+             std::uint32_t* o) { return cotan_pack_smooth4(1, n, u, v, o, refusal, sizeof refusal); },
+         three, three, three, words.data());
     EXPECT_EQ(cotan_pack_triangles(1, nullptr, three, words.data(), refusal, sizeof refusal), COTAN_USAGE);
     EXPECT_EQ(cotan_pack_triangles(1, three, nullptr, words.data(), refusal, sizeof refusal), COTAN_USAGE);
     EXPECT_EQ(cotan_pack_triangles(1, three, three, nullptr, refusal, sizeof refusal), COTAN_USAGE);
@@ -210,19 +209,17 @@ TEST(CRefusals, mapsNeedEachOfTheirPicturesAndWords)
         {"map", [&](P p) { return cotan_map_green(p, &green, refusal, sizeof refusal); }},
         {"map", [&](P p) { return cotan_map_describe(p, &info, refusal, sizeof refusal); }},
         {"map", [&](P p) { return cotan_map_convert(p, "gltf", "gltf", &out.picture, refusal, sizeof refusal); }},
-        {"height", [&](P p) {
-             return cotan_map_from_height(p, 1, 1, "gltf", &out.picture, refusal, sizeof refusal);
-         }},
+        {"height", [&](P p) { return cotan_map_from_height(p, 1, 1, "gltf", &out.picture, refusal, sizeof refusal); }},
         {"map", [&](P p) { return cotan_map_to_height(p, "gltf", heights.data(), refusal, sizeof refusal); }},
-        {"base", [&](P p) {
+        {"base",
+         [&](P p) {
              return cotan_map_blend(p, &other.picture, "gltf", "udn", 1, &out.picture, refusal, sizeof refusal);
          }},
-        {"detail", [&](P p) {
+        {"detail",
+         [&](P p) {
              return cotan_map_blend(&other.picture, p, "gltf", "udn", 1, &out.picture, refusal, sizeof refusal);
          }},
-        {"map", [&](P p) {
-             return cotan_map_mips(p, "gltf", 0.5, takeLevel, nullptr, refusal, sizeof refusal);
-         }}};
+        {"map", [&](P p) { return cotan_map_mips(p, "gltf", 0.5, takeLevel, nullptr, refusal, sizeof refusal); }}};
     for (const auto& [named, call] : readers) {
         ASSERT_EQ(call(&map.picture), COTAN_OK) << named << refusal;
         expectRefused(call(nullptr), named);

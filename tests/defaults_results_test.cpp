@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "cotan/bake/bake.hpp"
+#include "cotan/bake/ray_starts.hpp"
 #include "cotan/batch/record.hpp"
 #include "cotan/batch/run.hpp"
 #include "cotan/convert/convert_model.hpp"
@@ -13,6 +14,8 @@
 #include "cotan/image/animation.hpp"
 #include "cotan/image/encode_like.hpp"
 #include "cotan/image/rows.hpp"
+#include "cotan/inspect/hot_spots.hpp"
+#include "cotan/inspect/probe.hpp"
 #include "cotan/lint/limits.hpp"
 #include "cotan/lint/lint.hpp"
 #include "cotan/map_files/convert.hpp"
@@ -41,6 +44,10 @@ TEST(EmptyResults, ofBakingCountNothing)
     Baked b;
     EXPECT_EQ(b.width, 0);
     EXPECT_EQ(b.height, 0);
+    RayStarts starts;
+    EXPECT_FALSE(starts.bent);
+    for (const float x : {starts.farthest, starts.skip, starts.limit})
+        EXPECT_EQ(x, 0);
     SeenHigh seen;
     EXPECT_EQ(seen.others, 0u);
     EXPECT_EQ(seen.compared, 0u);
@@ -175,6 +182,16 @@ TEST(EmptyResults, ofPicturesAndPlacesHaveNoSize)
     EXPECT_EQ(g.extent, glm::vec2(1));
     Bounds b;
     EXPECT_TRUE(b.empty());
+    HotSpot h;
+    EXPECT_EQ(h.mesh, 0u);
+    EXPECT_EQ(h.share, 0);
+    EXPECT_EQ(h.badness, 0);
+    EXPECT_FALSE(h.storedTangents);
+    Probed p;
+    EXPECT_EQ(p.normal, glm::vec3(0));
+    EXPECT_EQ(p.w, 0);
+    EXPECT_FALSE(p.hasUv);
+    EXPECT_EQ(p.texel, glm::ivec2(-1));
 }
 
 TEST(EmptyResults, ofJobsHaveTakenNothing)

@@ -148,8 +148,14 @@ View randomView(Dice& dice, Output output)
     view.shadows = false; // their edges are cliffs; tests of their own hold them
     const glm::vec3 towards = glm::normalize(glm::vec3(dice.from(-1, 1), dice.from(-1, 1), -1.5f));
     view.lights.push_back({LightKind::directional, dice.three(0.3f, 1), dice.from(0.5f, 2), {}, towards, 0, 0, 0});
-    view.lights.push_back({LightKind::point, dice.three(0.3f, 1), dice.from(2, 8), {2, dice.from(-2, 2), 3},
-                           {0, -1, 0}, dice.heads() ? 0.0f : 9.0f, 0, 0});
+    view.lights.push_back({LightKind::point,
+                           dice.three(0.3f, 1),
+                           dice.from(2, 8),
+                           {2, dice.from(-2, 2), 3},
+                           {0, -1, 0},
+                           dice.heads() ? 0.0f : 9.0f,
+                           0,
+                           0});
     const glm::vec3 lamp(dice.from(-2, 2), 1, 4);
     view.lights.push_back({LightKind::spot, dice.three(0.3f, 1), dice.from(5, 20), lamp, glm::normalize(-lamp),
                            dice.heads() ? 0.0f : 9.0f, 0.1f, 0.5f});

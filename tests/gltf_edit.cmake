@@ -10,7 +10,7 @@ cotan_test(gltf_edit_test
   LIBRARIES cotan_model cotan_shapes cotan_gltf_json ZLIB::ZLIB)
 cotan_test(tangents_command_test BATCH 1 FIXTURE npm
   SOURCES tangents_command_test.cpp tangents_written_test.cpp tangents_three_test.cpp
-  LIBRARIES cotan_model cotan_shapes cotan_report nlohmann_json::nlohmann_json fmt::fmt)
+  LIBRARIES cotan_model cotan_shapes cotan_report cotan_gltf_json fmt::fmt)
 target_compile_definitions(tangents_command_test PRIVATE
   COTAN_TOOL="$<TARGET_FILE:cotan>" COTAN_NPM="${PROJECT_BINARY_DIR}/npm")
 add_dependencies(tangents_command_test cotan)

@@ -188,6 +188,27 @@ private:
         return made;
     }
 
+    // Two accessors whose views share some of their bytes: the second begins within the first and ends behind it.
+    void addOverlapping(json& attributes, std::size_t count)
+    {
+        const std::size_t behind = 1 + dice_.below(count);
+        json a = {{"componentType", 5126}, {"type", "VEC3"}, {"count", count}};
+        std::string bytes;
+        for (std::size_t i = 0; i < count + behind; ++i)
+            bytes += element(a);
+        const std::size_t all = view(bytes, 0);
+        json first = files_.root["bufferViews"][all], second = first;
+        first["byteLength"] = second["byteLength"] = 12 * count;
+        second["byteOffset"] = first.value("byteOffset", 0u) + 12 * behind;
+        files_.root["bufferViews"][all] = first;
+        files_.root["bufferViews"].push_back(second);
+        for (const auto& [name, number] : {std::pair("_FIRST", all), {"_SECOND", all + 1}}) {
+            a["bufferView"] = number;
+            files_.root["accessors"].push_back(a);
+            attributes[name] = files_.root["accessors"].size() - 1;
+        }
+    }
+
     void addBounds(std::size_t accessor)
     {
         std::vector<float> low(3, 1e30f), high(3, -1e30f);
@@ -213,6 +234,8 @@ private:
             p["attributes"]["COLOR_0"] = vertexAccessor(count, dice_.heads() ? 5121 : 5126, "VEC4", false);
         if (dice_.below(3) == 0)
             p["attributes"]["_ODD"] = vertexAccessor(count, 5126, "SCALAR", false);
+        if (dice_.heads())
+            addOverlapping(p["attributes"], count);
         if (dice_.below(3) == 0)
             p["targets"] = {{{"POSITION", vertexAccessor(count, 5126, "VEC3", true)}}};
         if (dice_.below(4) != 0) {

@@ -276,6 +276,16 @@ TEST(Lint, roundingFallsWithTheDistanceAndGrowsWithTheUv)
     EXPECT_NEAR(lintScene(scene, {1}).primitives[0].precision, near * 101, near);
 }
 
+TEST(Lint, roundingIsNothingWhereUvHaveNoGradient)
+{
+    Mesh mesh = makePlane(1, 2, 1);
+    mesh.texcoords[0].assign(mesh.vertexCount(), {0.25f, 0.5f});
+    const PrimitiveLint p = lintScene(sceneOf({mesh}), {1}).primitives.at(0);
+    EXPECT_EQ(p.uv.gradient, 0);
+    EXPECT_EQ(p.precision, 0);
+    EXPECT_EQ(p.closest, 0);
+}
+
 TEST(Lint, theAdviceFollowsTheNumbers)
 {
     EXPECT_EQ(lintScene(sceneOf({makePatch(1, 0, false, 4)})).advice, Advice::readOrthonormal);

@@ -61,14 +61,14 @@ CommonOptions quiet()
 TEST(PictureWords, rowsRunTheWayThatWasAskedFor)
 {
     PictureOptions options;
-    EXPECT_FALSE(openPicture(options, quiet(), {Frame::cotangent})->view.rowsUpward);
+    EXPECT_FALSE(loadPicture(options, quiet(), {Frame::cotangent})->view.rowsUpward);
     options.rows = "up";
-    EXPECT_TRUE(openPicture(options, quiet(), {Frame::cotangent})->view.rowsUpward);
+    EXPECT_TRUE(loadPicture(options, quiet(), {Frame::cotangent})->view.rowsUpward);
 }
 
 TEST(PictureWords, lightsOfTheSceneAreTakenWhereItHasSome)
 {
-    const auto picture = openPicture({}, quiet(), {Frame::cotangent});
+    const auto picture = loadPicture({}, quiet(), {Frame::cotangent});
     ASSERT_TRUE(picture);
     ASSERT_FALSE(picture->scene.lights.empty());
     ASSERT_EQ(picture->view.lights.size(), picture->scene.lights.size());
@@ -81,7 +81,7 @@ TEST(PictureWords, lightsOfTheSceneAreTakenWhereItHasSome)
 TEST(PictureWords, picturesAreOfAStudioUnlessTheyAreToldOtherwise)
 {
     PictureOptions options;
-    const auto picture = openPicture(options, quiet(), {Frame::cotangent});
+    const auto picture = loadPicture(options, quiet(), {Frame::cotangent});
     ASSERT_TRUE(picture);
     EXPECT_TRUE(picture->view.environmentMap && picture->meter);
     EXPECT_EQ(picture->view.backdrop, Backdrop::paper);
@@ -89,7 +89,7 @@ TEST(PictureWords, picturesAreOfAStudioUnlessTheyAreToldOtherwise)
     EXPECT_NEAR(picture->view.shadowSoftness, 0.0875f, 1e-4f); // tan 5 degrees
 
     options.environment = "overcast";
-    EXPECT_EQ(openPicture(options, quiet(), {Frame::cotangent})->view.backdrop, Backdrop::blurred);
+    EXPECT_EQ(loadPicture(options, quiet(), {Frame::cotangent})->view.backdrop, Backdrop::blurred);
 
     // A sky in clouds casts no shadow; a low sun casts a long one, with edges.
     Scene ball;
@@ -102,12 +102,12 @@ TEST(PictureWords, picturesAreOfAStudioUnlessTheyAreToldOtherwise)
     PictureOptions turned = options;
     turned.environmentRotation = 90; // counter-clockwise from above: z becomes x
     EXPECT_NEAR(lightsOf(turned, ball)[0].direction.x, sun[0].direction.z, 1e-6f);
-    EXPECT_NEAR(openPicture(options, quiet(), {Frame::cotangent})->view.shadowSoftness, 0.0262f, 1e-4f); // 1.5 degrees
+    EXPECT_NEAR(loadPicture(options, quiet(), {Frame::cotangent})->view.shadowSoftness, 0.0262f, 1e-4f); // 1.5 degrees
 
     options.environment = "none";
     options.exposure = "1.5";
     options.shadowSoftness = 0;
-    const auto plain = openPicture(options, quiet(), {Frame::cotangent});
+    const auto plain = loadPicture(options, quiet(), {Frame::cotangent});
     ASSERT_TRUE(plain);
     EXPECT_FALSE(plain->view.environmentMap || plain->meter);
     EXPECT_EQ(plain->view.backdrop, Backdrop::gradient);
@@ -117,7 +117,7 @@ TEST(PictureWords, picturesAreOfAStudioUnlessTheyAreToldOtherwise)
     // What shows no light is spared making it.
     PictureOptions normals;
     normals.use = PictureUse::data;
-    const auto data = openPicture(normals, quiet(), {Frame::cotangent});
+    const auto data = loadPicture(normals, quiet(), {Frame::cotangent});
     ASSERT_TRUE(data);
     EXPECT_FALSE(data->view.environmentMap || data->meter);
 }

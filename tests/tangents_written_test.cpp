@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cotan/gltf/edit.hpp"
+#include "cotan/gltf/lookup.hpp"
 #include "run_tool.hpp"
 
 namespace cotan {

@@ -6,21 +6,31 @@
 
 #include <fmt/format.h>
 
+#include "cotan/picture/words.hpp"
+#include "cotan/terminal/arguments.hpp"
 #include "session.hpp"
+#include "settings.hpp"
 #include "viewer_state.hpp"
 
 namespace cotan::viewer {
 namespace {
 
+// The built-in scene, made once.
+State start()
+{
+    static const State state = withModel();
+    return state;
+}
+
 // What performing a line gives: the state after it.
-State after(const std::string& line, State state = withModel())
+State after(const std::string& line, State state = start())
 {
     const Status done = perform(state, line);
     EXPECT_TRUE(done) << line;
     return state;
 }
 
-bool refused(const std::string& line, State state = withModel()) { return !perform(state, line); }
+bool refused(const std::string& line, State state = start()) { return !perform(state, line); }
 
 TEST(ViewerCommands, sizesAreOneTo16384OnEachSide)
 {
@@ -35,17 +45,22 @@ TEST(ViewerCommands, sizesAreOneTo16384OnEachSide)
         EXPECT_EQ(p.wishes[0].size, glm::ivec2(width, height));
         EXPECT_EQ(p.wishes[0].text, "a.png");
     }
-    for (const char* wrong : {"0 1", "1 0", "16385 1", "1 16385", "-5 7", "7", "x 7", "7 x"}) {
+    for (const char* wrong : {"0 1", "1 0", "16385 1", "1 16385", "-5 7", "7", "x 7", "7 x"})
         EXPECT_TRUE(refused(fmt::format("size {}", wrong))) << wrong;
-        if (std::string(wrong) != "7" && std::string(wrong) != "x 7") { // a name of a file, with a space
-            EXPECT_TRUE(refused(fmt::format("picture a.png {}", wrong))) << wrong;
-        }
-    }
-    State s = withModel();
+    for (const char* wrong : {"0 1", "1 0", "16385 1", "1 16385", "-5 7"})
+        EXPECT_TRUE(refused(fmt::format("picture a.png {}", wrong))) << wrong;
+    State s = start();
     s.size = {300, 200};
-    s = after("picture my file.png", s);
-    EXPECT_EQ(s.wishes.at(0).text, "my file.png");
-    EXPECT_EQ(s.wishes.at(0).size, glm::ivec2(300, 200));
+    for (const char* file : {"my file.png", "a.png", "7.png", "a 7.png", "a b 7", "16 9 x.png"}) {
+        const State written = after(std::string("picture ") + file, s);
+        ASSERT_EQ(written.wishes.size(), 1u) << file;
+        EXPECT_EQ(written.wishes[0].text, file);
+        EXPECT_EQ(written.wishes[0].size, glm::ivec2(300, 200));
+    }
+    const State both = after("picture my file.png 64 32", s);
+    ASSERT_EQ(both.wishes.size(), 1u);
+    EXPECT_EQ(both.wishes[0].text, "my file.png");
+    EXPECT_EQ(both.wishes[0].size, glm::ivec2(64, 32));
 }
 
 TEST(ViewerCommands, numbersAreHeldInTheirRange)
@@ -68,7 +83,7 @@ TEST(ViewerCommands, eachSwitchTurnsItsOwnFieldAndBack)
                                                            {"look", &State::dark},
                                                            {"loop", &State::loops},
                                                            {"pin-light", &State::lightPinned}};
-    const State before = withModel();
+    const State before = start();
     for (const auto& [name, field] : switches) {
         const State once = after("toggle " + name, before), twice = after("toggle " + name, once);
         for (const auto& [other, otherField] : switches) {
@@ -100,7 +115,7 @@ TEST(ViewerCommands, sidesAreSetApartAndExchanged)
         EXPECT_EQ(swapped.b, first.a);
         EXPECT_EQ(swapped.a, Side());
     }
-    State all = withModel();
+    State all = start();
     for (const char* line : lines)
         all = after(line, all);
     EXPECT_EQ(all.a.frame, "smooth");
@@ -118,13 +133,13 @@ TEST(ViewerCommands, comparisonsBeginWithTheFirstAndAFlipShowsTheOther)
                                      {"divider", Compare::divider},
                                      {"flip", Compare::flip},
                                      {"angle", Compare::angle}}) {
-        State s = withModel();
+        State s = start();
         s.second = true;
         s = after(std::string("compare ") + word, s);
         EXPECT_TRUE(s.compare == mode) << word;
         EXPECT_FALSE(s.second) << word;
     }
-    State s = withModel();
+    State s = start();
     s.second = true; // of a comparison before
     s = after("flip", s);
     EXPECT_TRUE(s.compare == Compare::flip);
@@ -134,14 +149,19 @@ TEST(ViewerCommands, comparisonsBeginWithTheFirstAndAFlipShowsTheOther)
 
 TEST(ViewerCommands, whatTheSessionDoesIsAskedForWithItsWords)
 {
-    State s = withModel();
+    State s = start();
     s.picture.model = "here.glb";
     const std::vector<std::tuple<const char*, Wish::Kind, const char*>> asked = {
-        {"open a b.glb", Wish::Kind::load, "a b.glb"},     {"drop c.obj", Wish::Kind::load, "c.obj"},
-        {"reload", Wish::Kind::load, "here.glb"},          {"paste", Wish::Kind::paste, ""},
-        {"choose", Wish::Kind::chooseFile, ""},            {"find-hot-spots", Wish::Kind::findHotSpots, ""},
-        {"lose-surface", Wish::Kind::loseSurface, ""},     {"quit", Wish::Kind::quit, ""},
-        {"window w.png", Wish::Kind::writeWindow, "w.png"}, {"report r.txt", Wish::Kind::writeReport, "r.txt"}};
+        {"open a b.glb", Wish::Kind::load, "a b.glb"},
+        {"drop c.obj", Wish::Kind::load, "c.obj"},
+        {"reload", Wish::Kind::load, "here.glb"},
+        {"paste", Wish::Kind::paste, ""},
+        {"choose", Wish::Kind::chooseFile, ""},
+        {"find-hot-spots", Wish::Kind::findHotSpots, ""},
+        {"lose-surface", Wish::Kind::loseSurface, ""},
+        {"quit", Wish::Kind::quit, ""},
+        {"window w.png", Wish::Kind::writeWindow, "w.png"},
+        {"report r.txt", Wish::Kind::writeReport, "r.txt"}};
     for (const auto& [line, kind, text] : asked) {
         const State done = after(line, s);
         ASSERT_EQ(done.wishes.size(), 1u) << line;
@@ -159,7 +179,7 @@ TEST(ViewerCommands, whatTheSessionDoesIsAskedForWithItsWords)
 
 TEST(ViewerCommands, droppedPicturesAreMapsAndThoseOfFloatsLight)
 {
-    State s = withModel();
+    State s = start();
     s.picture.model = "here.glb";
     s.metered = 2;
     State map = after("open m.png", s);
@@ -171,12 +191,12 @@ TEST(ViewerCommands, droppedPicturesAreMapsAndThoseOfFloatsLight)
     EXPECT_EQ(light.picture.environment, "sky.hdr");
     EXPECT_EQ(light.a.normalMap, "");
     EXPECT_EQ(light.metered, 0); // another light is metered again
-    map = after("open m.png", withModel());
+    map = after("open m.png", start());
     EXPECT_EQ(map.picture.shape, "plane"); // without a model a map needs something to lie on
     ASSERT_EQ(map.wishes.size(), 1u);
     EXPECT_TRUE(map.wishes[0].kind == Wish::Kind::load);
     EXPECT_EQ(map.wishes[0].text, "");
-    State shaped = withModel();
+    State shaped = start();
     shaped.picture.shape = "torus";
     map = after("open m.png", shaped);
     EXPECT_EQ(map.picture.shape, "torus");
@@ -185,7 +205,7 @@ TEST(ViewerCommands, droppedPicturesAreMapsAndThoseOfFloatsLight)
 
 TEST(ViewerCommands, withoutSurroundingsTheirOptionsGo)
 {
-    State s = withModel();
+    State s = start();
     s = after("set environment-rotation 30", s);
     s = after("set environment-intensity 2", s);
     EXPECT_EQ(s.picture.environmentRotation, 30);
@@ -199,18 +219,56 @@ TEST(ViewerCommands, withoutSurroundingsTheirOptionsGo)
     }
 }
 
+// The command line declares its options by itself: what it takes, a setting of that name takes, up to the same bounds.
+TEST(ViewerSettings, haveTheBoundsAndWordsOfTheCommandLine)
+{
+    PictureOptions declared;
+    Arguments tool("tool", "", "");
+    Arguments command = tool.command("render", "");
+    addPictureOptions(command, declared);
+    std::map<std::string, OptionHelp> help;
+    const CommandHelp described = tool.describe();
+    for (const OptionHelp& o : described.commands.at(0).options)
+        help[o.names.back()] = o;
+    std::size_t ranges = 0, words = 0;
+    for (const Setting& setting : settings()) {
+        const auto found = help.find(std::string("--") + setting.name);
+        ASSERT_TRUE(found != help.end()) << setting.name;
+        PictureOptions o;
+        if (const std::string& most = found->second.most; !most.empty()) {
+            ++ranges;
+            const double high = std::stod(most);
+            EXPECT_TRUE(setValue(setting, most, o)) << setting.name;
+            EXPECT_FALSE(setValue(setting, fmt::format("{}", high * 1.0000001), o)) << setting.name;
+        }
+        for (const std::string& word : found->second.words)
+            if (setting.words.size() > 1) {
+                ++words;
+                EXPECT_TRUE(setValue(setting, word, o)) << setting.name << " " << word;
+            }
+    }
+    EXPECT_GE(ranges, 3u); // rotation, softness, time
+    EXPECT_GE(words, 20u);
+    for (const char* name : {"exposure", "environment-intensity"}) { // above 0 and at most 1e6, as its help says
+        PictureOptions o;
+        EXPECT_TRUE(setValue(*findSetting(name), "1e6", o)) << name;
+        for (const char* wrong : {"1000000.5", "0", "-1", "nan"})
+            EXPECT_FALSE(setValue(*findSetting(name), wrong, o)) << name << " " << wrong;
+    }
+}
+
 // A choice is ticked once it is chosen and was not before; a switch is ticked every other time.
 TEST(ViewerMenus, whatIsChosenIsTickedAndNothingElseOfItsSubmenu)
 {
-    const State start = withModel();
+    const State beginning = start();
     std::size_t tried = 0;
-    for (const Entry& entry : entriesOf(start)) {
+    for (const Entry& entry : entriesOf(beginning)) {
         const bool choice = entry.menu == "Frame" || entry.menu == "Second" || entry.submenu == "Show"
             || entry.submenu == "Surroundings" || entry.submenu == "Background" || entry.submenu == "Tones and shading"
             || entry.submenu == "Shape of a map" || entry.submenu == "Look";
         if (!choice || entry.command.empty() || !entry.usable || entry.label == "Dark")
             continue;
-        State chosen = start;
+        State chosen = beginning;
         ASSERT_TRUE(perform(chosen, entry.command)) << entry.command;
         bool found = false;
         for (const Entry& now : entriesOf(chosen))
@@ -229,12 +287,27 @@ TEST(ViewerMenus, whatIsChosenIsTickedAndNothingElseOfItsSubmenu)
         ADD_FAILURE() << label;
         return false;
     };
-    for (const char* label : {"Orthographic", "Side by side", "Angle between them", "Flip between both",
-                              "Degrees of what is seen", "What is under the pointer", "Hot spots of lint",
-                              "Normal maps", "Nearest texels", "Edges of triangles", "Seams", "Menus and panels",
-                              "Settings", "Keys", "Dark", "Pinned to the camera", "Shadows", "Ground",
-                              "Four samples a pixel", "Highlights antialiased"}) {
-        State s = start;
+    for (const char* label : {"Orthographic",
+                              "Side by side",
+                              "Angle between them",
+                              "Flip between both",
+                              "Degrees of what is seen",
+                              "What is under the pointer",
+                              "Hot spots of lint",
+                              "Normal maps",
+                              "Nearest texels",
+                              "Edges of triangles",
+                              "Seams",
+                              "Menus and panels",
+                              "Settings",
+                              "Keys",
+                              "Dark",
+                              "Pinned to the camera",
+                              "Shadows",
+                              "Ground",
+                              "Four samples a pixel",
+                              "Highlights antialiased"}) {
+        State s = beginning;
         const bool before = ticked(s, label);
         for (const bool expected : {!before, before}) {
             std::string command;
@@ -256,7 +329,7 @@ TEST(ViewerMenus, entriesThatNeedSomethingAreGreyWithoutIt)
         ADD_FAILURE() << label;
         return false;
     };
-    State s = withModel(), file = s, moving = s;
+    State s = start(), file = s, moving = s;
     file.picture.model = "a.glb";
     auto model = std::make_shared<Model>(*s.model);
     model->animations = {{"walk", 2.5}};

@@ -131,19 +131,19 @@ Status sized(State& state, Wish::Kind kind, const std::string& command, Words wo
     return Done{};
 }
 
-// FILE [W H]; a file may have spaces where no size follows.
+// FILE [W H]; a file may have spaces: only two numbers at the end are a size.
 Status writePicture(State& state, const std::string& rest)
 {
-    Words words{rest};
-    const std::string first = words.next();
-    if (words.rest.empty() || first.empty()) {
+    const std::size_t height = rest.rfind(' '), width = height == 0 ? rest.npos : rest.rfind(' ', height - 1);
+    const Words size{width == rest.npos || height == rest.npos ? "" : rest.substr(width + 1)};
+    Words tried = size;
+    if (!tried.number("picture") || !tried.number("picture")) {
         wish(state, Wish::Kind::writeFile, rest, state.size);
         return Done{};
     }
-    Words numbers = words;
-    if (Status done = sized(state, Wish::Kind::writeFile, "picture", numbers); !done)
+    if (Status done = sized(state, Wish::Kind::writeFile, "picture", size); !done)
         return done;
-    state.wishes.back().text = first;
+    state.wishes.back().text = rest.substr(0, width);
     return Done{};
 }
 

@@ -10,10 +10,6 @@
 
 namespace cotan {
 
-namespace {
-
-} // namespace
-
 Probed Prober::at(const Scene& scene, std::uint64_t number, const PickedPoint& hit, Frame frame, TangentOrigin tangents)
 {
     const Instance& instance = scene.instances[std::size_t(hit.instance)];

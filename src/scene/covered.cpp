@@ -23,8 +23,7 @@ constexpr double kPlainLayer = 0.5; // of such a one without a coat and the like
 constexpr double kMostLights = 1000; // times what is covered, at most once
 constexpr double kMostEdges = 4;    // by pixels along long edges, of which each is shaded and shows little
 constexpr double kLongEdge = 16;    // pixels: shorter ones are what many small triangles have
-// Large models have more edges: pixels for each vertex beyond so many.
-constexpr double kEdgesPerVertex = 200, kManyVertices = 100'000;
+constexpr double kFewVertices = 30'000; // models of n times as many may take n times as long
 
 // A camera's axes and scales.
 struct Seeing {
@@ -123,7 +122,11 @@ double pixelsCovered(const Scene& scene, const View& view)
 
 Status settleCovered(Scene& scene, const View& view, std::size_t pictures)
 {
-    const double picture = double(view.width) * view.height / double(pictures);
+    double vertices = 0;
+    for (const Mesh& mesh : scene.meshes)
+        vertices += double(mesh.vertexCount());
+    const double picture =
+        double(view.width) * view.height / double(pictures) * std::max(1.0, vertices / kFewVertices);
     Covered covered = coveredBy(scene, view);
     if (covered.opaque > kDroppedFrom * picture) {
         dropRepeated(scene);
@@ -135,13 +138,9 @@ Status settleCovered(Scene& scene, const View& view, std::size_t pictures)
     if (covered.translucent > kMostLayers * picture)
         return tooMuch(scene, "its translucent triangles cover the picture", covered.translucent / picture, kMostLayers,
                        further);
-    std::size_t vertices = 0;
-    for (const Mesh& mesh : scene.meshes)
-        vertices += mesh.vertexCount();
-    const double edges = kMostEdges * picture + kEdgesPerVertex * std::max(0.0, double(vertices) - kManyVertices);
-    if (covered.edges > edges)
-        return tooMuch(scene, "the long edges of its triangles fill the picture", covered.edges / picture,
-                       edges / picture, further);
+    if (covered.edges > kMostEdges * picture)
+        return tooMuch(scene, "the long edges of its triangles fill the picture", covered.edges / picture, kMostEdges,
+                       further);
     const double lit = double(view.lights.size()) * std::min(1.0, (covered.opaque + covered.translucent) / picture);
     if (view.output == Output::shaded && lit > kMostLights)
         return tooMuch(scene, "its lights shine on the picture", lit, kMostLights, "leave some out");

@@ -318,6 +318,24 @@ def _statement(f, i, found):
         found.append(Mistake("early return", t.start, t.start, early, statement=True))
 
 
+def constants(f):
+    """Where values are that the compiler works out, as (start, end): no variable can choose there when a program runs."""
+    spans = []
+    for i, t in enumerate(f.tokens):
+        if t.kind != "name" or t.text not in ("constexpr", "static_assert", "enum"):
+            continue
+        j = i + 1
+        while t.text == "constexpr" and j < len(f.tokens) and f.tokens[j].text not in ("=", "{", "(", ";"):
+            j += 1
+        if t.text == "constexpr" and (j >= len(f.tokens) or f.tokens[j].text not in ("=", "{")):
+            continue  # a function, or `if constexpr`
+        while j < len(f.tokens) and f.tokens[j].text != ";":
+            j = f.partners.get(j, j) + 1 if f.tokens[j].text in ("(", "[", "{") else j + 1
+        if j < len(f.tokens):
+            spans.append((t.start, f.tokens[j].end))
+    return spans
+
+
 FIXED = re.compile(r"^\s*(?:inline |static |export )*constexpr [^(]*(?:=|\{)|^\s*(?:static_assert|case |template|using |enum |import |from |@|export \{)|= (?:delete|default);|operator")
 
 
@@ -335,4 +353,6 @@ def mistakes_in(text, script=False):
         _arguments(f, i, found)
         if not (f.script and text.startswith(('"""', "#"))):
             _statement(f, i, found)
+    fixed = [] if script else constants(f)
+    found = [m for m in found if not any(start <= m.start < end for start, end in fixed)]
     return [m for m in found if not FIXED.search(text[text.rfind("\n", 0, m.start) + 1:text.find("\n", m.start)])]

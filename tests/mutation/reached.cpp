@@ -11,23 +11,28 @@
 
 namespace {
 
-constexpr int kBytesOfReachedMutants = 4096;  // as in plant.py
+constexpr int kBytesOfReachedMutants = 4096; // as in plant.py
 
-class ReachedMutants : public testing::EmptyTestEventListener {
+class ReachedMutants : public ::testing::EmptyTestEventListener {
 public:
     ReachedMutants(unsigned char* bytes, std::string name) : bytes_(bytes), lines_(name + ".tests") {}
 
     // What was reached before a test belongs to its whole suite: by what sets it up.
-    void OnTestStart(const testing::TestInfo& test) override { write(std::string(test.test_suite_name()) + ".*", true, 0); }
+    void OnTestStart(const ::testing::TestInfo& test) override
+    {
+        write(std::string(test.test_suite_name()) + ".*", true, 0);
+    }
 
-    void OnTestEnd(const testing::TestInfo& test) override {
-        const testing::TestResult& result = *test.result();
+    void OnTestEnd(const ::testing::TestInfo& test) override
+    {
+        const ::testing::TestResult& result = *test.result();
         write(std::string(test.test_suite_name()) + "." + test.name(), result.Passed() || result.Skipped(),
               result.elapsed_time());
     }
 
 private:
-    void write(const std::string& name, bool passed, long long milliseconds) {
+    void write(const std::string& name, bool passed, long long milliseconds)
+    {
         lines_ << name << '\t' << passed << '\t' << milliseconds << '\t';
         for (int i = 0; i < kBytesOfReachedMutants; ++i) {
             if (bytes_[i]) {
@@ -49,8 +54,9 @@ const bool kListensForReachedMutants = [] {
         return false;
     }
     void* bytes = mmap(nullptr, kBytesOfReachedMutants, PROT_READ | PROT_WRITE, MAP_SHARED, file, 0);
-    testing::UnitTest::GetInstance()->listeners().Append(new ReachedMutants(static_cast<unsigned char*>(bytes), name));
+    ::testing::UnitTest::GetInstance()->listeners().Append(
+        new ReachedMutants(static_cast<unsigned char*>(bytes), name));
     return true;
 }();
 
-}  // namespace
+} // namespace
