@@ -6,6 +6,7 @@
 
 #include "cotan/convert/map_jobs.hpp"
 #include "cotan/convert/put_map.hpp"
+#include "cotan/gltf/lookup.hpp"
 #include "cotan/image/file.hpp"
 #include "cotan/shapes/shapes.hpp"
 
@@ -47,8 +48,8 @@ GltfDocument document()
     auto made = gltfDocumentOf(scene);
     EXPECT_TRUE(made);
     GltfDocument d = *std::move(made);
-    const std::size_t second = d.root["materials"][1]["normalTexture"]["index"];
-    d.root["materials"][0]["extensions"]["KHR_materials_clearcoat"] = {
+    const std::size_t second = rootOf(d)["materials"][1]["normalTexture"]["index"];
+    rootOf(d)["materials"][0]["extensions"]["KHR_materials_clearcoat"] = {
         {"clearcoatFactor", 0.5}, {"clearcoatNormalTexture", {{"index", second}, {"scale", 0.25}}}};
     return d;
 }
@@ -114,7 +115,7 @@ TEST(MapJobs, usesFollowTheirReaders)
 TEST(MapJobs, aCoatThatIsNotThereHasNoStrength)
 {
     GltfDocument d = document();
-    d.root["materials"][0]["extensions"]["KHR_materials_clearcoat"].erase("clearcoatFactor");
+    rootOf(d)["materials"][0]["extensions"]["KHR_materials_clearcoat"].erase("clearcoatFactor");
     std::vector<std::string> notes;
     const auto jobs = mapJobs(d, notes);
     ASSERT_TRUE(jobs);
@@ -124,8 +125,8 @@ TEST(MapJobs, aCoatThatIsNotThereHasNoStrength)
 TEST(MapJobs, anImageOfAnotherSlotIsAlsoElsewhereAndIsCopiedForTheNewMap)
 {
     GltfDocument d = document();
-    const std::size_t old = d.root["materials"][0]["normalTexture"]["index"];
-    d.root["materials"][1]["occlusionTexture"] = {{"index", old}};
+    const std::size_t old = rootOf(d)["materials"][0]["normalTexture"]["index"];
+    rootOf(d)["materials"][1]["occlusionTexture"] = {{"index", old}};
     std::vector<std::string> notes;
     const auto jobs = mapJobs(d, notes);
     ASSERT_TRUE(jobs);
@@ -133,17 +134,17 @@ TEST(MapJobs, anImageOfAnotherSlotIsAlsoElsewhereAndIsCopiedForTheNewMap)
     EXPECT_FALSE((*jobs)[1].alsoElsewhere);
     const auto before = gltfImageBytes(d, 0);
     replaceMap(d, (*jobs)[0], pngOf(3), "image/png", notes);
-    EXPECT_EQ(d.root["materials"][1]["occlusionTexture"]["index"], old);
-    const std::size_t made = d.root["materials"][0]["normalTexture"]["index"];
+    EXPECT_EQ(rootOf(d)["materials"][1]["occlusionTexture"]["index"], old);
+    const std::size_t made = rootOf(d)["materials"][0]["normalTexture"]["index"];
     EXPECT_NE(made, old);
-    ASSERT_EQ(d.root["images"].size(), 3u);
-    EXPECT_EQ(d.root["textures"][made]["source"], 2);
-    EXPECT_EQ(d.root["textures"][made]["sampler"], d.root["textures"][old]["sampler"]);
+    ASSERT_EQ(rootOf(d)["images"].size(), 3u);
+    EXPECT_EQ(rootOf(d)["textures"][made]["source"], 2);
+    EXPECT_EQ(rootOf(d)["textures"][made]["sampler"], rootOf(d)["textures"][old]["sampler"]);
     EXPECT_EQ(*gltfImageBytes(d, 0), *before);
     EXPECT_EQ(*gltfImageBytes(d, 2), pngOf(3));
     const auto second = gltfImageBytes(d, 1);
     replaceMap(d, (*jobs)[1], pngOf(5), "image/png", notes); // nobody else reads it: in its place
-    EXPECT_EQ(d.root["images"].size(), 3u);
+    EXPECT_EQ(rootOf(d)["images"].size(), 3u);
     EXPECT_EQ(*gltfImageBytes(d, 1), pngOf(5));
     EXPECT_NE(*gltfImageBytes(d, 1), *second);
 }
@@ -157,9 +158,10 @@ TEST(MapJobs, aMapInWebpIsNamedSoOnceAndRequired)
     for (const MapJob& job : *jobs)
         replaceMap(d, job, pngOf(3), "image/webp", notes);
     for (const char* list : {"extensionsUsed", "extensionsRequired"})
-        EXPECT_EQ(std::ranges::count(d.root[list], "EXT_texture_webp"), 1) << list;
+        EXPECT_EQ(std::ranges::count(rootOf(d)[list], "EXT_texture_webp"), 1) << list;
     for (const std::size_t m : {0u, 1u}) {
-        const auto& texture = d.root["textures"][d.root["materials"][m]["normalTexture"]["index"].get<std::size_t>()];
+        const auto& texture =
+            rootOf(d)["textures"][rootOf(d)["materials"][m]["normalTexture"]["index"].get<std::size_t>()];
         EXPECT_FALSE(texture.contains("source"));
         EXPECT_EQ(texture["extensions"]["EXT_texture_webp"]["source"], m);
     }
@@ -168,8 +170,8 @@ TEST(MapJobs, aMapInWebpIsNamedSoOnceAndRequired)
 TEST(MapJobs, primitivesWithoutUvOrTrianglesAreLeftOutAndSaid)
 {
     GltfDocument d = document();
-    d.root["meshes"][1]["primitives"][0]["attributes"].erase("TEXCOORD_0");
-    d.root["meshes"][0]["primitives"][0]["mode"] = 1; // lines
+    rootOf(d)["meshes"][1]["primitives"][0]["attributes"].erase("TEXCOORD_0");
+    rootOf(d)["meshes"][0]["primitives"][0]["mode"] = 1; // lines
     std::vector<std::string> notes;
     const auto jobs = mapJobs(d, notes);
     ASSERT_TRUE(jobs) << jobs.error().message;
@@ -188,20 +190,20 @@ TEST(PutMap, goesToTheNamedMaterialAloneAndForgetsItsScale)
     options.frame = Frame::cotangent;
     options.material = "second";
     ASSERT_TRUE(putNormalMap(d, pngOf(3), options, notes));
-    const auto& first = d.root["materials"][0]["normalTexture"];
-    const auto& second = d.root["materials"][1]["normalTexture"];
+    const auto& first = rootOf(d)["materials"][0]["normalTexture"];
+    const auto& second = rootOf(d)["materials"][1]["normalTexture"];
     EXPECT_EQ(first["scale"], 0.5);
     EXPECT_FALSE(second.contains("scale"));
     const std::size_t texture = second["index"];
-    EXPECT_EQ(*gltfImageBytes(d, d.root["textures"][texture]["source"].get<std::size_t>()), pngOf(3));
-    EXPECT_FALSE(d.root["meshes"][1]["primitives"][0]["attributes"].contains("TANGENT"));
+    EXPECT_EQ(*gltfImageBytes(d, rootOf(d)["textures"][texture]["source"].get<std::size_t>()), pngOf(3));
+    EXPECT_FALSE(rootOf(d)["meshes"][1]["primitives"][0]["attributes"].contains("TANGENT"));
     ASSERT_FALSE(notes.empty());
     EXPECT_NE(notes.back().find("cotangent"), std::string::npos);
     options.material = "third";
     const Status none = putNormalMap(d, pngOf(3), options, notes);
     ASSERT_FALSE(none);
     EXPECT_NE(none.error().message.find("'third' to put the map in; found 0"), std::string::npos);
-    d.root["materials"][0]["name"] = "second";
+    rootOf(d)["materials"][0]["name"] = "second";
     options.material = "second";
     const Status two = putNormalMap(d, pngOf(3), options, notes);
     ASSERT_FALSE(two);
@@ -211,17 +213,17 @@ TEST(PutMap, goesToTheNamedMaterialAloneAndForgetsItsScale)
 TEST(PutMap, withoutANameAllPrimitivesGetItAndOneMaterialIsMadeForThoseWithoutAny)
 {
     GltfDocument d = document();
-    d.root["meshes"][1]["primitives"][0].erase("material");
+    rootOf(d)["meshes"][1]["primitives"][0].erase("material");
     std::vector<std::string> notes;
     PutMapOptions options;
     options.frame = Frame::mikktspace;
     ASSERT_TRUE(putNormalMap(d, pngOf(3), options, notes));
-    ASSERT_EQ(d.root["materials"].size(), 3u);
-    EXPECT_EQ(d.root["meshes"][1]["primitives"][0]["material"], 2);
-    EXPECT_EQ(d.root["materials"][0]["normalTexture"]["index"], d.root["materials"][2]["normalTexture"]["index"]);
-    EXPECT_NE(d.root["materials"][0]["normalTexture"]["index"], d.root["materials"][1]["normalTexture"]["index"]);
+    ASSERT_EQ(rootOf(d)["materials"].size(), 3u);
+    EXPECT_EQ(rootOf(d)["meshes"][1]["primitives"][0]["material"], 2);
+    EXPECT_EQ(rootOf(d)["materials"][0]["normalTexture"]["index"], rootOf(d)["materials"][2]["normalTexture"]["index"]);
+    EXPECT_NE(rootOf(d)["materials"][0]["normalTexture"]["index"], rootOf(d)["materials"][1]["normalTexture"]["index"]);
     for (const std::size_t m : {0u, 1u})
-        EXPECT_TRUE(d.root["meshes"][m]["primitives"][0]["attributes"].contains("TANGENT")) << m;
+        EXPECT_TRUE(rootOf(d)["meshes"][m]["primitives"][0]["attributes"].contains("TANGENT")) << m;
     EXPECT_TRUE(notes.empty()); // every reader knows MikkTSpace
 }
 

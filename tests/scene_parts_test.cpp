@@ -146,7 +146,7 @@ TEST(SceneParts, thatCoverThePictureTooOftenAreRefusedUnlessTheyAreTheSame)
     const Status refused = settleCovered(other, view);
     ASSERT_FALSE(refused);
     EXPECT_EQ(refused.error().message,
-              "model: its triangles cover the picture 501 times over, expected at most 64: look from further away, or "
+              "model: its triangles cover the picture 501 times over, expected at most 128: look from further away, or "
               "leave some out");
 }
 
@@ -175,12 +175,12 @@ TEST(SceneParts, inTranslucentLayersAreRefusedEarlierAndOfRichMaterialsEarlierSt
 {
     Scene scene = triangleScene();
     scene.materials[0].alphaMode = AlphaMode::blend;
-    scene.instances.assign(30, {"", 0, glm::mat4(1)}); // 15 times, each counted half
+    scene.instances.assign(60, {"", 0, glm::mat4(1)}); // 30 times, each counted half
     EXPECT_EQ(refusalOf(scene, triangleView()), "");
-    EXPECT_NE(refusalOf(scene, triangleView(), 2).find("its translucent triangles cover the picture 15 times over"),
+    EXPECT_NE(refusalOf(scene, triangleView(), 2).find("its translucent triangles cover the picture 30 times over"),
               std::string::npos);
     scene.materials[0].coat.strength = 1;
-    EXPECT_NE(refusalOf(scene, triangleView()).find("expected at most 8"), std::string::npos);
+    EXPECT_NE(refusalOf(scene, triangleView()).find("expected at most 16"), std::string::npos);
 }
 
 TEST(SceneParts, ofLongEdgesAreRefusedUnlessTheModelIsLarge)
@@ -188,12 +188,12 @@ TEST(SceneParts, ofLongEdgesAreRefusedUnlessTheModelIsLarge)
     Scene scene = triangleScene();
     scene.meshes[0].positions = {{0, 0, 0}, {1e-4f, 0, 0}, {0, 1, 0}};
     View view = triangleView();
-    scene.instances.assign(300, {"", 0, glm::mat4(1)}); // each about 84 pixels more than 16
-    EXPECT_NE(refusalOf(scene, view).find("the long edges of its triangles fill the picture 3 times over"),
+    scene.instances.assign(600, {"", 0, glm::mat4(1)}); // each about 84 pixels more than 16
+    EXPECT_NE(refusalOf(scene, view).find("the long edges of its triangles fill the picture 5 times over"),
               std::string::npos);
-    scene.instances.resize(200);
+    scene.instances.resize(400);
     EXPECT_EQ(refusalOf(scene, view), "");
-    scene.instances.assign(300, {"", 0, glm::mat4(1)});
+    scene.instances.assign(600, {"", 0, glm::mat4(1)});
     scene.meshes[1].positions.resize(101'000);
     EXPECT_EQ(refusalOf(scene, view), "");
 }
@@ -203,10 +203,10 @@ TEST(SceneParts, underVeryManyLightsAreRefused)
     Scene scene = triangleScene();
     scene.instances = {{"", 0, glm::mat4(1)}};
     View view = triangleView();
-    view.lights.resize(990);
+    view.lights.resize(1990);
     EXPECT_EQ(refusalOf(scene, view), "");
-    view.lights.resize(1010); // on half the picture
-    EXPECT_NE(refusalOf(scene, view).find("its lights shine on the picture 505 times over"), std::string::npos);
+    view.lights.resize(2010); // on half the picture
+    EXPECT_NE(refusalOf(scene, view).find("its lights shine on the picture 1005 times over"), std::string::npos);
     view.output = Output::normal; // nothing is lit
     EXPECT_EQ(refusalOf(scene, view), "");
 }

@@ -6,6 +6,8 @@
 #include <set>
 #include <string_view>
 
+#include <fmt/ranges.h>
+
 #include "file.hpp"
 #include "schema.hpp"
 

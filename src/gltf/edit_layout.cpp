@@ -1,6 +1,8 @@
 // From a changed document to one JSON and one buffer.
 #include <algorithm>
 
+#include <fmt/ranges.h>
+
 #include "edit_state.hpp"
 
 namespace cotan::gltf_edit {

@@ -146,7 +146,8 @@ void Textures::request(const Scene& scene, const MapUse& use, std::vector<MipReq
     r.format = texelFormat(image.type, use.kind, device_->filterable16, device_->filterable32);
     // Mesa's CPU driver rounds what it filters from 8 bits to 8 bits: 0.2 degrees of a normal. With 16 bits a map of
     // 8192 x 8192 would take 1.7 GiB.
-    if (use.kind == TextureKind::normal && image.data.size() <= kMostWidened && r.format == TexelFormat::unorm8 && device_->cpu && device_->filterable16)
+    if (use.kind == TextureKind::normal && image.data.size() <= kMostWidened && r.format == TexelFormat::unorm8
+        && device_->cpu && device_->filterable16)
         r.format = TexelFormat::unorm16;
     r.largest = int(device_->limits.maxImageDimension2D);
     missing.push_back(r);

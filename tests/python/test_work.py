@@ -177,7 +177,7 @@ def test_memory_is_flat_in_a_loop(tmp_path):
     model = write_stretched(tmp_path)
     cotan.write_picture(tmp_path / "large.png", np.zeros((1024, 1024, 4), np.uint8))
     high, used = bumps(200), []
-    for _ in range(24):
+    for _ in range(40):
         cotan.bake(square(), cotan.Model(high), size=64, mask=True)  # 2 MiB
         cotan.render(model, size=(32, 32), environment="none", device="reference", ground="off")
         cotan.lint(model)
@@ -188,7 +188,7 @@ def test_memory_is_flat_in_a_loop(tmp_path):
             with pytest.raises(cotan.Error):
                 wrong()
         used.append(resident())
-    assert used[-1] - used[7] < 45, used  # 16 turns of 6 MiB each; heaps of threads fill by up to 30 and stay
+    assert used[-1] - used[7] < 60, used  # 32 turns of 2 MiB and more; heaps of threads fill by up to 50 and stay
 
 
 def test_views_of_pictures_outlive_what_they_were_made_of(tmp_path):
