@@ -96,9 +96,9 @@ public:
         commands_.endRendering();
         commands_.writeTimestamp2(vk::PipelineStageFlagBits2::eAllCommands, *queries_, 1);
         submit();
-        const auto ticks = queries_.getResults<std::uint64_t>(
+        [[maybe_unused]] const auto [result, ticks] = queries_.getResults<std::uint64_t>(
             0, 2, 16, 8, vk::QueryResultFlagBits::e64 | vk::QueryResultFlagBits::eWait);
-        return double(ticks.second[1] - ticks.second[0]) * device_.nanoseconds;
+        return double(ticks[1] - ticks[0]) * device_.nanoseconds;
     }
 
 private:
