@@ -8,7 +8,7 @@ from .meshes import mesh_of, got, placed
 from .refused import Refused
 
 
-FOREVER = 1e18  # a reach without a limit, far from what float can square
+FOREVER = 1e17  # the largest reach that the library takes: none that a mesh could need is over it
 
 
 def _around(surface, cage, depsgraph, low):
