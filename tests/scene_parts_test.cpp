@@ -191,7 +191,7 @@ TEST(SceneParts, ofLongEdgesAreRefusedUnlessTheModelIsLarge)
     scene.instances.assign(600, {"", 0, glm::mat4(1)}); // each about 84 pixels more than 16
     EXPECT_NE(refusalOf(scene, view).find("the long edges of its triangles fill the picture 5 times over"),
               std::string::npos);
-    scene.instances.resize(400);
+    scene.instances.resize(300);
     EXPECT_EQ(refusalOf(scene, view), "");
     scene.instances.assign(600, {"", 0, glm::mat4(1)});
     scene.meshes[1].positions.resize(101'000);

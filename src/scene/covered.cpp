@@ -21,7 +21,7 @@ constexpr double kMostCovered = 128; // by what hides what is behind
 constexpr double kMostLayers = 16; // by what is translucent: each is shaded, and put in order
 constexpr double kPlainLayer = 0.5; // of such a one without a coat and the like
 constexpr double kMostLights = 1000; // times what is covered, at most once
-constexpr double kMostEdges = 4;    // by pixels along long edges, of which each is shaded and shows little
+constexpr double kMostEdges = 3;    // by pixels along long edges, of which each is shaded and shows little
 constexpr double kLongEdge = 16;    // pixels: shorter ones are what many small triangles have
 constexpr double kFewVertices = 30'000; // models of n times as many may take n times as long
 
