@@ -95,9 +95,8 @@ double Passes::run(Pass pass)
     gpu_.queue.waitIdle();
     if (gpu_.physical.getQueueFamilyProperties()[0].timestampValidBits == 0)
         return std::numeric_limits<double>::quiet_NaN();
-    const auto ticks =
-        times_.getResults<std::uint64_t>(0, 2, 16, 8, vk::QueryResultFlagBits::e64 | vk::QueryResultFlagBits::eWait)
-            .second;
+    [[maybe_unused]] const auto [result, ticks] =
+        times_.getResults<std::uint64_t>(0, 2, 16, 8, vk::QueryResultFlagBits::e64 | vk::QueryResultFlagBits::eWait);
     return double(ticks[1] - ticks[0]) * double(gpu_.physical.getProperties().limits.timestampPeriod) * 1e-6;
 }
 

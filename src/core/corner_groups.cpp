@@ -58,6 +58,7 @@ struct Chains {
     // Empty where corner k is the only one of vertex k.
     LargeArray<std::uint32_t> firstOfVertex, nextOfCorner;
 
+    bool cornersAreVertices() const { return !nextOfCorner; }
     std::uint32_t firstCorner(std::uint32_t vertex) const { return firstOfVertex ? firstOfVertex[vertex] : vertex; }
     std::uint32_t nextCorner(std::uint32_t corner) const { return nextOfCorner ? nextOfCorner[corner] : kNone; }
 };
@@ -128,18 +129,33 @@ float addCorner(const Edges& e, glm::vec3 n, Sum& sum)
     return weight;
 }
 
-[[gnu::always_inline]] inline CornerEdges edgesIn(const MeshView& mesh, std::size_t c, glm::vec3 normal, glm::vec3 unit)
+// What vertices that are equal share.
+struct Shared {
+    glm::vec3 position, normal, unit; // unit: the normal at length 1
+    glm::vec2 texcoord;
+
+    Shared(const MeshView& mesh, std::uint32_t vertex)
+        : position(mesh.positions[vertex]), normal(mesh.normals[vertex]),
+          unit(f32::cotan_normalize_or(normal, glm::vec3(0))), texcoord(mesh.texcoords[vertex])
+    {
+    }
+};
+
+// Of corner c. kIsVertex: corner k is the only one of vertex k, so that no index has to be read.
+template<bool kIsVertex>
+[[gnu::always_inline]] inline CornerEdges edgesIn(const MeshView& mesh, std::size_t c, const Shared& at)
 {
     const std::size_t k = c % 3;
-    // Without branches, which nobody could foresee.
-    const std::uint32_t at = mesh.indices[c], next = mesh.indices[c + 1 - 3 * std::size_t(k == 2)],
-                        previous = mesh.indices[c - 1 + 3 * std::size_t(k == 0)];
-    return {mesh.positions[next] - mesh.positions[at],
-            mesh.positions[previous] - mesh.positions[at],
-            mesh.texcoords[next] - mesh.texcoords[at],
-            mesh.texcoords[previous] - mesh.texcoords[at],
-            normal,
-            unit};
+    // Without branches, which no processor could predict.
+    const std::size_t nextCorner = c + 1 - 3 * std::size_t(k == 2), previousCorner = c - 1 + 3 * std::size_t(k == 0);
+    const std::size_t next = kIsVertex ? nextCorner : mesh.indices[nextCorner],
+                      previous = kIsVertex ? previousCorner : mesh.indices[previousCorner];
+    return {mesh.positions[next] - at.position,
+            mesh.positions[previous] - at.position,
+            mesh.texcoords[next] - at.texcoord,
+            mesh.texcoords[previous] - at.texcoord,
+            at.normal,
+            at.unit};
 }
 
 // The averages of vertices that are equal. Corners of several vertices are derived side by side; in WebAssembly one by
@@ -192,25 +208,32 @@ private:
     // Puts all corners into lanes, or none where they do not fit.
     bool gathered(std::uint32_t first)
     {
-        const glm::vec3 unit = f32::cotan_normalize_or(mesh_.normals[first], glm::vec3(0));
+        const Shared at(mesh_, first);
         std::size_t lane = lanes_->count;
-        for (std::uint32_t v = first; v != kNone; v = chains_.equalVertex[v])
-            for (std::uint32_t c = chains_.firstCorner(v); c != kNone; c = chains_.nextCorner(c)) {
+        if (chains_.cornersAreVertices()) {
+            for (std::uint32_t v = first; v != kNone; v = chains_.equalVertex[v]) {
                 if (lane == CornerLanes::kLanes)
                     return false;
-                lanes_->put(lane++, edgesIn(mesh_, c, mesh_.normals[v], unit));
+                lanes_->put(lane++, edgesIn<true>(mesh_, v, at));
             }
+        } else {
+            for (std::uint32_t v = first; v != kNone; v = chains_.equalVertex[v])
+                for (std::uint32_t c = chains_.firstCorner(v); c != kNone; c = chains_.nextCorner(c)) {
+                    if (lane == CornerLanes::kLanes)
+                        return false;
+                    lanes_->put(lane++, edgesIn<false>(mesh_, c, at));
+                }
+        }
         lanes_->count = lane;
         return true;
     }
 
     void addOneByOne(std::uint32_t first)
     {
-        const glm::vec3 unit = f32::cotan_normalize_or(mesh_.normals[first], glm::vec3(0));
+        const Shared at(mesh_, first);
         Sum sums[2]; // by side
         for (std::uint32_t v = first; v != kNone; v = chains_.equalVertex[v])
-            sides_[v] = addVertex(
-                v, sums, [&](std::uint32_t c) { return gradientsOf(edgesIn(mesh_, c, mesh_.normals[v], unit)); });
+            sides_[v] = addVertex(v, sums, [&](std::uint32_t c) { return gradientsOf(edgesIn<false>(mesh_, c, at)); });
         storeAll(first, sums);
     }
 
