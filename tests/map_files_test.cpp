@@ -59,6 +59,26 @@ protected:
     const fs::path map = folder / "map.png", out = folder / "out.png";
 };
 
+TEST_F(MapFiles, workOnASmallFileIsHeldToItsSize)
+{
+    // One colour, which a PNG holds in a few hundred bytes. Decoding it is within the budget, work on it is not.
+    const fs::path flat = folder / "flat.png";
+    ASSERT_TRUE(writeImage(flat, Image{"", 512, 512, PixelType::unorm8, std::vector(4 * 512 * 512, std::byte{128})}));
+    maps::FileOptions files;
+    const double size = double(fs::file_size(flat));
+    const auto leftBeyond = [&](double bytes) { files.limits.imageBytesBeyond = std::size_t(bytes - 128 * size); };
+    ASSERT_GT(4.0 * 512 * 512, 128 * size); // else there is nothing to be refused
+
+    leftBeyond(4.0 * 512 * 512 + 1);
+    const auto height = maps::heightFromNormalsFile(flat, out, {.from = asGltf()}, files);
+    const auto mips = maps::writeMips(flat, out, {.from = asGltf(), .to = asGltf()}, files);
+    ASSERT_FALSE(height);
+    ASSERT_FALSE(mips);
+    EXPECT_NE(height.error().message.find("the solver takes"), std::string::npos) << height.error().message;
+    EXPECT_NE(mips.error().message.find("the chain takes"), std::string::npos) << mips.error().message;
+    EXPECT_FALSE(fs::exists(out));
+}
+
 TEST_F(MapFiles, aCallThatIsStoppedSaysSoAndLeavesNoFile)
 {
     std::ofstream(folder / "quad.obj")

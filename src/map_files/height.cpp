@@ -107,9 +107,13 @@ Result<ToHeightFile> heightFromNormalsFile(const std::filesystem::path& file, co
     const auto bits = bitsOfHeights(o.bits, map->type, out);
     if (!bits)
         return bits.error();
-    if (const std::size_t bytes = heightWorkBytes(map->width, map->height, o.boundary); bytes > files.limits.imageBytes)
-        return inputError(fmt::format("{}: the solver takes {} MiB for {} x {}, the limit is {}", file.string(),
-                                      (bytes >> 20) + 1, map->width, map->height, files.limits.imageBytes >> 20));
+    // Heights that do not repeat take a third of the memory, and as long: both are held to the same size.
+    const std::size_t work = heightWorkBytes(map->width, map->height, Boundary::periodic),
+                      most = workBudget(file, files.limits);
+    if (work > most)
+        return inputError(
+            fmt::format("{}: the solver takes {} MiB for {} x {}, the limit is {} MiB for a file of this size",
+                        file.string(), (work >> 20) + 1, map->width, map->height, most >> 20));
     double unit = 1, aspect = 1;
     if (o.metres) {
         unit = o.metres->width / map->width;

@@ -1,5 +1,8 @@
 #include "cotan/map_files/map_file.hpp"
 
+#include <algorithm>
+#include <system_error>
+
 #include <fmt/format.h>
 
 #include "cotan/image/file.hpp"
@@ -16,6 +19,13 @@ bool holds(const ImageFormat& format, PixelType type)
 }
 
 } // namespace
+
+std::size_t workBudget(const std::filesystem::path& file, const LoadLimits& limits)
+{
+    std::error_code unknown;
+    const std::uintmax_t size = std::filesystem::file_size(file, unknown);
+    return std::min(limits.imageBytes, imageBudget(limits, unknown ? 0 : size));
+}
 
 Result<Bits> bitsFor(const std::string& wanted, PixelType input, const std::filesystem::path& file)
 {

@@ -124,9 +124,11 @@ Result<MippedFile> writeMips(const std::filesystem::path& file, const std::files
         return bits.error();
     // 32 bytes of moments for a quarter of the texels, and both pictures of all levels.
     const std::size_t work = map->pixelCount() * (8 + 11 * bytesPerComponent(bits->type));
-    if (work > 4 * files.limits.imageBytes)
-        return inputError(fmt::format("{}: the chain takes {} MiB, the limit is four times {}", file.string(),
-                                      work >> 20, files.limits.imageBytes >> 20));
+    const std::size_t most = 3 * workBudget(file, files.limits);
+    if (work > most)
+        return inputError(
+            fmt::format("{}: the chain takes {} MiB for {} x {}, the limit is {} MiB for a file of this size",
+                        file.string(), work >> 20, map->width, map->height, most >> 20));
     CountedSteps steps(files.progress, 3); // read, filtered, written
     if (!steps.step())
         return stoppedError();

@@ -55,7 +55,7 @@ struct ToHeightFile {
 };
 
 // The heights of a normal map; floats keep their unit, others go from black, the lowest, to white. The map is held
-// whole. Errors: as readImage and writeImage; ErrorKind::input: more memory than files.limits.imageBytes is needed;
+// whole. Errors: as readImage and writeImage; ErrorKind::input: more memory than workBudget() is needed;
 // ErrorKind::usage: "options.bits: ", "options.from: "; ErrorKind::stopped.
 Result<ToHeightFile> heightFromNormalsFile(const std::filesystem::path& map, const std::filesystem::path& out,
                                            const ToHeightFileOptions& options, const FileOptions& files = {});

@@ -50,6 +50,10 @@ struct LoadedMap {
     Convention convention;
 };
 
+// Bytes that work on a picture may take: as decoding it, 192 MiB and 128 times the size of its file, at most
+// limits.imageBytes. So a small file cannot ask for minutes. A file whose size is unknown counts as empty.
+std::size_t workBudget(const std::filesystem::path& file, const LoadLimits& limits);
+
 // Reads a map whole: two channels are brought to red and green. option: as for conventionOf. Errors: as readImage and
 // conventionOf.
 Result<LoadedMap> readMap(const std::filesystem::path& file, const StatedConvention& stated, const std::string& option,

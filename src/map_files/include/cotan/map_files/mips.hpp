@@ -36,7 +36,7 @@ struct MippedFile {
 // Writes all levels and the roughness that they need: a .dds or .ktx2 has both, the roughness in alpha; with
 // "bc5" OUT_roughness.dds has it, as BC4. OUT.png and others become OUT_0.png, OUT_roughness_0.png, OUT_1.png and so
 // on. The map and its levels are held whole. Errors: as readImage and writeImage; ErrorKind::input: the levels take
-// more than four times files.limits.imageBytes; ErrorKind::usage: "options.bits: ", "options.compress: ",
+// more than three times workBudget(); ErrorKind::usage: "options.bits: ", "options.compress: ",
 // "options.keepLengths: ", "options.to: "; ErrorKind::stopped, before anything is written.
 Result<MippedFile> writeMips(const std::filesystem::path& map, const std::filesystem::path& out,
                              const MipFileOptions& options, const FileOptions& files = {});
