@@ -26,6 +26,7 @@ Gpu openGpu()
     meshShader.meshShader = VK_TRUE;
     vk::PhysicalDeviceVulkan13Features v13;
     v13.dynamicRendering = v13.synchronization2 = v13.maintenance4 = VK_TRUE; // the last: sizes of work groups
+    v13.shaderDemoteToHelperInvocation = VK_TRUE;                             // what newer glslang makes of discard
     v13.pNext = gpu.meshShaders ? &meshShader : nullptr;
     vk::PhysicalDeviceVulkan12Features v12;
     v12.bufferDeviceAddress = VK_TRUE;

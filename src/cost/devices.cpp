@@ -76,7 +76,8 @@ void open(Device& d)
     vk::PhysicalDeviceVulkan13Features use13;
     use13.dynamicRendering = VK_TRUE;
     use13.synchronization2 = VK_TRUE;
-    use13.maintenance4 = VK_TRUE; // sizes of work groups, as SPIR-V for 1.3 states them
+    use13.shaderDemoteToHelperInvocation = VK_TRUE; // what newer glslang makes of discard
+    use13.maintenance4 = VK_TRUE;                   // sizes of work groups, as SPIR-V for 1.3 states them
     vk::PhysicalDevicePipelineExecutablePropertiesFeaturesKHR report(VK_TRUE);
     vk::PhysicalDeviceMeshShaderFeaturesEXT mesh(VK_FALSE, VK_TRUE);
     vk::PhysicalDeviceVulkan12Features use12;

@@ -195,6 +195,7 @@ void openLogicalDevice(Device& d)
     vk::PhysicalDeviceVulkan13Features use13;
     use13.dynamicRendering = VK_TRUE;
     use13.synchronization2 = VK_TRUE;
+    use13.shaderDemoteToHelperInvocation = VK_TRUE; // what newer glslang makes of discard; each device of 1.3 has it
     vk::PhysicalDeviceVulkan12Features use12;
     use12.bufferDeviceAddress = d.exact;
     use12.pNext = &use13;
