@@ -2,7 +2,7 @@
 #include <new>
 #include <system_error>
 
-#include <fmt/ranges.h>
+#include <fmt/format.h>
 
 #include "cotan/files/bytes.hpp"
 #include "edit_state.hpp"
@@ -49,26 +49,13 @@ void checkModel(GltfModel& model)
     checkCounts(model);
 }
 
-// What it costs that packed geometry is written plain.
-std::string packedNote(const GltfFile& file, const std::vector<std::string>& extensions)
-{
-    std::size_t plain = 0;
-    for (const std::vector<std::byte>& bytes : file.unpackedBytes)
-        plain += bytes.size();
-    return fmt::format(
-        "{}: decoded; the geometry is written plain, {} bytes that were {}; \"gltf-transform {}\" packs it "
-        "again, glTF-Transform's untangent keeps it packed",
-        fmt::join(extensions, " and "), plain, file.packed,
-        extensions.front().find("draco") != std::string::npos ? "draco" : "meshopt");
-}
-
 GltfDocument open(const std::filesystem::path& path, const LoadLimits& limits)
 {
     GltfModel model;
     model.limits = limits;
     model.file = openGltf(path, limits, model.warnings);
     const std::size_t modelBytes = model.file.size; // buffers are added to it
-    const std::vector<std::string> unpacked = readGltfModel(model);
+    readGltfModel(model);
     checkModel(model);
 
     auto source = std::make_shared<GltfSource>();
@@ -81,8 +68,6 @@ GltfDocument open(const std::filesystem::path& path, const LoadLimits& limits)
     rootOf(document) = source->root;
     if (!rootOf(document).contains("bufferViews")) // a member that is added later would leave no reference in place
         rootOf(document)["bufferViews"] = Json::array();
-    if (!unpacked.empty())
-        document.notes.push_back(packedNote(source->file, unpacked));
     document.source = std::move(source);
     return document;
 }

@@ -12,7 +12,10 @@ namespace {
 // Items that the file used, or that were added, and that nothing uses now.
 std::vector<bool> released(const GltfDocument& document, Collection collection)
 {
-    const std::vector<bool> before = usedItems(document.source->root, collection);
+    std::vector<bool> before = usedItems(document.source->root, collection);
+    if (collection == Collection::bufferViews) // decoded, nothing refers to them
+        for (const GltfPacked::Primitive& packed : document.source->file.packed.primitives)
+            before[packed.draco["bufferView"].get<std::size_t>()] = true;
     std::vector<bool> removed = usedItems(rootOf(document), collection);
     for (std::size_t i = 0; i < removed.size(); ++i)
         removed[i] = !removed[i] && (i >= before.size() || before[i]);
@@ -27,6 +30,7 @@ struct Part {
     std::span<const std::byte> bytes;
     bool fromFile = false;
     std::size_t buffer = 0, offset = 0;
+    const Json* packed = nullptr; // in the file it is compressed, and says this: the bytes are those
 };
 
 std::vector<Part> partsOf(const GltfDocument& document)
@@ -38,6 +42,15 @@ std::vector<Part> partsOf(const GltfDocument& document)
         parts[i].fromFile = i < old;
         if (!parts[i].fromFile)
             continue;
+        if (const Json* const packed = packedView(document, i)) {
+            const Json& extension = (*packed)["extensions"][meshoptName(*packed)];
+            parts[i].packed = packed;
+            parts[i].buffer = extension["buffer"].get<std::size_t>();
+            parts[i].offset = gltf::valueOr(extension, "byteOffset", std::size_t(0));
+            parts[i].bytes = document.source->file.buffers[parts[i].buffer].subspan(
+                parts[i].offset, extension["byteLength"].get<std::size_t>());
+            continue;
+        }
         const gltf::BufferView view = gltf::readBufferView(document.source->root["bufferViews"][i]);
         parts[i].buffer = view.buffer;
         parts[i].offset = view.offset;
@@ -53,6 +66,18 @@ void alignFor(std::vector<std::byte>& buffer, std::size_t offset)
 void place(Layout& out, const Part& part, std::size_t offset)
 {
     Json& view = out.root["bufferViews"][part.view];
+    if (part.packed) {
+        const std::string name = meshoptName(*part.packed);
+        view = *part.packed;
+        view["buffer"] = 1;
+        view["byteOffset"] = out.decoded;
+        out.decoded += (view["byteLength"].get<std::size_t>() + 3) / 4 * 4;
+        out.packers.insert(name);
+        Json& extension = view["extensions"][name];
+        extension["buffer"] = 0;
+        extension["byteOffset"] = offset;
+        return;
+    }
     view["buffer"] = 0;
     if (offset > 0 || view.contains("byteOffset"))
         view["byteOffset"] = offset;
@@ -95,7 +120,7 @@ void describeBuffer(GltfDocument& document, Layout& out)
     Json first = Json::object();
     if (const std::size_t count = countOf(out.root, "buffers"); count > 0) {
         first = out.root["buffers"][0];
-        if (count > 1 && document.source->file.unpackedBytes.empty()) // of those the extension's note tells
+        if (count > 1 && document.source->file.unpackedBytes.empty()) // else that is how they were decoded
             document.notes.push_back(
                 fmt::format("buffers: {} were joined into one; names and extras of the first are kept", count));
     }
@@ -105,12 +130,21 @@ void describeBuffer(GltfDocument& document, Layout& out)
         out.root.erase("buffers");
     else
         out.root["buffers"] = Json::array({std::move(first)});
+    if (out.decoded == 0)
+        return;
+    Json fallback = {{"byteLength", out.decoded}}; // where the decoded numbers go: no bytes of the file
+    for (const std::string& name : out.packers) {
+        fallback["extensions"][name] = {{"fallback", true}};
+        addExtension(out.root, document.source->file.packed, name);
+    }
+    out.root["buffers"].push_back(std::move(fallback));
 }
 
 } // namespace
 
 Layout layOut(GltfDocument& document)
 {
+    restoreDraco(document);
     const std::vector<std::string> unknown = unknownExtensions(rootOf(document));
     const bool removes = unknown.empty();
     if (!removes && document.source->file.buffers.size() > 1)
@@ -129,6 +163,7 @@ Layout layOut(GltfDocument& document)
                                              oneLine(fmt::format("{}", fmt::join(unknown, ", ")))));
     }
 
+    notePlainViews(document);
     std::vector<Part> parts = partsOf(document);
     if (const auto views = released(document, Collection::bufferViews); removes && any(views)) {
         removeItems(rootOf(document), Collection::bufferViews, views);
@@ -141,7 +176,7 @@ Layout layOut(GltfDocument& document)
     for (std::size_t i = 0; i < parts.size(); ++i)
         parts[i].view = i;
 
-    Layout out{std::move(rootOf(document)), {}};
+    Layout out{std::move(rootOf(document)), {}, 0, {}};
     if (removes)
         appendFileParts(document, parts, out);
     else

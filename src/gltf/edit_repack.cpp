@@ -159,7 +159,7 @@ void repackViews(GltfDocument& document, const std::vector<bool>& removed)
     }
     const std::vector<bool> other = otherUses(rootOf(document));
     for (std::size_t view = 0; view < views; ++view) {
-        if (!lost[view] || kept[view].empty() || other[view])
+        if (!lost[view] || kept[view].empty() || other[view] || packedView(document, view)) // the last: as it came
             continue;
         const std::size_t stride = strideOf(document, view);
         std::vector<Cluster> whole;

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <functional>
 #include <map>
+#include <set>
 #include <span>
 #include <string>
 #include <vector>
@@ -88,11 +89,31 @@ void setTriangles(GltfDocument& document, Json& primitive, std::span<const std::
 // cut out, columns of interleaved views too. Such views are replaced by added ones.
 void repackViews(GltfDocument& document, const std::vector<bool>& removedAccessors);
 
+// ---- edit_packed.cpp --------------------------------------------------------------------------
+
+// Gives primitives their Draco stream back where their vertices and indices are those of the file. Attributes that were
+// dropped since are in it still, and nothing names them. Notes what is written plain.
+void restoreDraco(GltfDocument& document);
+
+// Lists an extension as used, and as required where the file requires it.
+void addExtension(Json& root, const GltfPacked& packed, const std::string& name);
+
+// The extension by which a view is compressed with meshoptimizer.
+std::string meshoptName(const Json& view);
+
+// The view that meshoptimizer compressed, where it still is that of the file: its JSON as the file has it; else null.
+const Json* packedView(const GltfDocument& document, std::size_t view);
+
+// Notes the bytes of views that were compressed and are written plain: those that are used and not packedView().
+void notePlainViews(GltfDocument& document);
+
 // ---- edit_layout.cpp --------------------------------------------------------------------------
 
 struct Layout {
     Json root;
-    std::vector<std::byte> buffer; // the only one; empty: none
+    std::vector<std::byte> buffer; // the only one with bytes; empty: none
+    std::size_t decoded = 0;       // bytes of the views that stay compressed, once somebody decodes them
+    std::set<std::string> packers; // the extensions of these
 };
 
 // Removes what has fallen out of use and joins all bytes. `document` is used up; notes go there.

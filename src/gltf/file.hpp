@@ -23,6 +23,20 @@ struct GltfResource {
     std::vector<std::byte> bytes;
 };
 
+// Compressed geometry as the file has it, for who writes the file again: nobody has to compress what nobody changed.
+struct GltfPacked {
+    struct Primitive {
+        std::size_t mesh = 0, primitive = 0;
+        gltf::Json draco;      // what KHR_draco_mesh_compression says
+        int indices = 0;       // the accessor
+        gltf::Json attributes; // by name the accessors
+    };
+    std::vector<Primitive> primitives;
+    std::map<int, gltf::Json> accessors;     // those that the streams fill, as the file has them
+    std::map<std::size_t, gltf::Json> views; // those of meshoptimizer, likewise
+    std::vector<std::string> required;       // which of the extensions the file requires
+};
+
 struct GltfFile {
     std::function<Result<std::vector<std::byte>>(const std::string&)> readFile; // in place of the disk; LoadLimits
     std::filesystem::path folder;                                               // canonical; nothing outside is opened
@@ -37,7 +51,7 @@ struct GltfFile {
     std::vector<std::vector<std::byte>> bufferBytes;                     // decoded data URIs
     std::vector<std::vector<std::byte>> unpackedBytes;                   // of buffers that unpackGltf has made
     std::size_t unpacked = 0;                                            // how many bytes those are
-    std::size_t packed = 0;                                              // and how many they were made of
+    GltfPacked packed;                                                   // what they were made of
 };
 
 // Reads the file, splits a GLB into chunks and parses the JSON. Every length is checked against

@@ -8,16 +8,15 @@
 
 namespace cotan {
 
-std::vector<std::string> readGltfModel(GltfModel& model)
+void readGltfModel(GltfModel& model)
 {
     checkGltfShape(model.file.json, model.limits, model.warnings);
     loadGltfBuffers(model.file, model.limits);
-    std::vector<std::string> unpacked = unpackGltf(model.file, model.limits);
+    unpackGltf(model.file, model.limits);
     chooseGltfVariant(model);
     model.structure = gltf::readStructure(model.file.json);
     findGltfAccessors(model);
     poseGltf(model);
-    return unpacked;
 }
 
 void takeGltfBytes(GltfModel& model, std::size_t bytes, const std::string& field)

@@ -33,9 +33,8 @@ struct GltfModel {
 };
 
 // Reads what `file`, just opened, holds, within `limits`: checks the JSON, loads the buffers, decodes compressed
-// geometry (unpack.hpp), fills the structure, the views and the accessors, moves the nodes (animate.hpp). Returns the
-// names of the extensions that were decoded.
-std::vector<std::string> readGltfModel(GltfModel& model);
+// geometry (unpack.hpp), fills the structure, the views and the accessors, moves the nodes (animate.hpp).
+void readGltfModel(GltfModel& model);
 
 // The bytes that the geometry of this file may take: a part that every file has, and so many times
 // its own size that only what is not in the file, or is read again and again, can go beyond it.

@@ -45,18 +45,26 @@ class Unpacker {
 public:
     Unpacker(GltfFile& file, const LoadLimits& limits) : file_(file), limits_(limits) {}
 
-    std::vector<std::string> run()
+    void run()
     {
         for (const char* const name : kMeshopt)
             unpackViews(name);
         readDracoJobs();
         unpackPrimitives();
-        for (const char* const name : {kMeshopt[0], kMeshopt[1], kDraco})
+        for (const char* const name : {kMeshopt[0], kMeshopt[1], kDraco}) {
+            if (requiresExtension(name))
+                file_.packed.required.emplace_back(name);
             takeOffExtension(file_.json, name);
-        return {decoded_.begin(), decoded_.end()};
+        }
     }
 
 private:
+    bool requiresExtension(const char* name) const
+    {
+        const Json* const required = gltf::member(file_.json, "extensionsRequired");
+        return required && std::find(required->begin(), required->end(), name) != required->end();
+    }
+
     // Counts bytes before they are decoded. Numbers are below 2^60.
     void take(std::size_t bytes, const std::string& field)
     {
@@ -96,7 +104,7 @@ private:
             if (!packed)
                 continue;
             if (isGltfFallback(file_.json["buffers"][view["buffer"].get<std::size_t>()]))
-                unpackView(view, *packed, fmt::format("bufferViews[{}].extensions.{}", i, name), name);
+                unpackView(i, *packed, fmt::format("bufferViews[{}].extensions.{}", i, name));
             takeOut(view, name);
         }
         if (const auto buffers = file_.json.find("buffers"); buffers != file_.json.end())
@@ -104,8 +112,9 @@ private:
                 takeOut(buffer, name);
     }
 
-    void unpackView(Json& view, const Json& packed, const std::string& field, const std::string& name)
+    void unpackView(std::size_t index, const Json& packed, const std::string& field)
     {
+        Json& view = file_.json["bufferViews"][index];
         const std::size_t length = packed["byteLength"].get<std::size_t>();
         gltf::MeshoptView from{bytesOf(packed["buffer"].get<std::size_t>(),
                                        gltf::valueOr(packed, "byteOffset", std::size_t(0)), length, field),
@@ -116,11 +125,10 @@ private:
             failGltf("{}: expected {} bytes, as the view has, found {} elements of {} bytes", field,
                      view["byteLength"].get<std::size_t>(), from.count, from.stride);
         take(decoded, field);
-        file_.packed += length;
+        file_.packed.views.emplace(index, view);
         const Json plain = viewOf(gltf::decodeMeshopt(from, field));
         view["buffer"] = plain["buffer"];
         view.erase("byteOffset");
-        decoded_.insert(name);
     }
 
     // ---- Draco ----------------------------------------------------------------------------------------------------
@@ -188,6 +196,9 @@ private:
                 if (!draco)
                     continue;
                 auto job = jobOf(primitive, *draco, fmt::format("meshes[{}].primitives[{}]", m, p));
+                if (job)
+                    file_.packed.primitives.push_back(
+                        {m, p, *draco, primitive["indices"].get<int>(), primitive["attributes"]});
                 takeOut(primitive, kDraco);
                 // Primitives may share a stream and its accessors.
                 if (job && made_.emplace(targets_.back(), jobs_.size()).second)
@@ -204,8 +215,6 @@ private:
         auto meshes = decodeDraco(jobs_, "KHR_draco_mesh_compression", limits_);
         if (!meshes)
             throw GltfProblem{meshes.error().message, meshes.error().kind};
-        for (const DracoJob& job : jobs_)
-            file_.packed += job.bytes.size();
         std::set<int> filled;
         for (std::size_t i = 0; i < jobs_.size(); ++i) {
             std::vector<std::vector<std::byte>>& arrays = (*meshes)[i].attributes;
@@ -215,6 +224,7 @@ private:
                     failGltf("{}: accessors[{}] belongs to another compressed primitive too", jobs_[i].field,
                              targets_[i][k]);
                 Json& target = accessor(targets_[i][k]);
+                file_.packed.accessors.emplace(targets_[i][k], target);
                 target["bufferView"] = file_.json["bufferViews"].size();
                 target.erase("byteOffset");
                 const std::size_t each = k + 1 < arrays.size() ? arrays[k].size() / jobs_[i].vertices : 4;
@@ -229,12 +239,10 @@ private:
                     gltf::renewBounds(target, {a, {bytes.data(), bytes.size() / a.count, a.count}, {}, {}});
             }
         }
-        decoded_.insert(kDraco);
     }
 
     GltfFile& file_;
     const LoadLimits& limits_;
-    std::set<std::string> decoded_;
     std::vector<DracoJob> jobs_;
     std::vector<std::vector<int>> targets_;        // the accessors of each job: attributes, then indices
     std::map<std::vector<int>, std::size_t> made_; // jobs by their accessors
@@ -242,6 +250,6 @@ private:
 
 } // namespace
 
-std::vector<std::string> unpackGltf(GltfFile& file, const LoadLimits& limits) { return Unpacker(file, limits).run(); }
+void unpackGltf(GltfFile& file, const LoadLimits& limits) { Unpacker(file, limits).run(); }
 
 } // namespace cotan

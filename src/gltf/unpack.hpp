@@ -14,9 +14,9 @@ namespace cotan {
 // the JSON: nothing behind this has to know of them. Where the plain numbers are in the file too, those are taken. The
 // buffers must be loaded. Decoded bytes count in GltfFile::unpacked; over limits.geometryBytes and 64 times the size of
 // the file they are refused before they are decoded.
-// Returns the names of the extensions that were decoded. Throws GltfProblem: damaged streams; ErrorKind::unavailable
+// Throws GltfProblem: damaged streams; ErrorKind::unavailable
 // where this build lacks the decoder.
-std::vector<std::string> unpackGltf(GltfFile& file, const LoadLimits& limits);
+void unpackGltf(GltfFile& file, const LoadLimits& limits);
 
 namespace gltf {
 

@@ -54,8 +54,8 @@ struct GltfDocument {
 };
 
 // Reads a .gltf or .glb with its buffers, with the checks and limits of loadGltf except that images
-// are not opened. Compressed geometry is decoded, and is plain in the document; a note says so. Errors: those of
-// loadGltf.
+// are not opened. Compressed geometry is decoded, and is plain in the document; writing puts the file's own streams in
+// the place of what nobody changed. Errors: those of loadGltf.
 Result<GltfDocument> openGltfDocument(const std::filesystem::path& file, const LoadLimits& limits = {});
 
 // The file that a document was read from, for messages; empty for one that was made from a scene.
