@@ -17,7 +17,7 @@ namespace cotan {
 namespace {
 
 constexpr double kSeen = 0.5;     // degrees on average over a map: below, nobody sees a difference
-constexpr double kMostRows = 1e8; // of texels under all triangles together
+constexpr double kMostRows = 4e7; // of texels under all triangles together
 
 class ModelConverter {
 public:

@@ -17,13 +17,14 @@ namespace {
 // All in times the picture. On Mesa's driver for the CPU, 1280 x 720 pixels at one of these limits take about 10 s of
 // processor.
 constexpr double kDroppedFrom = 20; // from which on it is worth looking for triangles that repeat
-constexpr double kMostCovered = 128; // by what hides what is behind
-constexpr double kMostLayers = 16; // by what is translucent: each is shaded, and put in order
+constexpr double kMostCovered = 96; // by what hides what is behind
+constexpr double kMostLayers = 16;  // by what is translucent: each is shaded, and put in order
 constexpr double kPlainLayer = 0.5; // of such a one without a coat and the like
-constexpr double kMostLights = 1000; // times what is covered, at most once
+constexpr double kMostLights = 400; // times what is covered, at most once
 constexpr double kMostEdges = 3;    // by pixels along long edges, of which each is shaded and shows little
 constexpr double kLongEdge = 16;    // pixels: shorter ones are what many small triangles have
-constexpr double kFewVertices = 30'000; // models of n times as many may take n times as long
+constexpr double kFewPoints =
+    30'000; // models of n times as many vertices, each in its own place, may take n times as long
 
 // A camera's axes and scales.
 struct Seeing {
@@ -37,8 +38,7 @@ struct Seeing {
         const CameraAxes axes = cameraAxes(camera);
         eye = axes.eye, forward = axes.forward, right = axes.right, up = axes.up;
         orthographic = camera.orthographic;
-        scale =
-            orthographic ? 2 / double(camera.verticalExtent) : 1 / std::tan(double(camera.verticalFieldOfView) / 2);
+        scale = orthographic ? 2 / double(camera.verticalExtent) : 1 / std::tan(double(camera.verticalFieldOfView) / 2);
     }
     // Beside the middle and above it, in halves of the picture's height times the distance; and the distance.
     glm::dvec3 operator()(const glm::dvec3& p) const
@@ -72,8 +72,7 @@ Pixels pixelsOf(const std::array<glm::dvec3, 3>& seen, double width, double heig
     const double area = (a.x * b.y - a.y * b.x) / 2;
     if (area * side < 0)
         return {};
-    return {std::min(std::abs(area), box.x * box.y),
-            std::max(0.0, glm::length(box) - kLongEdge)};
+    return {std::min(std::abs(area), box.x * box.y), std::max(0.0, glm::length(box) - kLongEdge)};
 }
 
 struct Covered {
@@ -106,6 +105,26 @@ Covered coveredBy(const Scene& scene, const View& view)
     return all;
 }
 
+bool isTooMuch(const Covered& covered, double picture)
+{
+    return covered.opaque > kMostCovered * picture || covered.translucent > kMostLayers * picture
+        || covered.edges > kMostEdges * picture;
+}
+
+// How many places the vertices of all meshes are in. Not how many vertices there are: a loader may have made them,
+// three for each triangle, of a few places.
+std::size_t placesOf(const Scene& scene)
+{
+    std::size_t places = 0;
+    for (const Mesh& mesh : scene.meshes) {
+        std::vector<std::array<float, 3>> own(mesh.positions.size());
+        std::ranges::transform(mesh.positions, own.begin(), [](glm::vec3 p) { return std::array{p.x, p.y, p.z}; });
+        std::ranges::sort(own);
+        places += std::size_t(std::ranges::unique(own).begin() - own.begin());
+    }
+    return places;
+}
+
 Error tooMuch(const Scene& scene, const std::string& what, double found, double most, const std::string& advice)
 {
     return inputError(scene.name + ": " + what + " " + std::to_string(std::llround(found))
@@ -122,16 +141,14 @@ double pixelsCovered(const Scene& scene, const View& view)
 
 Status settleCovered(Scene& scene, const View& view, std::size_t pictures)
 {
-    double vertices = 0;
-    for (const Mesh& mesh : scene.meshes)
-        vertices += double(mesh.vertexCount());
-    const double picture =
-        double(view.width) * view.height / double(pictures) * std::max(1.0, vertices / kFewVertices);
+    double picture = double(view.width) * view.height / double(pictures);
     Covered covered = coveredBy(scene, view);
     if (covered.opaque > kDroppedFrom * picture) {
         dropRepeated(scene);
         covered = coveredBy(scene, view);
     }
+    if (isTooMuch(covered, picture)) // only then: it takes time
+        picture *= std::max(1.0, double(placesOf(scene)) / kFewPoints);
     const char* const further = "look from further away, or leave some out";
     if (covered.opaque > kMostCovered * picture)
         return tooMuch(scene, "its triangles cover the picture", covered.opaque / picture, kMostCovered, further);
