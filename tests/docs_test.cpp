@@ -175,14 +175,14 @@ std::string helpOf(const std::vector<std::string>& words)
     return entry->second;
 }
 
-// docs/architecture.md: a row for each folder of src, and no other; the picture has them all.
+// docs/project/architecture.md: a row for each folder of src, and no other; the picture has them all.
 TEST(Documents, theHouseHasTheRoomsThatItsPlanShows)
 {
     std::set<std::string> folders, rows;
     for (const auto& entry : fs::directory_iterator(kSources / "src"))
         folders.insert(entry.path().filename().string());
-    const std::string plan = readWhole(kSources / "docs/architecture.md"),
-                      picture = readWhole(kSources / "docs/architecture.svg");
+    const std::string plan = readWhole(kSources / "docs/project/architecture.md"),
+                      picture = readWhole(kSources / "docs/project/architecture.svg");
     for (const std::string& row : matches(plan, std::regex("\\n\\| `([a-z_]+)` \\|"), 1))
         rows.insert(row);
     EXPECT_EQ(rows, folders);
@@ -203,10 +203,10 @@ std::string printed(const std::string& command)
     return text;
 }
 
-// docs/extending.md: under each heading with a grep, a list of the files that it prints and no other.
+// docs/project/extending.md: under each heading with a grep, a list of the files that it prints and no other.
 TEST(Documents, walkThroughsListTheFilesThatNameTheirExample)
 {
-    const std::string page = readWhole(kSources / "docs/extending.md");
+    const std::string page = readWhole(kSources / "docs/project/extending.md");
     std::size_t checked = 0;
     for (std::size_t at = page.find("\n## "); at != std::string::npos;) {
         const std::size_t next = page.find("\n## ", at + 1);
@@ -271,10 +271,10 @@ double fromAccuracy(const std::string& row, std::size_t column)
     return -1;
 }
 
-// A cell of the first table of docs/cost.md that has the row and the column.
+// A cell of the first table of docs/explanation/cost.md that has the row and the column.
 double fromCost(const std::string& row, const std::string& column)
 {
-    std::istringstream lines(readWhole(kSources / "docs/cost.md"));
+    std::istringstream lines(readWhole(kSources / "docs/explanation/cost.md"));
     std::vector<std::string> heads;
     for (std::string line; std::getline(lines, line);) {
         if (!line.starts_with("|"))
@@ -292,7 +292,7 @@ double fromCost(const std::string& row, const std::string& column)
                 return std::stod(cells[std::size_t(at - heads.begin())]);
         }
     }
-    ADD_FAILURE() << "docs/cost.md has no row " << row << " with " << column;
+    ADD_FAILURE() << "docs/explanation/cost.md has no row " << row << " with " << column;
     return -1;
 }
 
@@ -352,19 +352,19 @@ TEST(Documents, repeatNumbersAsTheMeasuredTablesHaveThem)
          "form above {}, "
          "stored tangents {} a pixel and {} a vertex)",
          {over("cotangent-fused"), over("cotangent-plain"), over("cotangent"), over("mikktspace"), over("tangent")}},
-        {"docs/cost.md",
+        {"docs/explanation/cost.md",
          "On NAVI21 totality costs {} instructions more than the fused form",
          {over("cotangent") - over("cotangent-fused")}},
-        {"docs/baking.md",
+        {"docs/how-to/bake.md",
          "second order: {} degrees on a sphere of 32 segments where `cotangent` has {}",
          {fromAccuracy(sphere(32, "smooth"), kMean), fromAccuracy(sphere(32, "cotangent"), kMean)},
          2},
-        {"docs/testing.md",
+        {"docs/project/testing.md",
          "{}/{}/{}/{};",
          {fromAccuracy(sphere(16, "cotangent"), kMean), fromAccuracy(sphere(32, "cotangent"), kMean),
           fromAccuracy(sphere(64, "cotangent"), kMean), fromAccuracy(sphere(128, "cotangent"), kMean)},
          2},
-        {"docs/testing.md",
+        {"docs/project/testing.md",
          "| {}/{}; 0 | `AccuracyBarB2`",
          {fromAccuracy(sphere(32, "smooth"), kMean), fromAccuracy(sphere(64, "smooth"), kMean)},
          2},

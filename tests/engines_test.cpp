@@ -1,4 +1,4 @@
-// The commands and the code of docs/engines.md, as a reader would put them together.
+// The commands and the code of docs/how-to/engines.md, as a reader would put them together.
 #include <cstdlib>
 #include <fstream>
 #include <regex>
@@ -15,7 +15,7 @@ namespace {
 // The text of one engine's section.
 std::string section(const std::string& engine)
 {
-    const std::string page = readWhole(std::filesystem::path(COTAN_SOURCE_DIR) / "docs/engines.md");
+    const std::string page = readWhole(std::filesystem::path(COTAN_SOURCE_DIR) / "docs/how-to/engines.md");
     const std::size_t start = page.find("\n## " + engine + "\n");
     if (start == std::string::npos)
         return {};
