@@ -133,6 +133,39 @@ TEST(Documents, noLineIsOverTheLimit)
     }
 }
 
+// Words that this project had to itself, outside of code and links: a reader of the field knows the others.
+TEST(Documents, speakTheTermsOfTheField)
+{
+    const std::vector<std::pair<const char*, const char*>> words = {
+        {R"(\bsurroundings\b)", "environment"},
+        {R"(\b(mend|mends|mended)\b)", "fix"},
+        {R"(\bhot spots?\b)", "problem areas"},
+        {R"(\bturned normals?\b)", "perturbed normal"},
+        {R"(\bstretched highlights?\b)", "anisotropic highlight"},
+        {R"(\b(a|the|this) pictures?\b)", "image"},
+        {R"(\bpictures\b)", "images"},
+        {R"(\bover and over\b)", "loop"},
+        {R"(\bsome [0-9])", "about"},
+        {R"(\bthe house\b)", "architecture"}};
+    // Made from comments and help texts, or by `cotan cost`; and a log.
+    const std::set<std::string> elsewhere = {"docs/explanation/cost.md",     "docs/project/testing.md",
+                                             "docs/reference/c.md",          "docs/reference/cpp.md",
+                                             "docs/reference/javascript.md", "docs/reference/command-line.md"};
+    for (const fs::path& file : documents()) {
+        const std::string name = shortName(file);
+        if (elsewhere.contains(name)
+            || (!name.starts_with("docs/") && name != "README.md" && name != "CONTRIBUTING.md"))
+            continue;
+        std::string text = std::regex_replace(readWhole(file), std::regex("```[^`]*```"), "");
+        text = std::regex_replace(text, std::regex(R"(`[^`]*`|\]\([^)]*\))"), "");
+        for (const auto& [word, better] : words) {
+            std::smatch found;
+            EXPECT_FALSE(std::regex_search(text, found, std::regex(word, std::regex::icase)))
+                << name << ": '" << found.str() << "'; the field says '" << better << "'";
+        }
+    }
+}
+
 // A reader finds every page from the index or from the page of its folder.
 TEST(Documents, theIndexLeadsToEveryPage)
 {
