@@ -102,11 +102,11 @@ const std::set<std::string> kPagesWithWideTables = {
     "docs/explanation/figures.md",  "docs/explanation/speed.md",      "docs/explanation/theory.md",
     "docs/explanation/triangle.md", "docs/explanation/baking.md",     "docs/how-to/batch.md",
     "docs/explanation/batch.md",    "docs/how-to/blender.md",         "docs/explanation/deforming.md",
-    "docs/how-to/engines.md",       "docs/how-to/remove-tangents.md", "docs/how-to/web.md",
+    "docs/how-to/engines.md",       "docs/how-to/remove-tangents.md", "docs/project/web.md",
     "docs/project/architecture.md", "docs/project/building.md",       "docs/project/packages.md",
     "docs/project/testing.md",      "docs/reference/conventions.md",  "docs/reference/files.md",
-    "docs/reference/json.md",       "docs/reference/lighting.md",     "docs/reference/maps.md",
-    "docs/explanation/parity.md",   "docs/reference/viewer.md"};
+    "docs/reference/json.md",       "docs/explanation/lighting.md",   "docs/reference/lighting.md",
+    "docs/reference/maps.md",       "docs/explanation/parity.md",     "docs/reference/viewer.md"};
 
 std::size_t columnsOf(const std::string& line) // of UTF-8
 {
