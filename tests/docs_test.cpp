@@ -166,6 +166,23 @@ TEST(Documents, speakTheTermsOfTheField)
     }
 }
 
+TEST(Documents, everyPictureIsSmallAndShownSomewhere)
+{
+    std::string pages;
+    for (const fs::path& file : documents())
+        pages += readWhole(file);
+    std::size_t checked = 0;
+    for (const auto& entry : fs::directory_iterator(kSources / "docs/pictures")) {
+        const std::string name = entry.path().filename().string();
+        if (name == "make")
+            continue;
+        EXPECT_LE(entry.file_size(), 300'000u) << name;
+        EXPECT_NE(pages.find("pictures/" + name), std::string::npos) << name << " is on no page";
+        ++checked;
+    }
+    EXPECT_GT(checked, 25u);
+}
+
 // A reader finds every page from the index or from the page of its folder.
 TEST(Documents, theIndexLeadsToEveryPage)
 {

@@ -146,7 +146,7 @@ function papers() {
   const near = new IntersectionObserver(entries => { // loading="lazy" would fetch it with the first view
     if (!entries.some(entry => entry.isIntersecting)) return;
     near.disconnect();
-    picture.src = 'pictures/figures.png';
+    picture.src = 'pictures/figures.jpg';
   }, { rootMargin: '200px' });
   near.observe(picture);
   return el('div', {}, el('h3', {}, 'The figures of the chapter, measured'),
