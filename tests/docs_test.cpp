@@ -106,7 +106,7 @@ const std::set<std::string> kPagesWithWideTables = {
     "docs/project/architecture.md", "docs/project/building.md",       "docs/project/packages.md",
     "docs/project/testing.md",      "docs/reference/conventions.md",  "docs/reference/files.md",
     "docs/reference/json.md",       "docs/explanation/lighting.md",   "docs/reference/lighting.md",
-    "docs/reference/maps.md",       "docs/explanation/parity.md",     "docs/reference/viewer.md"};
+    "docs/explanation/parity.md",   "docs/reference/viewer.md"};
 
 std::size_t columnsOf(const std::string& line) // of UTF-8
 {

@@ -2,12 +2,14 @@
 // scripts of docs. What needs npm, Blender or a build stands in blocks of `console` and is not run here.
 #include <gtest/gtest.h>
 
+#include <cctype>
 #include <cstdlib>
 #include <fstream>
 #include <regex>
 #include <sstream>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "run_tool.hpp"
 
@@ -152,6 +154,56 @@ TEST(Tutorials, theStoneIsBakedForTheFrameThatGodotsShaderReads)
     EXPECT_NE(readWhole(lesson.folder / "cotan.shader").find("shader_type spatial"), std::string::npos);
     EXPECT_NE(lesson.printed.find("the map is for the frame orthonormal"), std::string::npos) << lesson.printed;
 }
+
+// Pages of tasks name files of the reader's; here each is one that the tutorials start with.
+class PagesOfTasks : public testing::TestWithParam<const char*> {};
+
+TEST_P(PagesOfTasks, everyCommandRuns)
+{
+    COTAN_NEEDS_PYTHON();
+    const TemporaryFolder folder;
+    const std::string maker =
+        fmt::format("python3 '{}' '{}'", (kDocs / "tutorials/make-files").string(), (folder / "files").string());
+    ASSERT_EQ(std::system(maker.c_str()), 0);
+    const std::pair<const char*, std::vector<const char*>> names[] = {
+        {"pebbles.png", {"rock.png", "orange.png", "object.png"}},
+        {"stone_high.obj", {"rock.obj", "statue.obj"}},
+        {"stone_low.obj", {"rock_low.obj", "statue_low.obj"}},
+        {"vase.glb", {"model.glb", "prop.glb"}},
+        {"vase-lost-sign.glb", {"vase.glb"}}};
+    for (const auto& [made, wanted] : names)
+        for (const char* name : wanted)
+            fs::copy_file(folder / "files" / made, folder / name);
+    std::size_t ran = 0;
+    for (const std::string& block : blocksOf(readWhole(fs::path(COTAN_SOURCE_DIR) / GetParam()), "sh")) {
+        std::istringstream lines(block);
+        for (std::string line; std::getline(lines, line);) {
+            if (!line.starts_with("cotan ") || line.starts_with("cotan batch"))
+                continue;
+            std::istringstream stream(line.substr(0, line.find(" #")));
+            std::vector<std::string> words;
+            stream >> line;
+            for (std::string word; stream >> word;)
+                words.push_back(word);
+            const ToolRun run = runTool(words, folder.path(), 300);
+            EXPECT_TRUE(run.code == 0 || (run.code == 5 && block.find("--limit") != std::string::npos))
+                << fmt::format("{}\n", fmt::join(words, " ")) << run.err;
+            ++ran;
+        }
+    }
+    EXPECT_GE(ran, 1u);
+}
+
+INSTANTIATE_TEST_SUITE_P(, PagesOfTasks,
+                         testing::Values("README.md", "docs/how-to/choose-a-frame.md", "docs/how-to/fix-a-map.md",
+                                         "docs/how-to/bake.md", "docs/how-to/remove-tangents.md",
+                                         "docs/how-to/engines.md", "docs/how-to/my-engine.md", "docs/how-to/batch.md",
+                                         "docs/reference/errors.md", "docs/explanation/compression.md"),
+                         [](const auto& page) {
+                             std::string name = fs::path(page.param).stem().string();
+                             std::erase_if(name, [](char c) { return !std::isalnum(static_cast<unsigned char>(c)); });
+                             return name;
+                         });
 
 } // namespace
 } // namespace cotan::test
