@@ -9,6 +9,8 @@ find_package(Python3 COMPONENTS Interpreter)
 if(Python3_FOUND)
   add_test(NAME Documents.commandLineIsWhatTheToolPrints COMMAND ${Python3_EXECUTABLE}
     ${PROJECT_SOURCE_DIR}/docs/reference/make-command-line $<TARGET_FILE:cotan> ${PROJECT_BINARY_DIR}/share --check)
+  add_test(NAME Documents.pagesOfLibrariesAreWhatTheHeadersSay COMMAND ${Python3_EXECUTABLE}
+    ${PROJECT_SOURCE_DIR}/docs/reference/make-api --check)
 endif()
 # The limit of .clang-format, for C, C++ and shaders. What is not in git is not looked at.
 if(Python3_FOUND AND EXISTS ${PROJECT_SOURCE_DIR}/.git)
