@@ -1,4 +1,5 @@
-# Debian packages, by CPack: scripts/deb-packages makes them in a release build; docs/packages.md says what is in which.
+# Debian packages, by CPack: scripts/deb-packages makes them in a release build.
+# docs/project/packages.md says what is in which.
 # Every install() belongs to the package that its COMPONENT names; libcotan-dev where it names none (CMakeLists.txt).
 find_program(COTAN_DPKG_SHLIBDEPS dpkg-shlibdeps)
 if(NOT COTAN_DPKG_SHLIBDEPS OR CMAKE_CROSSCOMPILING OR BUILD_SHARED_LIBS OR NOT TARGET cotan)

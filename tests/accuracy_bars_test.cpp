@@ -1,5 +1,5 @@
 // Bars and controls that the tables of `cotan accuracy` must keep: A2, A4, B1 to B4, D1 to D4 of
-// docs/testing.md. (A1, A3 and the details of D3 have tests of their own beside the frames.)
+// docs/project/testing.md. (A1, A3 and the details of D3 have tests of their own beside the frames.)
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -198,7 +198,7 @@ TEST_F(BakeHighMapCommand, boomBoxBakedOntoItselfGivesItsMapBack)
             ++compared;
         }
     ASSERT_GT(compared, 100000u);
-    EXPECT_LT(mean / double(compared), 0.25);         // 8 bits: see docs/baking.md, below 0.20
+    EXPECT_LT(mean / double(compared), 0.25);         // 8 bits: see docs/explanation/baking.md, below 0.20
     EXPECT_LT(double(off), 0.002 * double(compared)); // where two parts of the model lie within 1e-5 of one another
 }
 

@@ -15,14 +15,14 @@ cotan_test(help_test
   LIBRARIES cotan_app cotan_shapes fmt::fmt)
 target_compile_definitions(help_test PRIVATE COTAN_TOOL="$<TARGET_FILE:cotan>")
 add_dependencies(help_test cotan)
-# A few commands under every fault; the whole table is in docs/testing.md.
+# A few commands under every fault; the whole table is in docs/project/testing.md.
 add_test(NAME Faults.quick COMMAND ${PROJECT_SOURCE_DIR}/scripts/try-faults --quick $<TARGET_FILE:cotan>)
 set_tests_properties(Faults.quick PROPERTIES TIMEOUT 300)
-# What docs/json.md says of reports, against the reports.
+# What docs/reference/json.md says of reports, against the reports.
 find_package(Python3 COMPONENTS Interpreter)
 if(Python3_FOUND)
   add_test(NAME JsonFields.areThoseOfThePage COMMAND ${Python3_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/json_fields_test.py
-    $<TARGET_FILE:cotan> ${PROJECT_SOURCE_DIR}/docs/json.md)
+    $<TARGET_FILE:cotan> ${PROJECT_SOURCE_DIR}/docs/reference/json.md)
   set_tests_properties(JsonFields.areThoseOfThePage PROPERTIES TIMEOUT 300)
 endif()
 # Words as values, without a process.

@@ -35,13 +35,13 @@ std::string withCommas(std::size_t n)
     return digits;
 }
 
-// The row of the table in docs/triangle.md.
+// The row of the table in docs/explanation/triangle.md.
 void expectDocumented(const std::string& name, std::size_t triangles, std::size_t before, std::size_t after)
 {
     const std::string row = fmt::format("| {} | {} | {} | {} | {:.2f} |", name, withCommas(triangles),
                                         withCommas(before), withCommas(after), double(after) / double(before));
-    EXPECT_NE(readWhole(COTAN_SOURCE_DIR "/docs/triangle.md").find(row), std::string::npos)
-        << "docs/triangle.md should say: " << row;
+    EXPECT_NE(readWhole(COTAN_SOURCE_DIR "/docs/explanation/triangle.md").find(row), std::string::npos)
+        << "docs/explanation/triangle.md should say: " << row;
 }
 
 TEST(ConvertProvoking, aloneChangesNeitherMapsNorTangentsNorAnythingThatIsDrawn)

@@ -1,5 +1,5 @@
-// The committed docs/cost.md and its chart: the bars, and that what they say of triangles follows from their own
-// numbers.
+// The committed docs/explanation/cost.md and its chart: the bars, and that what they say of triangles follows from
+// their own numbers.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -14,7 +14,7 @@ namespace {
 
 std::string documentText(const char* name)
 {
-    std::ifstream stream(std::string(COTAN_SOURCE_DIR "/docs/") + name, std::ios::binary);
+    std::ifstream stream(std::string(COTAN_SOURCE_DIR "/docs/explanation/") + name, std::ios::binary);
     std::ostringstream text;
     text << stream.rdbuf();
     return text.str();
@@ -54,7 +54,7 @@ double cell(const std::map<std::string, Cells>& table, const std::string& line, 
 {
     const auto found = table.find(line);
     if (found == table.end() || !found->second.contains(column)) {
-        ADD_FAILURE() << "docs/cost.md has no '" << line << "' under '" << column << "'";
+        ADD_FAILURE() << "docs/explanation/cost.md has no '" << line << "' under '" << column << "'";
         return 0;
     }
     return std::stod(found->second.at(column));

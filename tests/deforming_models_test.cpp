@@ -1,5 +1,5 @@
 // Models that bend: tangents that are stored and carried along with the pose, against frames that are made of it.
-// docs/deforming.md has the numbers.
+// docs/explanation/deforming.md has the numbers.
 #include <algorithm>
 #include <array>
 #include <cmath>

@@ -1,11 +1,18 @@
 # The documents against the tool, the sources and the measured tables.
 cotan_test(docs_test
-  SOURCES docs_test.cpp version_test.cpp
+  SOURCES docs_test.cpp tutorials_test.cpp version_test.cpp
   LIBRARIES fmt::fmt)
 target_compile_definitions(docs_test PRIVATE COTAN_TOOL="$<TARGET_FILE:cotan>" COTAN_VERSION="${PROJECT_VERSION}")
 add_dependencies(docs_test cotan)
-# The limit of .clang-format, for C, C++ and shaders. What is not in git is not looked at.
+# The page of the command line is the tool's own help.
 find_package(Python3 COMPONENTS Interpreter)
+if(Python3_FOUND)
+  add_test(NAME Documents.commandLineIsWhatTheToolPrints COMMAND ${Python3_EXECUTABLE}
+    ${PROJECT_SOURCE_DIR}/docs/reference/make-command-line $<TARGET_FILE:cotan> ${PROJECT_BINARY_DIR}/share --check)
+  add_test(NAME Documents.pagesOfLibrariesAreWhatTheHeadersSay COMMAND ${Python3_EXECUTABLE}
+    ${PROJECT_SOURCE_DIR}/docs/reference/make-api --check)
+endif()
+# The limit of .clang-format, for C, C++ and shaders. What is not in git is not looked at.
 if(Python3_FOUND AND EXISTS ${PROJECT_SOURCE_DIR}/.git)
   add_test(NAME Format.noLineIsOverTheLimit COMMAND ${PROJECT_SOURCE_DIR}/scripts/format --long-lines)
 endif()

@@ -1,4 +1,4 @@
-// The commands and the code of docs/engines.md, as a reader would put them together.
+// The commands and the code of docs/how-to/engines.md, as a reader would put them together.
 #include <cstdlib>
 #include <fstream>
 #include <regex>
@@ -15,28 +15,28 @@ namespace {
 // The text of one engine's section.
 std::string section(const std::string& engine)
 {
-    const std::string page = readWhole(std::filesystem::path(COTAN_SOURCE_DIR) / "docs/engines.md");
+    const std::string page = readWhole(std::filesystem::path(COTAN_SOURCE_DIR) / "docs/how-to/engines.md");
     const std::size_t start = page.find("\n## " + engine + "\n");
     if (start == std::string::npos)
         return {};
     return page.substr(start, page.find("\n## ", start + 1) - start);
 }
 
-// Its first code block of a language.
-std::string block(const std::string& engine, const std::string& language)
+// Its first code block of a language that begins with a word.
+std::string block(const std::string& engine, const std::string& language, const std::string& first = "")
 {
     const std::string text = section(engine), fence = "```" + language + "\n";
-    const std::size_t start = text.find(fence);
+    const std::size_t start = text.find(fence + first);
     if (start == std::string::npos)
         return {};
     return text.substr(start + fence.size(), text.find("```", start + fence.size()) - start - fence.size());
 }
 
-// What the first command of the section writes.
+// What the section's `cotan shader` writes.
 std::string printed(const std::string& engine)
 {
     const TemporaryFolder folder;
-    std::istringstream command(block(engine, "sh"));
+    std::istringstream command(block(engine, "sh", "cotan shader"));
     std::vector<std::string> words;
     std::string word;
     command >> word; // cotan

@@ -91,10 +91,10 @@ INSTANTIATE_TEST_SUITE_P(Meshes, ExampleDeforming,
 enum { kNormalAlone, kStored, kRederived, kCotangent, kTriangle, kSmooth, kWayCount };
 using FigureRows = std::map<std::string, std::array<double, kWayCount>>;
 
-// The tables of docs/deforming.md say what was measured, to what another driver's rounding may change.
+// The tables of docs/explanation/deforming.md say what was measured, to what another driver's rounding may change.
 void expectDocumented(const FigureRows& measured)
 {
-    std::istringstream lines(readWhole(COTAN_SOURCE_DIR "/docs/deforming.md"));
+    std::istringstream lines(readWhole(COTAN_SOURCE_DIR "/docs/explanation/deforming.md"));
     std::string time;
     std::size_t rows = 0;
     for (std::string line; std::getline(lines, line);) {

@@ -133,7 +133,7 @@ TEST(Figures, squarePatchErrorsAreThoseOfTheDomesMathematics)
     }
     for (const char* frame : {"orthonormal", "unit", "cotangent"})
         EXPECT_LT(angle(r, 0, std::string("square, ") + frame, "max_degrees"), 0.1) << frame;
-    // Published figures: 9.47 degrees for 2:1 (bar A2 of docs/testing.md).
+    // Published figures: 9.47 degrees for 2:1 (bar A2 of docs/project/testing.md).
     EXPECT_NEAR(domeMean(2, 0, Wrong::orthonormal), 9.47, 0.01);
 }
 

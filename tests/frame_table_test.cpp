@@ -24,7 +24,7 @@ std::string read(const std::string& file)
     return text.str();
 }
 
-// The frame's row in the table of docs/conventions.md, and what the frame's properties make of it.
+// The frame's row in the table of docs/reference/conventions.md, and what the frame's properties make of it.
 std::string rowOfDocs(const FrameInfo& f)
 {
     const char* from = f.source == FrameSource::differences ? "differences"
@@ -50,8 +50,8 @@ std::vector<Place> placesOf(const FrameInfo& f)
         {text, " cotan_frame_" + word + "("},
         {"shaders/cost/rows.h", (f.frame == Frame::triangle ? "cotan_frame_of_" : "cotan_frame_") + word + "("},
         {"src/cost/rows.cpp", "{\"" + name + "\","},
-        {"docs/cost.md", "| " + name + " "},
-        {"docs/conventions.md", rowOfDocs(f)},
+        {"docs/explanation/cost.md", "| " + name + " "},
+        {"docs/reference/conventions.md", rowOfDocs(f)},
         {"docs/accuracy.csv", "," + name + ","},
         {"tests/portable_main.glsl", "cotan_frame_" + word + "("},
         {"tests/portable_main.hlsl", "cotan_frame_" + word + "("}};
@@ -93,7 +93,7 @@ TEST(FrameTable, aFusedFormIsStatedWhereThereIsOne)
 
 TEST(FrameTable, theDocumentHasNoFrameThatIsNot)
 {
-    std::istringstream text(read("docs/conventions.md"));
+    std::istringstream text(read("docs/reference/conventions.md"));
     std::size_t rows = 0;
     bool inside = false;
     for (std::string line; std::getline(text, line);) {

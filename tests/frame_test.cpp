@@ -1,4 +1,4 @@
-// Facts about the frames, and the bars A1, A3 and A4 (docs/testing.md) on the shipped text.
+// Facts about the frames, and the bars A1, A3 and A4 (docs/project/testing.md) on the shipped text.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""docs/json.md against what commands write: no field of a report is missing there, and none is there that no report has.
+"""docs/reference/json.md against what commands write: no field of a report is missing there, and none is there that no
+report has.
 
   json_fields_test.py TOOL DOCS          says which fields differ; exit code 1 if one does
   json_fields_test.py TOOL DOCS --rows   prints the rows that the tables lack, to be given a meaning

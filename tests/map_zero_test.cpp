@@ -1,4 +1,4 @@
-// What it costs which code is zero, in degrees, on real maps: the table of docs/conventions.md.
+// What it costs which code is zero, in degrees, on real maps: the table of docs/explanation/zero.md.
 #include <gtest/gtest.h>
 
 #include <array>

@@ -46,7 +46,7 @@ TEST_P(Devices, pointSampledNormalsAgreeWithTheReference)
     EXPECT_LT(s.median, 0.02);      // rounding of interpolation and differences
     EXPECT_LT(s.percentile99, 0.5); // texels whose border falls between two roundings of uv
     RecordProperty("point_sampled", toText(s));
-    // Filtered maps differ by what an anisotropic sampler is free to choose (docs/testing.md has the
+    // Filtered maps differ by what an anisotropic sampler is free to choose (docs/project/testing.md has the
     // measured parts): reported, and bounded loosely so that a broken mip chain would show.
     const AngleStatistics t = difference(scene, *gpu, *reference, false);
     EXPECT_LT(t.median, 0.5);

@@ -91,7 +91,7 @@ TEST(NormalTexel, orthographicStorageMovesNormalsBelowTheHorizonOntoIt)
     EXPECT_LT(glm::length(back - glm::dvec3(1, 0, 0)), 1e-9);
 }
 
-// The table of four of docs/conventions.md: a dome drawn in an image, on a plane seen upright.
+// The table of four of docs/reference/conventions.md: a dome drawn in an image, on a plane seen upright.
 TEST(NormalTexel, greenFlagSetFromTheTableOfFourGivesNoError)
 {
     Random random(22);

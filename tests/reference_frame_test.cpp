@@ -146,7 +146,7 @@ TEST(ReferenceFrame, fineAndCoarseAgreeOnAPlane)
     });
 }
 
-// Section "signs" of docs/theory.md: handedness of the world (a mirroring instance turns it),
+// Section "signs" of docs/explanation/theory.md: handedness of the world (a mirroring instance turns it),
 // direction of the raster's rows, mirrored uv, and the side that is seen with the normal as
 // stored or turned to the viewer: 24 combinations.
 TEST(ReferenceFrame, tangentsFollowGradientsInAll24SignCombinations)

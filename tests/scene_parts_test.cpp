@@ -203,10 +203,10 @@ TEST(SceneParts, underVeryManyLightsAreRefused)
     Scene scene = triangleScene();
     scene.instances = {{"", 0, glm::mat4(1)}};
     View view = triangleView();
-    view.lights.resize(1990);
+    view.lights.resize(790);
     EXPECT_EQ(refusalOf(scene, view), "");
-    view.lights.resize(2010); // on half the picture
-    EXPECT_NE(refusalOf(scene, view).find("its lights shine on the picture 1005 times over"), std::string::npos);
+    view.lights.resize(810); // on half the picture
+    EXPECT_NE(refusalOf(scene, view).find("its lights shine on the picture 405 times over"), std::string::npos);
     view.output = Output::normal; // nothing is lit
     EXPECT_EQ(refusalOf(scene, view), "");
 }

@@ -112,7 +112,7 @@ Errors errorsOf(const Scene& scene, bool surroundings = true)
     return e;
 }
 
-// What is measured is in docs/pictures.md, with what no method can do that knows only statistics.
+// What is measured is in docs/explanation/lighting.md, with what no method can do that knows only statistics.
 TEST(SpecularAntialiasing, halvesTheErrorOfGrainAndDomesInSurroundings)
 {
     for (const float repeat : {1.0f, 3.0f, 8.0f}) {

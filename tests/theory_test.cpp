@@ -1,4 +1,4 @@
-// Claims of docs/theory.md that no table of `cotan accuracy` covers.
+// Claims of docs/explanation/theory.md that no table of `cotan accuracy` covers.
 #include <gtest/gtest.h>
 
 #include "cotan/truth/patch.hpp"

@@ -37,12 +37,12 @@ const documents = { theory: 'Theory', figures: 'The figures', cost: 'Cost' };
 mkdirSync(join(out, 'pictures'));
 const [policy] = /<meta http-equiv="Content-Security-Policy"[^>]*>/.exec(readFileSync(join(here, 'index.html'), 'utf8'));
 for (const [name, title] of Object.entries(documents)) {
-  const headings = new Map(), text = marked.parse(readFileSync(join(root, 'docs', `${name}.md`), 'utf8'))
+  const headings = new Map(), text = marked.parse(readFileSync(join(root, 'docs/explanation', `${name}.md`), 'utf8'))
     .replace(/<h(\d)>(.*?)<\/h\1>/gs, (_, level, words) => `<h${level} id="${anchor(words, headings)}">${words}</h${level}>`)
     .replace(new RegExp(`href="(${Object.keys(documents).join('|')})\\.md(#[^"]*)?"`, 'g'), 'href="$1.html$2"')
     .replace(/<a href="(?!#|https?:|[a-z]+\.html)[^"]*">(.*?)<\/a>/gs, '$1')
-    .replace(/src="(?:pictures\/)?([^"/]+)"/g, (_, file) => {
-      cpSync(join(root, 'docs', file.endsWith('.svg') ? '.' : 'pictures', file), join(out, 'pictures', file));
+    .replace(/src="((?:\.\.\/pictures\/)?([^"/]+))"/g, (_, path, file) => {
+      cpSync(join(root, 'docs/explanation', path), join(out, 'pictures', file));
       return `src="pictures/${file}"`;
     })
     .replaceAll('<table>', '<div class="scroll" tabindex="0"><table>').replaceAll('</table>', '</table></div>');

@@ -136,7 +136,7 @@ function pull(canvas, state, changed) {
   canvas.addEventListener('pointerup', () => { held = null; canvas.style.cursor = ''; });
 }
 
-// What the chapter's own figures give when they are drawn and measured (docs/figures.md).
+// What the chapter's own figures give when they are drawn and measured (docs/explanation/figures.md).
 function papers() {
   const rows = [
     ['Embossed dots, stretched 2 : 1', '9.5°', '0.02°', '9.5°'], ['Sheared by 45°', '16.2°', '0.02°', '5.3°'], ['Both', '13.6°', '0.02°', '5.3°'],
@@ -146,7 +146,7 @@ function papers() {
   const near = new IntersectionObserver(entries => { // loading="lazy" would fetch it with the first view
     if (!entries.some(entry => entry.isIntersecting)) return;
     near.disconnect();
-    picture.src = 'pictures/figures.png';
+    picture.src = 'pictures/figures.jpg';
   }, { rootMargin: '200px' });
   near.observe(picture);
   return el('div', {}, el('h3', {}, 'The figures of the chapter, measured'),

@@ -85,8 +85,8 @@ void print(const std::string& text);
 // ErrorKind::output.
 Status flushOutput();
 
-// Writes the report where --json says, with its format and version (docs/json.md); nothing if it was not asked for. It
-// has the member "command".
+// Writes the report where --json says, with its format and version (docs/reference/json.md); nothing if it was not
+// asked for. It has the member "command".
 Status writeReport(const CommonOptions& options, const Json& report);
 
 // Prints a line, its control characters escaped, on standard output unless --quiet was given or the report goes there.

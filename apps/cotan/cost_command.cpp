@@ -103,7 +103,7 @@ void addCostCommand(Arguments& tool)
         {"cost",
          "what each frame costs: operations, SPIR-V, machine code, time",
          "file for the tables instead of standard output, and beside it a chart, .svg; where it has the marks of "
-         "docs/cost.md, only what is between them is replaced",
+         "docs/explanation/cost.md, only what is between them is replaced",
          {"cotan cost --frames cotangent --no-timing", "cotan cost --family NAVI21 --csv cost.csv"}},
         declare, run);
 }

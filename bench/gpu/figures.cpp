@@ -16,7 +16,7 @@ Instructions are not nanoseconds ([cost.md](cost.md)). On a machine with a Vulka
 ```sh
 bench/on-gpu pack FOLDER    # where Cotan is built: what the measurement needs, some tens of MB
 FOLDER/run                  # there, under ten minutes: writes FOLDER/gpu.md, which is this page
-bench/on-gpu                # both, here: writes docs/gpu.md
+bench/on-gpu                # both, here: writes docs/explanation/gpu.md
 ```
 
 FOLDER carries programs, libraries and compiled shaders. The machine needs x86-64 Linux with glibc 2.35 or later

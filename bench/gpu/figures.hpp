@@ -31,7 +31,7 @@ Middle middleOf(std::vector<double> values);
 // Of a row to `mikktspace`, repetition by repetition. The figures must be sound.
 Middle ratioOf(const Figures& figures, const cost::TimedRow& row, std::size_t atCase);
 
-// docs/gpu.md. Without tables: how to run it, and that no GPU was met.
+// docs/explanation/gpu.md. Without tables: how to run it, and that no GPU was met.
 std::string page(const Figures& figures, bool tables);
 
 } // namespace cotan::bench

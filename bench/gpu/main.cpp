@@ -1,5 +1,5 @@
-// Times every row of `cotan cost` and the passes of examples/deforming on a GPU, and writes docs/gpu.md; bench/on-gpu
-// carries it to a machine that has one.
+// Times every row of `cotan cost` and the passes of examples/deforming on a GPU, and writes docs/explanation/gpu.md;
+// bench/on-gpu carries it to a machine that has one.
 #include <chrono>
 #include <fstream>
 #include <iostream>

@@ -48,7 +48,7 @@ struct Convention {
 };
 
 // Whether green points along increasing v: the flag that decoding needs. Green up with v down
-// points against it, and so on (docs/conventions.md has the table of four).
+// points against it, and so on (docs/reference/conventions.md has the table of four).
 constexpr bool greenAlongV(const Convention& c) { return c.greenUp == (c.v == VDirection::up); }
 
 // How an engine or program wants the file that a person gives it. All have three channels.

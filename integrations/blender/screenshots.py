@@ -1,4 +1,4 @@
-"""The pictures of docs/blender.md, from a window on a display without a graphics card:
+"""The pictures of docs/how-to/blender.md, from a window on a display without a graphics card:
 
     xvfb-run -a -s "-screen 0 1280x800x24" blender --factory-startup -p 0 0 1280 800 \\
         --python integrations/blender/screenshots.py -- FOLDER

@@ -9,7 +9,7 @@
 //   dpdx, dpdy    differences of position along two directions, in that space. In a pixel shader
 //                 the screen derivatives of a camera-relative position. The position must not
 //                 be normalised first: that is wrong by 11 degrees at 45 degrees of grazing
-//                 (docs/theory.md). eye - position, which is its negative, reverses t and b.
+//                 (docs/explanation/theory.md). eye - position, which is its negative, reverses t and b.
 //   duvdx, duvdy  differences of texture coordinates along the same two directions.
 // The differences may come from anywhere: screen derivatives, the edges of a triangle, the rows and
 // columns of a raster in uv space.
@@ -146,7 +146,7 @@ COTAN_FUNCTION cotan_vec3 cotan_encode(cotan_frame f, cotan_vec3 target)
 //   right only where that sign is positive);
 // - it is total: no input gives a NaN or an infinity.
 // t and b keep their relative lengths and skew; the longer of the two has length one, so bumps
-// do not depend on the scale of the object (truth S of docs/theory.md). View independent. t and b
+// do not depend on the scale of the object (truth S of docs/explanation/theory.md). View independent. t and b
 // are perpendicular to n.
 // n need not be unit; f.n is.
 // Degenerate input: constant uv, zero or non-finite differences give t = b = 0, so that
@@ -197,7 +197,7 @@ COTAN_FUNCTION cotan_frame cotan_frame_orthonormal(
 
 // `gradient`: the true surface gradients of u and v, metric: |t| is the change of u per unit of
 // length. A map applied with it means bumps of a fixed height in world units, so bumps fade as
-// the object grows (truth E of docs/theory.md). t/|t| as in `cotangent`; only the scale differs:
+// the object grows (truth E of docs/explanation/theory.md). t/|t| as in `cotangent`; only the scale differs:
 // 1 / (n . (dpdx x dpdy)). Total; n need not be unit, f.n is.
 // Degenerate input: zero area, n in the face plane (where the division would overflow), constant
 // uv or non-finite differences give t = b = 0.

@@ -8,7 +8,7 @@
 //
 // The last three are seen in a basis that follows from the normal. So unpacking must get the normal bit
 // for bit as packing did: as it is stored, before it is transformed.
-// Errors are of the directions that come out, in float (docs/triangle.md has the table).
+// Errors are of the directions that come out, in float (docs/explanation/triangle.md has the table).
 
 #ifndef COTAN_PACK_H
 #define COTAN_PACK_H

@@ -47,7 +47,7 @@ double fittingDistance(const Scene& scene)
 }
 
 // What float derivatives of uv cost: about 1 degree times uv * 1e-6 / footprint, the footprint in
-// uv (docs/theory.md, "Rounding"). Both are proportional to 1 / distance.
+// uv (docs/explanation/theory.md, "Rounding"). Both are proportional to 1 / distance.
 void addPrecision(PrimitiveLint& p, double distance)
 {
     const double footprintPerDistance = 2 * std::tan(glm::radians(kFieldOfView / 2)) / kLines * p.uv.gradient;

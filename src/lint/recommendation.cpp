@@ -25,7 +25,8 @@ constexpr double kUnseenMean = 0.5, kUnseen95 = 2;
 // From this mean on the light seems to come from elsewhere, without anything moving.
 constexpr double kWrongMean = 5;
 // Degrees on average: what converted maps stay off by in other engines. On real models read by three.js it was 0.1 to
-// 1.7, mostly over what the untouched map was off by when it was read with orthonormal (docs/models.md).
+// 1.7, mostly over what the untouched map was off by when it was read with orthonormal
+// (docs/how-to/remove-tangents.md).
 constexpr double kConvertedStaysOff = 1;
 // Steps at edges over this, and a map for `cotangent` shows creases there.
 constexpr double kCreases95 = 2;

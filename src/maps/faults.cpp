@@ -8,7 +8,7 @@ namespace cotan::maps {
 
 namespace {
 
-// Means of lengths. Filtering and 8 bits leave over 0.95 on all maps that were looked at (docs/maps.md).
+// Means of lengths. Filtering and 8 bits leave over 0.95 on all maps that were looked at (docs/reference/maps.md).
 constexpr double kShort = 0.9, kLong = 1.05;
 
 bool has(const std::vector<Fault>& faults, Fault::Kind kind)

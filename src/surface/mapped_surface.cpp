@@ -220,7 +220,7 @@ MappedSurface makeSurface(const Mesh& mesh, const Texture& map, const glm::dmat3
     return makeSurface(copied(mesh), map, linear, wanted);
 }
 
-// As generateTangents and splitSmoothCotangents take it, which docs/speed.md has measured.
+// As generateTangents and splitSmoothCotangents take it, which docs/explanation/speed.md has measured.
 SurfaceBytes surfaceBytes(std::size_t vertices, std::size_t triangles, const FrameSet& wanted)
 {
     SurfaceBytes bytes{sizeof(glm::vec2) * vertices, 0};

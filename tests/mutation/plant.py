@@ -95,7 +95,8 @@ def command_of(program):
     if name == "output_bytes":
         return ["/usr/bin/python3", HOME / "tests/output_bytes.py", BUILD / "bin/cotan", HOME / "tests/output_bytes.txt"]
     if name == "json_fields":
-        return ["/usr/bin/python3", HOME / "tests/json_fields_test.py", BUILD / "bin/cotan", HOME / "docs/json.md"]
+        return ["/usr/bin/python3", HOME / "tests/json_fields_test.py", BUILD / "bin/cotan",
+                HOME / "docs/reference/json.md"]
     return [BUILD / "tests" / name, "--gtest_brief=1"] + ([f"--gtest_filter={chosen}"] if chosen else ["--gtest_fail_fast"])
 
 

@@ -1,4 +1,4 @@
-"""docs/json.md against the reports that the library gives, as tests/json_fields_test.py does for the command line."""
+"""docs/reference/json.md against the reports that the library gives, as tests/json_fields_test.py does for the tool."""
 
 import importlib.util
 
@@ -23,7 +23,7 @@ def fields(source):
 
 @pytest.fixture(scope="module")
 def page(fields, source):
-    return fields.Documented(source / "docs/json.md")
+    return fields.Documented(source / "docs/reference/json.md")
 
 
 def check(fields, page, name, reports):

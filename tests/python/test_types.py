@@ -46,7 +46,7 @@ def check(source, tmp_path_factory):
 def test_the_pages_examples_are_clean(source, check):
     prelude = "import numpy as np\nimport cotan\nlow: cotan.Mesh\nhigh: cotan.Mesh\n"
     blocks, programs = [], []
-    for page in ("docs/python.md", "bindings/python/README.md"):
+    for page in ("docs/reference/python.md", "bindings/python/README.md"):
         for block in re.findall(r"```python\n(.*?)```", (source / page).read_text(), re.S):
             declared = re.sub(r"^(low|high): cotan.Mesh\n", "", prelude, flags=re.M) if re.search(r"^low = ", block, re.M) else prelude
             blocks.append(block)

@@ -159,7 +159,7 @@ vec3 cotan_apply(cotan_frame f, vec3 m)
 //   right only where that sign is positive);
 // - it is total: no input gives a NaN or an infinity.
 // t and b keep their relative lengths and skew; the longer of the two has length one, so bumps
-// do not depend on the scale of the object (truth S of docs/theory.md). View independent. t and b
+// do not depend on the scale of the object (truth S of docs/explanation/theory.md). View independent. t and b
 // are perpendicular to n.
 // n need not be unit; f.n is.
 // Degenerate input: constant uv, zero or non-finite differences give t = b = 0, so that
@@ -933,7 +933,7 @@ fn cotan_apply(f: cotan_frame, m: vec3f) -> vec3f {
 //   right only where that sign is positive);
 // - it is total: no input gives a NaN or an infinity.
 // t and b keep their relative lengths and skew; the longer of the two has length one, so bumps
-// do not depend on the scale of the object (truth S of docs/theory.md). View independent. t and b
+// do not depend on the scale of the object (truth S of docs/explanation/theory.md). View independent. t and b
 // are perpendicular to n.
 // n need not be unit; f.n is.
 // Degenerate input: constant uv, zero or non-finite differences give t = b = 0, so that

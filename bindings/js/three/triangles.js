@@ -5,8 +5,8 @@ import { cornersOf, numbersOf, turnOf, uvNameOf } from './mesh_data.js';
 
 export const kTriangleAttribute = 'cotanTriangle';
 
-// The geometry with U = e1 d2.u - e2 d1.u and V likewise as three words of halfs (docs/triangle.md) at the vertices that
-// provoke; vertices that provoke two triangles are split, about as many as triangles remain. Attributes are copied.
+// The geometry with U = e1 d2.u - e2 d1.u and V likewise as three words of halfs (docs/explanation/triangle.md) at the
+// vertices that provoke; vertices that provoke two triangles are split, about as many as triangles remain. Attributes are copied.
 // map: the normal map, whose uv set and matrix count; provoking: 'last' (WebGL) or 'first' (WebGPU).
 export function withTriangles(geometry, map, provoking) {
   const { position, normal, [uvNameOf(map)]: uv } = geometry.attributes, corners = cornersOf(geometry);

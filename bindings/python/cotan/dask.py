@@ -7,7 +7,7 @@
 
 Each task of the cluster is `cotan batch --shard K/N`. The results are in one store, a folder that every worker sees by
 the same path, as it sees the jobs and their files. A worker that dies loses the job that it ran and no other: Dask gives
-its task to another one, which finds in the store what was done. docs/farm.md has the rest.
+its task to another one, which finds in the store what was done. docs/how-to/batch.md has the rest.
 """
 
 from __future__ import annotations

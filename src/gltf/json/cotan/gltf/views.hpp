@@ -30,8 +30,8 @@ using Json = nlohmann::ordered_json; // members stay in the order of the file
 const Json* member(const Json& object, std::string_view name);
 
 // A key of a material's extras: how its normal map stores signed numbers in unsigned ones. "biased": 2c - 1; any other
-// value, and none, is Cotan's default, whose zero is the middle code (docs/conventions.md). A clear coat's map has the
-// default always.
+// value, and none, is Cotan's default, whose zero is the middle code (docs/reference/conventions.md). A clear coat's
+// map has the default always.
 inline constexpr const char* kUnsignedKey = "cotanUnsigned";
 Expansion expansionOf(const Json& material);
 

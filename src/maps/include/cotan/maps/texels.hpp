@@ -70,7 +70,7 @@ void forRowBands(int height, const std::function<void(int first, int last)>& wor
 
 // The largest angle in degrees between a vector and what an encoding of `bits` per component gives
 // back for it, by rounding alone, anywhere on the upper hemisphere up to `tilt` degrees from flat.
-// 32 bits: that of float arithmetic. (docs/maps.md has the table.)
+// 32 bits: that of float arithmetic. (docs/reference/maps.md has the table.)
 double quantisationDegrees(const Convention& convention, int bits, double tilt);
 
 } // namespace cotan::maps

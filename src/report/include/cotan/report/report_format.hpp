@@ -1,5 +1,5 @@
-// What the JSON reports are called, and which version of their fields this program writes. docs/json.md lists the
-// fields; tests/json_fields_test.py holds it against what commands write.
+// What the JSON reports are called, and which version of their fields this program writes. docs/reference/json.md lists
+// the fields; tests/json_fields_test.py holds it against what commands write.
 #pragma once
 
 #include <span>

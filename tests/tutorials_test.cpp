@@ -1,0 +1,209 @@
+// The tutorials as a reader would do them: each line of their blocks of `sh`, in a folder that holds nothing but the
+// scripts of docs. What needs npm, Blender or a build stands in blocks of `console` and is not run here.
+#include <gtest/gtest.h>
+
+#include <cctype>
+#include <cstdlib>
+#include <fstream>
+#include <regex>
+#include <sstream>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "run_tool.hpp"
+
+namespace cotan::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+const fs::path kDocs = fs::path(COTAN_SOURCE_DIR) / "docs";
+
+std::vector<std::string> blocksOf(const std::string& text, const std::string& language)
+{
+    std::vector<std::string> blocks;
+    const std::string fence = "\n```" + language + "\n";
+    for (std::size_t at = text.find(fence); at != std::string::npos; at = text.find(fence, at + 1)) {
+        const std::size_t start = at + fence.size();
+        blocks.push_back(text.substr(start, text.find("\n```", start) + 1 - start));
+    }
+    return blocks;
+}
+
+struct Lesson {
+    std::string text;       // of the page
+    std::string printed;    // by all of its commands, one after the other
+    std::size_t steps = 0;  // commands run
+    TemporaryFolder folder; // where they ran
+};
+
+// Saves what "Save this as `NAME`" asks for, then runs every line; a line that fails is a failure of the test.
+void follow(const std::string& name, Lesson& lesson)
+{
+    lesson.text = readWhole(kDocs / "tutorials" / (name + ".md"));
+    fs::create_directories(lesson.folder / "docs/tutorials");
+    fs::copy_file(kDocs / "tutorials/make-files", lesson.folder / "docs/tutorials/make-files");
+    const std::regex saved("Save this as `([a-z.]+)`:\n\n```[a-z]+\n([^`]*)```");
+    for (auto it = std::sregex_iterator(lesson.text.begin(), lesson.text.end(), saved); it != std::sregex_iterator();
+         ++it)
+        std::ofstream(lesson.folder / (*it)[1].str()) << (*it)[2].str();
+    for (const std::string& block : blocksOf(lesson.text, "sh")) {
+        std::istringstream lines(block);
+        for (std::string line; std::getline(lines, line); ++lesson.steps) {
+            const std::string call = "cd '" + lesson.folder.path().string()
+                + "' && cotan() { '" COTAN_TOOL "' \"$@\"; } && " + line + " >>printed.txt 2>&1";
+            EXPECT_EQ(std::system(call.c_str()), 0) << name << ": " << line << "\n"
+                                                    << readWhole(lesson.folder / "printed.txt");
+        }
+    }
+    lesson.printed = readWhole(lesson.folder / "printed.txt");
+}
+
+// The files that -o asks for, and the pictures that the page shows.
+void expectPictures(const Lesson& lesson, std::size_t least)
+{
+    const std::regex output(R"( -o ([A-Za-z0-9_./-]+))"), shown(R"(\]\(\.\./pictures/([a-z-]+\.[a-z]+)\))");
+    std::size_t pictures = 0;
+    for (const std::string& block : blocksOf(lesson.text, "sh"))
+        for (auto it = std::sregex_iterator(block.begin(), block.end(), output); it != std::sregex_iterator(); ++it) {
+            const fs::path file = lesson.folder / (*it)[1].str();
+            EXPECT_TRUE(fs::exists(file) && fs::file_size(file) > 0) << file;
+            pictures += file.extension() == ".png";
+        }
+    EXPECT_GE(pictures, least);
+    std::size_t onPage = 0;
+    for (auto it = std::sregex_iterator(lesson.text.begin(), lesson.text.end(), shown); it != std::sregex_iterator();
+         ++it, ++onPage)
+        EXPECT_LE(fs::file_size(kDocs / "pictures" / (*it)[1].str()), 300'000u) << (*it)[1];
+    EXPECT_GE(onPage, 1u);
+}
+
+bool hasPython() { return std::system("python3 -c '' >/dev/null 2>&1") == 0; }
+
+#define COTAN_NEEDS_PYTHON()                                                                                           \
+    if (!hasPython())                                                                                                  \
+    GTEST_SKIP() << "python3 is missing"
+
+TEST(Tutorials, theWrongMapIsFoundAndFixed)
+{
+    COTAN_NEEDS_PYTHON();
+    Lesson lesson;
+    follow("wrong-map", lesson);
+    expectPictures(lesson, 4);
+    const std::size_t down = lesson.printed.find("green: down (-Y, Direct3D), certain");
+    EXPECT_NE(down, std::string::npos) << lesson.printed;
+    EXPECT_NE(lesson.printed.find("green: up", down), std::string::npos) << lesson.printed;
+    EXPECT_NE(lesson.printed.find("mean 39.7"), std::string::npos) << "the page says 40 degrees\n" << lesson.printed;
+}
+
+TEST(Tutorials, theFirstBakeCoversAllTexelsAndComesBackWithinHalfADegree)
+{
+    COTAN_NEEDS_PYTHON();
+    Lesson lesson;
+    follow("first-bake", lesson);
+    expectPictures(lesson, 5);
+    EXPECT_NE(lesson.printed.find("262144 of 262144 texels covered"), std::string::npos) << lesson.printed;
+    EXPECT_TRUE(fs::exists(lesson.folder / "check/error-0.png"));
+    std::smatch mean;
+    ASSERT_TRUE(std::regex_search(lesson.printed, mean, std::regex(R"(against the high mesh: mean ([0-9.]+))")))
+        << lesson.printed;
+    EXPECT_LT(std::stod(mean[1]), 0.5);
+}
+
+TEST(Tutorials, theVaseLosesItsTangentsAndSeventeenPercent)
+{
+    COTAN_NEEDS_PYTHON();
+    Lesson lesson;
+    follow("web-model", lesson);
+    expectPictures(lesson, 2);
+    EXPECT_NE(lesson.printed.find("w is reversed on 50 %"), std::string::npos) << lesson.printed;
+    const double before = double(fs::file_size(lesson.folder / "files/vase-lost-sign.glb")),
+                 after = double(fs::file_size(lesson.folder / "free.glb"));
+    EXPECT_NEAR(1 - after / before, 0.17, 0.005);
+    EXPECT_EQ(readWhole(lesson.folder / "free.glb").find("TANGENT"), std::string::npos);
+}
+
+// The page's program is the package's, which tests/web/readme_test.mjs runs in a browser.
+TEST(Tutorials, theWebPagesProgramIsTheOneThatThePackageShows)
+{
+    const std::string page = readWhole(kDocs / "tutorials/web-model.md"),
+                      readme = readWhole(fs::path(COTAN_SOURCE_DIR) / "bindings/js/README.md");
+    const auto blocks = blocksOf(page, "js");
+    ASSERT_EQ(blocks.size(), 1u);
+    EXPECT_NE(readme.find(blocks[0]), std::string::npos);
+}
+
+TEST(Tutorials, theShaderOfThePageCompiles)
+{
+    COTAN_NEEDS_PYTHON();
+    if (std::system("glslangValidator --version >/dev/null 2>&1") != 0)
+        GTEST_SKIP() << "glslangValidator is missing";
+    Lesson lesson;
+    follow("shader-frame", lesson);
+    expectPictures(lesson, 2);
+    EXPECT_TRUE(fs::exists(lesson.folder / "surface.spv"));
+}
+
+TEST(Tutorials, theStoneIsBakedForTheFrameThatGodotsShaderReads)
+{
+    COTAN_NEEDS_PYTHON();
+    Lesson lesson;
+    follow("blender-to-godot", lesson);
+    expectPictures(lesson, 2);
+    EXPECT_NE(readWhole(lesson.folder / "cotan.shader").find("shader_type spatial"), std::string::npos);
+    EXPECT_NE(lesson.printed.find("the map is for the frame orthonormal"), std::string::npos) << lesson.printed;
+}
+
+// Pages of tasks name files of the reader's; here each is one that the tutorials start with.
+class PagesOfTasks : public testing::TestWithParam<const char*> {};
+
+TEST_P(PagesOfTasks, everyCommandRuns)
+{
+    COTAN_NEEDS_PYTHON();
+    const TemporaryFolder folder;
+    const std::string maker =
+        fmt::format("python3 '{}' '{}'", (kDocs / "tutorials/make-files").string(), (folder / "files").string());
+    ASSERT_EQ(std::system(maker.c_str()), 0);
+    const std::pair<const char*, std::vector<const char*>> names[] = {
+        {"pebbles.png", {"rock.png", "orange.png", "object.png"}},
+        {"stone_high.obj", {"rock.obj", "statue.obj"}},
+        {"stone_low.obj", {"rock_low.obj", "statue_low.obj"}},
+        {"vase.glb", {"model.glb", "prop.glb"}},
+        {"vase-lost-sign.glb", {"vase.glb"}}};
+    for (const auto& [made, wanted] : names)
+        for (const char* name : wanted)
+            fs::copy_file(folder / "files" / made, folder / name);
+    std::size_t ran = 0;
+    for (const std::string& block : blocksOf(readWhole(fs::path(COTAN_SOURCE_DIR) / GetParam()), "sh")) {
+        std::istringstream lines(block);
+        for (std::string line; std::getline(lines, line);) {
+            if (!line.starts_with("cotan ") || line.starts_with("cotan batch"))
+                continue;
+            std::istringstream stream(line.substr(0, line.find(" #")));
+            std::vector<std::string> words;
+            stream >> line;
+            for (std::string word; stream >> word;)
+                words.push_back(word);
+            const ToolRun run = runTool(words, folder.path(), 300);
+            EXPECT_TRUE(run.code == 0 || (run.code == 5 && block.find("--limit") != std::string::npos))
+                << fmt::format("{}\n", fmt::join(words, " ")) << run.err;
+            ++ran;
+        }
+    }
+    EXPECT_GE(ran, 1u);
+}
+
+INSTANTIATE_TEST_SUITE_P(, PagesOfTasks,
+                         testing::Values("README.md", "docs/how-to/choose-a-frame.md", "docs/how-to/fix-a-map.md",
+                                         "docs/how-to/bake.md", "docs/how-to/remove-tangents.md",
+                                         "docs/how-to/engines.md", "docs/how-to/my-engine.md", "docs/how-to/batch.md",
+                                         "docs/reference/errors.md", "docs/explanation/compression.md"),
+                         [](const auto& page) {
+                             std::string name = fs::path(page.param).stem().string();
+                             std::erase_if(name, [](char c) { return !std::isalnum(static_cast<unsigned char>(c)); });
+                             return name;
+                         });
+
+} // namespace
+} // namespace cotan::test
