@@ -260,7 +260,7 @@ TEST_F(BatchCommand, interruptedItEndsItsJobsAndTheNextRunGoesOn)
 TEST(BatchWords, everyOptionThatNamesAFileSaysWhatIsDoneWithIt)
 {
     TemporaryFolder folder;
-    const std::regex option(R"((?:^|\n)  (?:-o,)?(--[a-z-]+) (?:FILE|PATH|DIR|FOLDER)\b)");
+    const std::regex option(R"((?:^|\n)  (?:-o, )?(--[a-z-]+) (?:FILE|PATH|DIR|FOLDER)\b)");
     std::size_t checked = 0;
     for (const std::string name :
          {"render", "compare", "figures", "accuracy", "bake", "tangents", "lint", "convert", "shader", "map convert",

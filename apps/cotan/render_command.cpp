@@ -138,7 +138,7 @@ Status beginAnimation(const RenderCommandOptions& o, std::size_t pictures, Seque
 Status run(const RenderCommandOptions& o)
 {
     if (o.output.empty())
-        return usageError("render: expected -o FILE; found none");
+        return usageError("render needs -o FILE");
     const auto frame = parseFrameChoice(o.frame);
     if (!frame)
         return frame.error();
@@ -187,11 +187,12 @@ void declare(Arguments& a, RenderCommandOptions& o)
     addPictureOptions(a, o.picture);
     addFrameOption(a, o.frame);
     addShowOption(a, o.picture.show);
+    a.group(HelpGroup::output);
     a.option("--frames", o.frames,
-             "pictures A to B of --animation, all with one camera, written as NAME-0000.png and so on, or into one "
+             "images A to B of --animation, all with one camera, written as NAME-0000.png and so on, or into one "
                  + imageEndings(&ImageFormat::animation, ", ", " or "))
         .in("A..B");
-    a.option("--rate", o.rate, "pictures of --frames a second").above0().in("N");
+    a.option("--rate", o.rate, "images of --frames per second").above0().in("N");
 }
 
 } // namespace
@@ -201,13 +202,14 @@ void addRenderCommand(Arguments& tool)
     addCommand<RenderCommandOptions>(
         tool,
         {"render",
-         "draw a model, or the built-in scene, to a picture",
-         fmt::format("picture to write: {} (8 bit); {} keep floats; {}: all of --frames",
+         "Draw a model, or the built-in scene, to an image file.",
+         fmt::format("image to write: {} (8 bit); {} (floats); {} (all of --frames)",
                      imageEndings([](const ImageFormat& f) { return f.writes && !f.floats; }, ", "),
                      imageEndings([](const ImageFormat& f) { return f.writes && f.floats; }, ", "),
                      imageEndings(&ImageFormat::animation, ", ")),
          {"cotan render model.glb -o picture.png --frame cotangent --view normal",
-          "cotan render --size 640x360 -o scene.png"}},
+          "cotan render --size 640x360 -o scene.png"},
+         /*needsOutput=*/true},
         declare, run);
 }
 
