@@ -200,7 +200,8 @@ def offers(shell):
         wanted = []  # (line, what is offered there)
         for command, inner in commands.items():
             start = f"cotan {command} " if command else "cotan "
-            wanted.append((start, set(inner) if inner else everything if operands[command] else None))
+            operand = set(commands[""]) - {"help"} if command == "help" else everything if operands[command] else None
+            wanted.append((start, set(inner) if inner else operand))
             # zsh offers the two dashes by themselves only to those who typed one.
             wanted.append((start + "--", {name for option in options[command] for name in option.names if name[:2] == "--"}))
             for option in options[command]:

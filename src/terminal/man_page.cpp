@@ -70,11 +70,11 @@ std::string italic(const std::string& text) { return "\\fI" + literal(text) + "\
 
 std::string heading(const std::string& text) { return ".SH " + text + "\n"; }
 
-// Words that the help does not name itself.
+// Words to choose from that the help does not name itself.
 std::string choices(const OptionHelp& option)
 {
     const auto told = [&](const std::string& word) { return option.help.find(word) != std::string::npos; };
-    return option.words.empty() || std::ranges::all_of(option.words, told)
+    return !option.closed || std::ranges::all_of(option.words, told)
         ? ""
         : " Words: " + joined(option.words, ", ") + ".";
 }
