@@ -38,7 +38,7 @@ Status run(const ViewCommandOptions& o)
 {
     viewer::State state;
     state.picture = o.picture;
-    const auto size = parseSize(o.picture.size);
+    const auto size = parsePictureSize(o.picture.size);
     if (!size)
         return size.error();
     state.size = {size->first, size->second};

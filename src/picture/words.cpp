@@ -227,17 +227,21 @@ void addPictureOptions(Arguments& a, PictureOptions& o)
         .in("NAME|N");
     a.option("--time", o.time, "moment of --animation, in seconds from its start").within(0.0, 1e6).in("S");
     a.group(HelpGroup::camera);
-    a.option("--size", o.size, "width and height in pixels; 512 is 512x512").in("WxH").main();
-    a.option(
-         "--camera", o.camera,
-         "front (filling the picture), fit (the whole box around the model), both with all of an --animation in it, "
-         "the number of a camera of the file, or "
-         "eye and target \"ex,ey,ez,tx,ty,tz\" in world units, with \",DEGREES\" for another lens than 45 or \",hX\" "
-         "for "
-         "an orthographic picture X units high, and \",ux,uy,uz\" for what is up (default: front; the built-in scene's "
-         "own)")
+    a.option("--size", o.size, "width and height in pixels; 512 is 512x512; or " + sizePresetNames())
+        .in("WxH")
+        .offers(sizePresetWords())
+        .main();
+    a.option("--camera", o.camera,
+             "where to look from: front (a little from the right and above), left, right, top, bottom, back, or "
+             "orbit:AZ,EL "
+             "(degrees around and above), each as near as the model fills the image; fit (farther: the whole box "
+             "around the "
+             "model); the number of a camera in the file; or eye and target \"ex,ey,ez,tx,ty,tz\" in world units, then "
+             "\",DEGREES\" for another lens than 45 or \",hX\" for an orthographic view X units high, then "
+             "\",ux,uy,uz\" for "
+             "the direction up (default: front; the built-in scene's own)")
         .in("CAMERA")
-        .offers({"front", "fit"})
+        .offers({"front", "left", "right", "top", "bottom", "back", "fit"})
         .main();
     addDeviceOption(a, o.device);
     a.group(HelpGroup::diagnostics);
