@@ -95,7 +95,10 @@ Status run(const LintCommandOptions& o)
         for (const std::string& line : details)
             say(o, line);
     else
-        say(o, "--details adds {} lines: each primitive and map in figures, and where to look", details.size());
+        say(o,
+            "--details adds {} lines: the statistics of each primitive and map, and cameras that look at the worst "
+            "places",
+            details.size());
 
     Json j = {{"command", "lint"},
               {"model", o.model},
