@@ -126,7 +126,8 @@ def test_every_option_of_the_command_is_a_keyword(command):
 
     listed = set(re.findall(r"^  (?:-\w, )?--([a-z-]+)", command("render", "--help"), re.M))
     # About files and the terminal.
-    elsewhere = {"help", "output", "json", "quiet", "overwrite", "frames", "rate", "list-frames"}
+    elsewhere = {"help", "output", "json", "quiet", "overwrite", "frames", "rate", "turntable",
+                 "list-frames"}
     keywords = {name.replace("_", "-") for name in inspect.signature(cotan.render).parameters}
     assert listed - elsewhere <= keywords
     assert keywords - listed == {"model", "floats", "report", "progress", "beside"}
