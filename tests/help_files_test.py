@@ -228,7 +228,8 @@ def offers(shell):
             ("cotan compare --frames cotangent,mikk", {"mikktspace"}),
             ("cotan map conv", {"convert"}),
             ("cotan frobnicate ", None),
-            ("cotan render --size ", set()),
+            ("cotan render --size ", {"thumbnail", "720p", "1080p", "1440p", "2160p", "square"}),
+            ("cotan bake --size ", set()),
         ]
         found = shell([line for line, _ in wanted], folder)
         assert len(found) == len(wanted)
