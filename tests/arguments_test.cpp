@@ -93,7 +93,67 @@ TEST(Arguments, choicesAreTakenAndNothingElse)
     for (const char* good : {"a", "b", "c"})
         expectTaken("--word", good);
     for (const char* bad : {"d", "A", "ab"})
-        expectTaken("--word", bad, bad);
+        expectTaken("--word", bad, "expected a, b or c; found '" + std::string(bad) + "'");
+}
+
+TEST(Arguments, whatIsWrongComesFirstAndThenWithWhat)
+{
+    const std::pair<std::vector<std::string>, std::string> cases[] = {
+        {{"do", "m", "--wole", "3"}, "unknown option --wole; did you mean --whole? (see tool do --help)"},
+        {{"do", "m", "--whol=3"}, "unknown option --whol; did you mean --whole? (see tool do --help)"},
+        {{"do", "m", "--nothing"}, "unknown option --nothing (see tool do --help)"},
+        {{"do", "m", "-x"}, "unknown option -x (see tool do --help)"},
+        {{"do", "m", "--" + std::string(1000, 'x')}, "unknown option of 1002 letters (see tool do --help)"},
+        {{"do", "m", "n", "o"}, "unexpected word 'n' (see tool do --help)"},
+        {{"do", "m", "--whole"}, "--whole needs a value: --whole N (see tool do --help)"},
+        {{"do", "m", "--word", "a", "--word", "b"}, "--word is given 2 times; expected once (see tool do --help)"},
+        {{"do", "m", "--flag=maybe"}, "--flag takes no value; found 'maybe' (see tool do --help)"},
+        {{"do"}, "do needs MODEL (see tool do --help)"},
+        {{}, "tool needs a command: do or done (see tool --help)"},
+    };
+    for (const auto& [words, message] : cases) {
+        Everything e;
+        const Status done = e.tool.run(words, [](const std::string&) {});
+        ASSERT_FALSE(done) << message;
+        EXPECT_EQ(done.error().message, message);
+        EXPECT_EQ(e.runs, 0);
+    }
+}
+
+TEST(Arguments, anUnlistedOptionIsNotWhatWasMeant)
+{
+    Everything e;
+    const Status done = e.run({"--hiden", "x"});
+    ASSERT_FALSE(done);
+    EXPECT_EQ(done.error().message, "unknown option --hiden (see tool do --help)");
+}
+
+TEST(Arguments, anAnswerIsPrintedInPlaceOfTheWork)
+{
+    Everything e;
+    e.command.answers("--names", "prints names", [] { return std::string("a\nb"); });
+    std::string printed;
+    ASSERT_TRUE(e.tool.run({"do", "--names"}, [&](const std::string& text) { printed += text; }));
+    EXPECT_EQ(printed, "a\nb\n");
+    EXPECT_EQ(e.runs, 0);
+}
+
+TEST(Arguments, optionsStandInTheOrderOfTheirGroupsAndTheMainOnesFirst)
+{
+    Arguments tool("tool", "It works.", "1");
+    Arguments command = tool.command("do", "Does it.");
+    std::string value;
+    command.option("--quiet", value, "");
+    command.group(HelpGroup::light);
+    command.option("--lamp", value, "");
+    command.option("--file", value, "").under(HelpGroup::input);
+    command.option("--size", value, "").main();
+    command.option("MODEL", value, "");
+    std::vector<std::string> names;
+    const CommandHelp help = tool.describe();
+    for (const OptionHelp& option : help.commands[0].options)
+        names.push_back(option.names.back());
+    EXPECT_EQ(names, (std::vector<std::string>{"MODEL", "--size", "--file", "--lamp", "--help", "--quiet"}));
 }
 
 TEST(Arguments, valuesArriveInTheirVariables)
@@ -211,12 +271,12 @@ TEST(CommandWords, theNearestCommandIsMeantWhereOneIsNear)
     EXPECT_EQ(said({"render", "x"}), "");
     EXPECT_EQ(said({"map", "mips"}), "");
     EXPECT_EQ(said({"--help", "x"}), "");
-    EXPECT_EQ(said({"redner"}), "there is no command 'redner'; did you mean render?");
-    EXPECT_EQ(said({"re"}), "there is no command 're'; did you mean render?");
-    EXPECT_EQ(said({"map", "mip"}), "map: there is no command 'mip'; did you mean mips?");
-    EXPECT_EQ(said({"nothing"}), "there is no command 'nothing'; expected one of render, map");
+    EXPECT_EQ(said({"redner"}), "unknown command 'redner'; did you mean render?");
+    EXPECT_EQ(said({"re"}), "unknown command 're'; did you mean render?");
+    EXPECT_EQ(said({"map", "mip"}), "unknown map command 'mip'; did you mean mips?");
+    EXPECT_EQ(said({"nothing"}), "unknown command 'nothing'; expected one of render, map");
     EXPECT_NE(said({std::string(100, 'x')}).find("expected one of"), std::string::npos);
-    EXPECT_EQ(said({std::string(101, 'x')}), "there is no command of such a length");
+    EXPECT_EQ(said({std::string(101, 'x')}), "unknown command of 101 letters");
     EXPECT_EQ(editDistance("", "abc"), 3u);
     EXPECT_EQ(editDistance("abc", ""), 3u);
     EXPECT_EQ(editDistance("abcd", "acbd"), 1u); // neighbours exchanged

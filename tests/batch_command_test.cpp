@@ -176,7 +176,7 @@ TEST_F(BatchCommand, wrongWordsAreOneLineBeforeAnythingRuns)
         {{"jobs.jsonl", "-o", "r.html", "--limit-processor-time", "-1"}, 1, "--limit-processor-time"},
         {{"jobs.jsonl", "-o", "r.html", "--retries", "many"}, 1, "--retries"},
         {{"jobs.jsonl", "-o", "r.html", "--store", "a.png"}, 4, "cannot make this folder"},
-        {{"words.jsonl", "-o", "r.html"}, 2, "words.jsonl:2: --from is required"},
+        {{"words.jsonl", "-o", "r.html"}, 2, "words.jsonl:2: map convert needs --from WORDS"},
         {{"batch.jsonl", "-o", "r.html"}, 2, "batch.jsonl:1: batch is no work for a batch"},
         {{"view.jsonl", "-o", "r.html"}, 2, "view is no work for a batch"},
         {{"stdout.jsonl", "-o", "r.html"}, 2, "--json -: expected a file"},
@@ -260,7 +260,7 @@ TEST_F(BatchCommand, interruptedItEndsItsJobsAndTheNextRunGoesOn)
 TEST(BatchWords, everyOptionThatNamesAFileSaysWhatIsDoneWithIt)
 {
     TemporaryFolder folder;
-    const std::regex option(R"((?:^|\n)  (?:-o,)?(--[a-z-]+) (?:FILE|PATH|DIR|FOLDER)\b)");
+    const std::regex option(R"((?:^|\n)  (?:-o, )?(--[a-z-]+) (?:FILE|PATH|DIR|FOLDER)\b)");
     std::size_t checked = 0;
     for (const std::string name :
          {"render", "compare", "figures", "accuracy", "bake", "tangents", "lint", "convert", "shader", "map convert",

@@ -85,7 +85,7 @@ TEST(ConvertProvoking, wrongWordsGetOneClearLine)
     TemporaryFolder folder;
     write(quad(2), folder.path());
     const std::pair<std::vector<std::string>, const char*> cases[] = {
-        {{"--provoking", "middle"}, "middle not in {first,last}"},
+        {{"--provoking", "middle"}, "expected first or last; found 'middle'"},
         {{"--provoking", "first", "--bits", "16"}, "--bits: is about converting maps"},
         {{"--provoking", "first", "--verify", "v"}, "--verify: is about converting maps"},
         {{"--provoking", "first", "--keep-tangents"}, "--keep-tangents: is about converting maps"},

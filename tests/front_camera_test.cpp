@@ -78,5 +78,37 @@ TEST(FrontCamera, flatModelsAreSeenStraightOnAndPointsFromSomewhere)
     EXPECT_EQ(frontCamera(Scene{}, 100, 100).eye, Camera{}.eye);
 }
 
+TEST(OrbitCamera, sidesAreSeenStraightOnAndFillThePicture)
+{
+    struct Case {
+        double azimuth, elevation;
+        glm::vec3 from, up;
+    };
+    const Scene scene = placed(makeTeapot(6), glm::mat4(1));
+    for (const Case& c :
+         {Case{0, 0, {0, 0, 1}, {0, 1, 0}}, Case{90, 0, {1, 0, 0}, {0, 1, 0}}, Case{-90, 0, {-1, 0, 0}, {0, 1, 0}},
+          Case{270, 0, {-1, 0, 0}, {0, 1, 0}}, Case{180, 0, {0, 0, -1}, {0, 1, 0}}, Case{0, 90, {0, 1, 0}, {0, 0, -1}},
+          Case{0, -90, {0, -1, 0}, {0, 0, 1}}, Case{90, 90, {0, 1, 0}, {-1, 0, 0}}}) {
+        const Camera camera = orbitCamera(scene, c.azimuth, c.elevation, 640, 480);
+        const glm::vec3 from = glm::normalize(camera.eye - camera.target);
+        EXPECT_LT(glm::distance(from, c.from), 1e-6f) << c.azimuth << " " << c.elevation;
+        EXPECT_EQ(camera.up, c.up) << c.azimuth << " " << c.elevation;
+        const Extent e = extentOf(scene, camera, 640.0 / 480);
+        EXPECT_NEAR(std::max({-e.left, e.right, -e.bottom, e.top}), 0.92, 0.003);
+    }
+}
+
+TEST(OrbitCamera, anglesAreThoseFromTheFrontAndFromTheHorizon)
+{
+    const Scene scene = placed(makeTeapot(6), glm::mat4(1));
+    for (const auto& [azimuth, elevation] : {std::pair(30.0, 20.0), std::pair(-120.0, -45.0), std::pair(200.0, 80.0)}) {
+        const Camera camera = orbitCamera(scene, azimuth, elevation, 200, 100);
+        const glm::dvec3 from = glm::normalize(glm::dvec3(camera.eye) - glm::dvec3(camera.target));
+        EXPECT_NEAR(std::asin(from.y) * 57.29577951308232, elevation, 1e-3);
+        EXPECT_NEAR(std::remainder(std::atan2(from.x, from.z) * 57.29577951308232 - azimuth, 360.0), 0, 1e-3);
+    }
+    EXPECT_EQ(orbitCamera(Scene{}, 30, 20, 100, 100).eye, Camera{}.eye);
+}
+
 } // namespace
 } // namespace cotan

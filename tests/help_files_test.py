@@ -22,22 +22,33 @@ FREE_NAMES = {("cost", "--device"), ("accuracy", "--scene")}
 
 
 class Option:
-    def __init__(self, line):
-        names, rest = re.match(r"  (\S+)(.*)", line).groups()
-        self.names = names.split(",")
+    def __init__(self, line, command):
         # The help comes after two spaces, or in the next line.
-        self.value = re.sub(r"\s.*|[:=].*", "", rest[1:]) if rest[:1] == " " and rest[1:2].strip() else ""
-        among = re.match(r" \S*:\{(.*)\}", rest)
-        self.words = among.group(1).split(",") if among else []
+        names, self.value = re.match(r"  ((?:-\w, )?--?[\w-]+(?:, --[\w-]+)*) ?(\S*)", line).groups()
+        self.names = names.split(", ")
+        self.words = words_of(command, self.names[-1]) if self.value else []
+
+
+def words_of(command, option):
+    """Those of an option that takes no others: what it says of one that it does not take, before it asks for more."""
+    said = subprocess.run([tool, *command.split(), option, "zzz"], capture_output=True, text=True).stderr
+    told = re.search(rf"error: {option}: expected ([\w, -]+); found 'zzz' \(see", said)
+    words = re.split(", | or ", told.group(1)) if told else []
+    return [] if any(" " in word for word in words) else words  # "a number from 0 to 1"
 
 
 def help_of(command):
-    return subprocess.run([tool, *command.split(), "--help"], capture_output=True, text=True, check=True).stdout
+    return subprocess.run([tool, *command.split(), "--help"], capture_output=True, text=True, check=True,
+                          env={**os.environ, "COLUMNS": "120"}).stdout
 
 
-def lines_of(text, heading):
-    block = re.search(rf"^{heading}:\n((?:  .*\n)+)", text, re.M)
-    return [l for l in block.group(1).splitlines() if l[2] != " "] if block else []
+def lines_of(text, kind):
+    """The lines that begin an entry of a list: commands, operands, options (dashes), or examples."""
+    lists, _, examples = text.partition("\nExamples:\n")
+    if kind == "examples":
+        return re.findall(r"^  (\S.*)", examples, re.M)
+    beginnings = {"commands": "[a-z]", "operands": "[A-Z]", "options": "-"}
+    return re.findall(rf"^(  {beginnings[kind]}.*)", lists, re.M)
 
 
 # Every command, by its words, with what its help says.
@@ -46,10 +57,10 @@ commands, options, operands, examples, helps = {}, {}, {}, {}, {}
 
 def read(command):
     text = helps[command] = help_of(command)
-    commands[command] = [line.split()[0] for line in lines_of(text, "Subcommands")]
-    options[command] = [Option(line) for line in lines_of(text, "Options")]
-    operands[command] = [line.split()[0] for line in lines_of(text, "Positionals")]
-    examples[command] = [line.strip() for line in lines_of(text, "Examples")]
+    commands[command] = [line.split()[0] for line in lines_of(text, "commands")]
+    options[command] = [Option(line, command) for line in lines_of(text, "options")]
+    operands[command] = [line.split()[0] for line in lines_of(text, "operands")]
+    examples[command] = lines_of(text, "examples")
     for inner in commands[command]:
         read((command + " " + inner).strip())
 
@@ -189,7 +200,8 @@ def offers(shell):
         wanted = []  # (line, what is offered there)
         for command, inner in commands.items():
             start = f"cotan {command} " if command else "cotan "
-            wanted.append((start, set(inner) if inner else everything if operands[command] else None))
+            operand = set(commands[""]) - {"help"} if command == "help" else everything if operands[command] else None
+            wanted.append((start, set(inner) if inner else operand))
             # zsh offers the two dashes by themselves only to those who typed one.
             wanted.append((start + "--", {name for option in options[command] for name in option.names if name[:2] == "--"}))
             for option in options[command]:
@@ -216,7 +228,8 @@ def offers(shell):
             ("cotan compare --frames cotangent,mikk", {"mikktspace"}),
             ("cotan map conv", {"convert"}),
             ("cotan frobnicate ", None),
-            ("cotan render --size ", set()),
+            ("cotan render --size ", {"thumbnail", "720p", "1080p", "1440p", "2160p", "square"}),
+            ("cotan bake --size ", set()),
         ]
         found = shell([line for line, _ in wanted], folder)
         assert len(found) == len(wanted)

@@ -2,8 +2,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cctype>
 #include <sstream>
 
+#include "cotan/frame.hpp"
 #include "cotan/image/file.hpp"
 #include "quad_model.hpp"
 #include "run_tool.hpp"
@@ -21,20 +23,15 @@ Words split(const std::string& line)
     return {std::istream_iterator<std::string>(stream), {}};
 }
 
-// The names that a help text lists under "Subcommands:".
+// The names of commands that a help text lists: those are in lines of their own, and no option.
 Words subcommandsOf(const std::string& help)
 {
     Words names;
-    std::istringstream text(help);
-    bool listed = false;
-    for (std::string line; std::getline(text, line);) {
-        if (line == "Subcommands:")
-            listed = true;
-        else if (listed && line.size() > 2 && line.starts_with("  ") && line[2] != ' ')
-            names.push_back(split(line)[0]);
-        else if (line.empty())
-            listed = false;
-    }
+    std::istringstream text(help.substr(0, help.find("Examples:")));
+    if (help.find(" COMMAND [OPTIONS]") != std::string::npos)
+        for (std::string line; std::getline(text, line);)
+            if (line.size() > 2 && line.starts_with("  ") && std::islower(static_cast<unsigned char>(line[2])))
+                names.push_back(split(line)[0]);
     return names;
 }
 
@@ -85,12 +82,116 @@ void prepare(const TemporaryFolder& folder)
 TEST(Help, everyCommandHasTwoExamplesAndTheExitCodes)
 {
     const auto all = helps();
-    EXPECT_GT(all.size(), 18u);
+    EXPECT_GT(all.size(), 20u);
     for (const auto& [name, help] : all) {
         EXPECT_GE(examplesOf(help).size(), 2u) << name;
         EXPECT_NE(help.find("Exit codes"), std::string::npos) << name;
         for (const Words& words : examplesOf(help))
             EXPECT_TRUE(name.empty() || words.at(1) == split(name)[0]) << name << " shows another command";
+    }
+}
+
+TEST(Help, everyCommandBeginsWithASentenceThatSaysWhatItDoes)
+{
+    for (const auto& [name, help] : helps()) {
+        const std::string first = help.substr(0, help.find("\n\n"));
+        EXPECT_TRUE(std::isupper(static_cast<unsigned char>(first[0]))) << name << ": " << first;
+        EXPECT_TRUE(first.ends_with('.')) << name << ": " << first;
+        EXPECT_NE(help.find("\nUsage: cotan"), std::string::npos) << name;
+    }
+}
+
+TEST(Help, usageNamesWhatIsRequired)
+{
+    TemporaryFolder folder;
+    const auto all = helps();
+    EXPECT_NE(all.at("render").find("\nUsage: cotan render [MODEL] -o PATH [OPTIONS]\n"), std::string::npos);
+    EXPECT_NE(all.at("bake").find("\nUsage: cotan bake -o PATH --high FILE --low FILE [OPTIONS]\n"), std::string::npos);
+    EXPECT_NE(all.at("map convert").find("\nUsage: cotan map convert FILE -o PATH --from WORDS --to WORDS"),
+              std::string::npos);
+    EXPECT_NE(all.at("map info").find("\nUsage: cotan map info FILE... [OPTIONS]\n"), std::string::npos);
+    // And nothing runs without it.
+    for (const Words& words : std::vector<Words>{{"render"}, {"bake"}, {"map", "convert"}, {"map", "info"}})
+        EXPECT_EQ(runTool(words, folder.path()).code, 1) << words[0];
+}
+
+TEST(Help, itFitsTheWidthOfTheTerminal)
+{
+    for (const int width : {50, 80, 120}) {
+        ::setenv("COLUMNS", std::to_string(width).c_str(), 1);
+        std::size_t longest = 0;
+        for (const auto& [name, help] : helps()) {
+            std::istringstream text(help.substr(0, help.find("\nExamples:")));
+            for (std::string line; std::getline(text, line);) {
+                longest = std::max(longest, line.size());
+                // A word may be longer than the room that there is.
+                EXPECT_TRUE(line.size() <= std::size_t(width) || split(line).size() == 1) << name << ": " << line;
+            }
+        }
+        EXPECT_GT(longest, std::size_t(width) * 8 / 10);
+    }
+    ::unsetenv("COLUMNS");
+}
+
+TEST(Help, optionsStandUnderHeadingsAndTheOnesThatMatterComeFirst)
+{
+    const std::string help = helps().at("render");
+    std::size_t at = 0;
+    for (const char* heading :
+         {"Main options", "Input", "Output", "Light", "Frame", "Look", "Diagnostics", "General"}) {
+        const std::size_t found = help.find("\n" + std::string(heading) + ":\n");
+        ASSERT_NE(found, std::string::npos) << heading;
+        EXPECT_GT(found, at) << heading;
+        at = found;
+    }
+    const std::string main = help.substr(0, help.find("\nInput:\n"));
+    for (const char* option :
+         {"  MODEL", "  -o, --output PATH", "  --frame NAME", "  --view NAME", "  --size WxH", "  --camera CAMERA"})
+        EXPECT_NE(main.find(option), std::string::npos) << option;
+}
+
+TEST(Help, theShortFormHasTheMainOptionsAndSaysHowManyMoreThereAre)
+{
+    TemporaryFolder folder;
+    const ToolRun brief = runTool({"render", "-h"}, folder.path()), full = runTool({"render", "--help"}, folder.path());
+    EXPECT_EQ(brief.code, 0);
+    EXPECT_NE(brief.out.find("--view"), std::string::npos);
+    EXPECT_EQ(brief.out.find("--tone-mapping"), std::string::npos);
+    EXPECT_NE(brief.out.find("\"cotan help render\" shows "), std::string::npos);
+    EXPECT_NE(full.out.find("--tone-mapping"), std::string::npos);
+}
+
+TEST(Help, helpAndACommandIsThatCommandAndHelp)
+{
+    TemporaryFolder folder;
+    for (const Words& words : std::vector<Words>{{}, {"render"}, {"map"}, {"map", "convert"}, {"help"}}) {
+        Words before = {"help"}, behind = words;
+        before.insert(before.end(), words.begin(), words.end());
+        behind.emplace_back("--help");
+        const ToolRun run = runTool(before, folder.path());
+        EXPECT_EQ(run.code, 0);
+        EXPECT_EQ(run.out, runTool(behind, folder.path()).out) << ::testing::PrintToString(words);
+    }
+    const ToolRun wrong = runTool({"help", "redner"}, folder.path());
+    EXPECT_EQ(wrong.code, 1);
+    EXPECT_EQ(wrong.err, "cotan: error: unknown command 'redner'; did you mean render?\n");
+}
+
+TEST(Help, historicalFramesAreListedOnRequestAndAreNoPartOfTheHelp)
+{
+    TemporaryFolder folder;
+    for (const auto& [name, help] : helps()) {
+        EXPECT_EQ(help.find("paper-nodet"), std::string::npos) << name;
+        if (help.find("--list-frames") == std::string::npos)
+            continue;
+        Words words = split(name);
+        words.emplace_back("--list-frames");
+        const ToolRun run = runTool(words, folder.path());
+        EXPECT_EQ(run.code, 0) << name << run.err;
+        for (const FrameInfo& frame : frames())
+            EXPECT_NE(run.out.find("\n  " + std::string(frame.name) + " "), std::string::npos) << name << frame.name;
+        EXPECT_LT(run.out.find("orthonormal "), run.out.find("Historical")) << name;
+        EXPECT_GT(run.out.find("paper-nodet "), run.out.find("Historical")) << name;
     }
 }
 
@@ -168,7 +269,7 @@ TEST(Help, anUnknownCommandIsNamedWithTheNearestOne)
                                                               {{"accurracy"}, "did you mean accuracy?"},
                                                               {{"map", "detct", "a.png"}, "did you mean detect?"},
                                                               {{"map", "form-height"}, "did you mean from-height?"},
-                                                              {{"xyzzyplugh"}, "expected one of render, "}};
+                                                              {{"xyzzyplugh"}, "expected one of view, render, "}};
     for (const auto& [words, answer] : cases) {
         const ToolRun run = runTool(words, folder.path());
         EXPECT_EQ(run.code, 1) << words.back();

@@ -141,13 +141,13 @@ TEST(Recommend, theWorstPrimitiveIsNamedIfItIsSeenAtAll)
     a.mesh = "first";
     b.mesh = "second";
     c.mesh = "third";
-    EXPECT_TRUE(says(advisedOn({a, b, c}).seen, "most in second: 0.90, and 5 % of it over 1.5"));
-    EXPECT_TRUE(says(advisedOn({b, a, c}).seen, "most in second"));
-    EXPECT_FALSE(says(advisedOn({c}).seen, "most in"));
+    EXPECT_TRUE(says(advisedOn({a, b, c}).worst, "in second: 0.90 degrees on average, over 1.5 on 5 % of its area."));
+    EXPECT_TRUE(says(advisedOn({b, a, c}).worst, "in second"));
+    EXPECT_EQ(advisedOn({c}).worst, "");
     b.readings[1].error = spreadAt(0.4, 2.1); // rarely, but much
-    EXPECT_TRUE(says(advisedOn({b, c}).seen, "most in second"));
+    EXPECT_TRUE(says(advisedOn({b, c}).worst, "in second"));
     b.readings[1].error = spreadAt(0.4, 1.9);
-    EXPECT_FALSE(says(advisedOn({b, c}).seen, "most in"));
+    EXPECT_EQ(advisedOn({b, c}).worst, "");
 }
 
 TEST(Recommend, convertIsAdvisedForTheMapsThatItWouldChangeAndForNoOthers)

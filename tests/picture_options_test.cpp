@@ -24,6 +24,35 @@ TEST(PictureWords, sizesReachFromOneTo16384OnEachSide)
         EXPECT_FALSE(parseSize(wrong)) << wrong;
 }
 
+TEST(PictureWords, picturesHaveSizesByNameAndMapsDoNot)
+{
+    EXPECT_EQ(*parsePictureSize("1080p"), std::pair(1920, 1080));
+    EXPECT_EQ(*parsePictureSize("square"), std::pair(1024, 1024));
+    EXPECT_EQ(*parsePictureSize("640x480"), std::pair(640, 480));
+    EXPECT_FALSE(parsePictureSize("1080q"));
+    EXPECT_FALSE(parseSize("1080p"));
+    for (const std::string& word : sizePresetWords())
+        EXPECT_TRUE(parsePictureSize(word)) << word;
+}
+
+TEST(PictureWords, camerasHaveTheNamesOfSides)
+{
+    const Scene scene = builtinScene();
+    const auto from = [&](const char* words) {
+        const auto camera = cameraFromWords(words, scene, 10, 10);
+        return camera ? glm::normalize(camera->eye - camera->target) : glm::vec3(0);
+    };
+    EXPECT_LT(glm::distance(from("left"), {-1, 0, 0}), 1e-5f);
+    EXPECT_LT(glm::distance(from("right"), {1, 0, 0}), 1e-5f);
+    EXPECT_LT(glm::distance(from("top"), {0, 1, 0}), 1e-5f);
+    EXPECT_LT(glm::distance(from("bottom"), {0, -1, 0}), 1e-5f);
+    EXPECT_LT(glm::distance(from("back"), {0, 0, -1}), 1e-5f);
+    EXPECT_LT(glm::distance(from("orbit:-90,0"), from("left")), 1e-5f);
+    for (const char* wrong :
+         {"Left", "orbit", "orbit:", "orbit:1", "orbit:1,2,3", "orbit:1,nan", "orbit:1,90.1", "side"})
+        EXPECT_FALSE(cameraFromWords(wrong, scene, 10, 10)) << wrong;
+}
+
 TEST(PictureWords, camerasAreNumberedFromNoughtToTheLast)
 {
     Scene scene = builtinScene();

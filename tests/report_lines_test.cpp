@@ -49,7 +49,7 @@ TEST(LintLines, detailsOfAPrimitiveHaveEachFigureInItsPlace)
 {
     const Lines lines = detailLines(oneOf(primitive()));
     const Lines expected = {
-        "three figures are: mean / 95 % / maximum, by area",
+        "Three figures are mean / 95 % / maximum, weighted by area.",
         nameOf(primitive(), 0) + ": 321 triangles, normal map 4",
         "  uv: degenerate 1.1 %, mirrored 2.2 %, overlapping 3.3 % (in both orientations 4.4 %), stretched over 1.2 "
         "5.5 %, sheared over 10 degrees 6.6 % of the area",

@@ -370,49 +370,4 @@ TEST(Teapot, pointsItsSpoutAlongPlusX)
     EXPECT_GT(right, 1);
 }
 
-TEST(BuiltinScene, storesNoTangents)
-{
-    for (const Mesh& mesh : cotan::builtinScene().meshes) {
-        EXPECT_TRUE(mesh.tangents.empty());
-        EXPECT_TRUE(mesh.cotangentsU.empty());
-    }
-}
-
-TEST(BuiltinScene, isConsistent)
-{
-    const cotan::Scene scene = cotan::builtinScene();
-    ASSERT_EQ(scene.lights.size(), 1u);
-    EXPECT_EQ(scene.lights[0].kind, cotan::LightKind::directional);
-    EXPECT_NEAR(glm::length(scene.lights[0].direction), 1, 1e-6);
-    ASSERT_EQ(scene.cameras.size(), 1u);
-    ASSERT_FALSE(scene.instances.empty());
-    for (const cotan::Instance& instance : scene.instances)
-        ASSERT_LT(std::size_t(instance.mesh), scene.meshes.size());
-    for (const Mesh& mesh : scene.meshes) {
-        ASSERT_LT(std::size_t(mesh.material), scene.materials.size());
-        const cotan::Material& material = scene.materials[std::size_t(mesh.material)];
-        ASSERT_LT(std::size_t(material.normalMap.image), scene.images.size()) << material.name;
-        EXPECT_TRUE(material.normalFormat.greenUp) << material.name;
-    }
-}
-
-TEST(BuiltinScene, nothingIsBelowTheFloor)
-{
-    const cotan::Scene scene = cotan::builtinScene();
-    for (const cotan::Instance& instance : scene.instances)
-        for (const glm::vec3& p : scene.meshes[std::size_t(instance.mesh)].positions)
-            ASSERT_GE((instance.toWorld * glm::vec4(p, 1)).y, -1e-6f) << instance.name;
-}
-
-TEST(BuiltinScene, hasMirroredAndUnmirroredTexcoords)
-{
-    const cotan::Scene scene = cotan::builtinScene();
-    int mirrored = 0, plain = 0;
-    for (const Mesh& mesh : scene.meshes)
-        if (mesh.name == "sphere")
-            eachTriangle(mesh, [&](const Corners& c) { ++(signedUvArea(mesh, c) > 0 ? mirrored : plain); });
-    EXPECT_GT(mirrored, 0);
-    EXPECT_EQ(mirrored, plain);
-}
-
 } // namespace

@@ -263,9 +263,10 @@ TEST(ViewerMenus, whatIsChosenIsTickedAndNothingElseOfItsSubmenu)
     const State beginning = start();
     std::size_t tried = 0;
     for (const Entry& entry : entriesOf(beginning)) {
-        const bool choice = entry.menu == "Frame" || entry.menu == "Second" || entry.submenu == "Show"
-            || entry.submenu == "Surroundings" || entry.submenu == "Background" || entry.submenu == "Tones and shading"
-            || entry.submenu == "Shape of a map" || entry.submenu == "Look";
+        const bool choice = entry.menu == "Frame" || entry.menu == "Compare with" || entry.submenu == "Show"
+            || entry.submenu == "Environment" || entry.submenu == "Background"
+            || entry.submenu == "Tone mapping and shading" || entry.submenu == "Preview shape"
+            || entry.submenu == "Appearance";
         if (!choice || entry.command.empty() || !entry.usable || entry.label == "Dark")
             continue;
         State chosen = beginning;
@@ -291,13 +292,13 @@ TEST(ViewerMenus, whatIsChosenIsTickedAndNothingElseOfItsSubmenu)
                               "Side by side",
                               "Angle between them",
                               "Flip between both",
-                              "Degrees of what is seen",
-                              "What is under the pointer",
-                              "Hot spots of lint",
+                              "Statistics",
+                              "Inspect under pointer",
+                              "Problem areas",
                               "Normal maps",
                               "Nearest texels",
-                              "Edges of triangles",
-                              "Seams",
+                              "Triangle edges",
+                              "UV seams",
                               "Menus and panels",
                               "Settings",
                               "Keys",
@@ -305,8 +306,8 @@ TEST(ViewerMenus, whatIsChosenIsTickedAndNothingElseOfItsSubmenu)
                               "Pinned to the camera",
                               "Shadows",
                               "Ground",
-                              "Four samples a pixel",
-                              "Highlights antialiased"}) {
+                              "4 samples per pixel",
+                              "Specular antialiasing"}) {
         State s = beginning;
         const bool before = ticked(s, label);
         for (const bool expected : {!before, before}) {
@@ -335,13 +336,13 @@ TEST(ViewerMenus, entriesThatNeedSomethingAreGreyWithoutIt)
     model->animations = {{"walk", 2.5}};
     moving.model = std::move(model);
     moving.picture.animation = "0";
-    for (const char* label : {"Reload", "Next in the folder", "Previous in the folder"}) {
+    for (const char* label : {"Reload", "Next in folder", "Previous in folder"}) {
         EXPECT_FALSE(usable(s, label)) << label;
         EXPECT_TRUE(usable(file, label)) << label;
     }
     EXPECT_TRUE(usable(s, "Map on a torus"));
     EXPECT_FALSE(usable(file, "Map on a torus"));
-    for (const char* label : {"Play", "Over and over", "Start", "End"}) {
+    for (const char* label : {"Play", "Loop", "Start", "End"}) {
         EXPECT_FALSE(usable(s, label)) << label;
         EXPECT_TRUE(usable(moving, label)) << label;
     }

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "player.hpp"
+#include "session.hpp"
 #include "viewer_state.hpp"
 
 namespace cotan::viewer {
@@ -67,21 +68,69 @@ TEST(ViewerMenus, theSheetHasEveryKeyAndSaysWhatIsOn)
                 return what;
         return std::string();
     };
-    const std::string before = lineOf("d");
+    const std::string before = lineOf("D");
     EXPECT_EQ(before.find("on"), std::string::npos);
     send(state, "0 key d\n");
-    EXPECT_NE(lineOf("d").find("on"), std::string::npos);
+    EXPECT_NE(lineOf("D").find("on"), std::string::npos);
     for (const Entry& entry : entriesOf(state)) {
         const bool digit = !entry.key.empty() && entry.key.back() >= '1' && entry.key.back() <= '9'
             && entry.key.find("kp") == std::string::npos && entry.key[0] != 'f'
             && entry.key.find("+f") == std::string::npos;
         if (!entry.key.empty() && !digit) {
-            EXPECT_FALSE(lineOf(entry.key.c_str()).empty()) << entry.key;
+            EXPECT_FALSE(lineOf(keyLabel(entry.key).c_str()).empty()) << entry.key;
         }
     }
     send(state, "0 key 4\n0 key shift+5\n");
     EXPECT_EQ(lineOf("1 ... 9"), "Frame: smooth");
-    EXPECT_EQ(lineOf("shift+1 ... 9"), "Second: exact");
+    EXPECT_EQ(lineOf("Shift+1 ... 9"), "Compare with: exact");
+}
+
+TEST(ViewerMenus, theSheetHasATitleForEachMenuWithKeysAndOneForTheMouse)
+{
+    std::vector<std::string> titles;
+    const auto sheet = interfaceOf(withModel()).sheet;
+    for (const auto& [key, what] : sheet)
+        if (key.empty())
+            titles.push_back(what);
+    EXPECT_EQ(titles,
+              (std::vector<std::string>{"File", "Camera", "Frame", "Compare with", "Comparison", "View", "Light",
+                                        "Animation", "Mouse"}));
+    EXPECT_TRUE(sheet.front().first.empty());
+    EXPECT_FALSE(sheet.back().first.empty());
+}
+
+TEST(ViewerMenus, keysAreNamedAsOnAKeyboard)
+{
+    for (const auto& [key, label] : {std::pair("ctrl+o", "Ctrl+O"),
+                                     {"kp1", "Num 1"},
+                                     {"ctrl+kp7", "Ctrl+Num 7"},
+                                     {"shift+f12", "Shift+F12"},
+                                     {"pagedown", "Page Down"},
+                                     {"ctrl+shift+c", "Ctrl+Shift+C"},
+                                     {"space", "Space"},
+                                     {"=", "="},
+                                     {"-", "-"},
+                                     {"", ""}})
+        EXPECT_EQ(keyLabel(key), label);
+    bool found = false;
+    for (const Menu& menu : interfaceOf(withModel()).menus)
+        for (const MenuItem& item : menu.items)
+            if (item.command == "choose") {
+                EXPECT_EQ(item.key, "Ctrl+O");
+                found = true;
+            }
+    EXPECT_TRUE(found);
+}
+
+TEST(ViewerMenus, theFirstStartSaysWhereTheKeysAre)
+{
+    State first = withModel(), later = first;
+    remember("", first);
+    EXPECT_TRUE(interfaceOf(first).status.starts_with("H: keys\n"));
+    send(first, "0 key d\n");
+    EXPECT_EQ(interfaceOf(first).status.find("H: keys"), std::string::npos);
+    remember(memoryOf(later), later);
+    EXPECT_EQ(interfaceOf(later).status.find("H: keys"), std::string::npos);
 }
 
 TEST(ViewerMenus, aSwitchThatIsChosenTwiceIsAsBefore)

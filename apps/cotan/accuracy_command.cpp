@@ -163,20 +163,29 @@ void declare(Arguments& a, AccuracyCommandOptions& o)
 {
     a.option("--tables", o.tables, "tables, separated by commas (default: all; see --list)")
         .in("A,B")
-        .offers(tableWords());
-    a.option("--frames", o.frames, "frames, separated by commas (default: all): " + frameNames())
+        .offers(tableWords())
+        .main();
+    a.option("--frames", o.frames,
+             "frames, separated by commas (default: all): " + usefulFrameNames()
+                 + ", and historical ones of --list-frames")
         .in("A,B")
-        .offers(frameWords());
+        .offers(frameWords())
+        .main();
+    addListOfFrames(a);
+    a.group(HelpGroup::input);
     a.option("--device", o.device,
              "device for the table `rendered`: auto, reference, a part of a Vulkan device's name, or none")
         .in("DEVICE")
-        .offers({"auto", "reference", "none"});
-    a.option("--scene", o.scene, "only this scene of the tables, such as sphere").in("NAME");
+        .offers({"auto", "reference", "none"})
+        .under(HelpGroup::general);
+    a.option("--scene", o.scene, "only this scene of the tables, such as sphere").in("NAME").main();
+    a.group(HelpGroup::output);
     a.option("--csv", o.csv, "write all figures as CSV").in("FILE").writes();
     a.option("--against", o.against, "compare with figures that --csv wrote; exit code 5 if one is worse")
         .in("FILE")
-        .reads();
-    a.flag("--list", o.list, "print the names of the tables and stop");
+        .reads()
+        .under(HelpGroup::diagnostics);
+    a.flag("--list", o.list, "print the names of the tables and stop").main();
 }
 
 } // namespace
@@ -186,7 +195,7 @@ void addAccuracyCommand(Arguments& tool)
     addCommand<AccuracyCommandOptions>(
         tool,
         {"accuracy",
-         "the error of every frame on surfaces whose normals are known exactly, in degrees",
+         "Measure the error of every frame, in degrees, on surfaces whose normals are known exactly.",
          "file for the tables (Markdown) instead of standard output",
          {"cotan accuracy --list", "cotan accuracy --tables flat --frames cotangent,orthonormal --csv flat.csv"}},
         declare, run);

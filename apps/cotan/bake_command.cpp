@@ -165,7 +165,7 @@ Status checkObjects(const BakeCommandOptions& o)
 Status checkOutputs(const BakeCommandOptions& o)
 {
     if (o.output.empty())
-        return usageError("-o: expected the file to write the map to");
+        return usageError("bake needs -o FILE, to write the map to");
     if (!o.verify.empty() && o.kind != "normal")
         return usageError("--verify: only maps of the kind normal can be drawn and compared");
     if (Status ok = checkModelOutput(o); !ok)
@@ -308,20 +308,25 @@ Status run(const BakeCommandOptions& o)
 
 void declare(Arguments& a, BakeCommandOptions& o)
 {
-    a.option("--high", o.high, "detailed mesh; may be given several times").required().in("FILE").reads();
-    a.option("--low", o.low, "simple mesh with texture coordinates").required().in("FILE").reads();
-    a.option("--frame", o.frame,
-             "the frame that the shader will use (mikktspace: Unity, Unreal, Godot, Blender and glTF): " + frameNames())
+    a.option("--high", o.high, "high-poly mesh; may be given several times").required().in("FILE").reads().main();
+    a.option("--low", o.low, "low-poly mesh with texture coordinates").required().in("FILE").reads().main();
+    a.option(
+         "--frame", o.frame,
+         "frame that the shader will use: " + usefulFrameNames()
+             + ", or a historical one of --list-frames; mikktspace is that of Unity, Unreal, Godot, Blender and glTF")
         .in("NAME")
-        .offers(frameWords());
+        .offers(frameWords())
+        .main();
+    addListOfFrames(a);
+    a.group(HelpGroup::output);
     a.option("--kind", o.kind, "what to bake: normal, object-normal, height (model units) or ao")
         .from({"normal", "object-normal", "height", "ao"})
         .in("NAME");
-    a.option("--size", o.size, "width and height in texels; 512 is 512x512").in("WxH");
+    a.option("--size", o.size, "width and height in texels; 512 is 512x512").in("WxH").main();
+    a.group(HelpGroup::rays);
     a.option("--samples", o.samples, "samples per texel: 1, 4 or 16").from({1, 4, 16}).in("N");
-    a.option(
-         "--search", o.search,
-         "which surface counts: first, that a ray from outside inwards meets, or nearest to the low mesh, either way")
+    a.option("--search", o.search,
+             "surface that counts: first that a ray from outside inwards meets, or nearest to the low mesh, either way")
         .from({"first", "nearest"})
         .in("NAME");
     a.option("--extrusion", o.extrusion,
@@ -337,6 +342,8 @@ void declare(Arguments& a, BakeCommandOptions& o)
              "mesh with the triangles of the low one that encloses both; rays start on it and run inwards")
         .in("FILE")
         .reads();
+    a.option("--ao-rays", o.occlusionRays, "rays per sample for ao").within(1, 65536).in("N");
+    a.group(HelpGroup::input);
     a.flag("--match-by-name", o.matchByName, "bake each low mesh NAME_low from the high mesh NAME_high only");
     addUpOption(a, o.up, "the files");
     a.option("--high-up", o.highUp, "the same of the high mesh alone, where it is another: y or z")
@@ -344,7 +351,8 @@ void declare(Arguments& a, BakeCommandOptions& o)
         .in("NAME");
     a.option("--object", o.object, "bake this object of the low mesh only: the name of its node, else of its mesh")
         .in("TEXT");
-    a.flag("--per-object", o.perObject, "make a map for each object of the low mesh: -o map.png is map-NAME.png");
+    a.flag("--per-object", o.perObject, "make a map for each object of the low mesh: -o map.png is map-NAME.png")
+        .under(HelpGroup::output);
     a.option("--material", o.material, "number of the low mesh's material to bake; -1: all").within(-1, 100000).in("N");
     a.option("--udim", o.udim, "tile of the texture coordinates to bake").within(1001, 1999).in("N");
     addTangentsOption(a, o.tangents,
@@ -368,6 +376,7 @@ void declare(Arguments& a, BakeCommandOptions& o)
              "--high-map")
         .in("WORDS")
         .offers(conventionWordList());
+    a.group(HelpGroup::output);
     a.option("--bits", o.bits,
              "bits per component: 8, 16 or 32 (float; " + imageEndings(&ImageFormat::negative, ", ", " or ") + ")")
         .from({8, 16, 32})
@@ -386,13 +395,16 @@ void declare(Arguments& a, BakeCommandOptions& o)
              "how many texels around charts are filled from the nearest chart; 0: all, -1: none")
         .within(-1, 65536)
         .in("N");
-    a.option("--ao-rays", o.occlusionRays, "rays per sample for ao").within(1, 65536).in("N");
-    a.option("--mask", o.mask, "write a picture of what became of each texel").in("FILE").writes();
+    a.option("--mask", o.mask, "write an image of what became of each texel")
+        .in("FILE")
+        .writes()
+        .under(HelpGroup::diagnostics);
     addMemoryOption(a, o.memory);
     a.option("--verify", o.verify,
-             "draw the low mesh with the map, compare it with the high one, and write the pictures into this folder")
+             "draw the low mesh with the map, compare it with the high one, and write the images into this folder")
         .in("DIR")
-        .writes();
+        .writes()
+        .under(HelpGroup::diagnostics);
     addDeviceOption(a, o.device, "for --verify: ");
 }
 
@@ -403,10 +415,11 @@ void addBakeCommand(Arguments& tool)
     addCommand<BakeCommandOptions>(
         tool,
         {"bake",
-         "bake the normal map of a detailed mesh for a simple one, for a named frame",
+         "Bake a normal map from a high-poly mesh onto a low-poly mesh.",
          "the map: " + imageEndings(&ImageFormat::writes, ", ") + "; or the low model with the map in it: .glb, .gltf",
          {"cotan bake --high statue.obj --low statue_low.obj --frame smooth -o normal.png",
-          "cotan bake --high statue.obj --low statue_low.obj --kind ao --size 256x256 --ao-rays 16 -o ao.png"}},
+          "cotan bake --high statue.obj --low statue_low.obj --kind ao --size 256x256 --ao-rays 16 -o ao.png"},
+         /*needsOutput=*/true},
         declare, run);
 }
 

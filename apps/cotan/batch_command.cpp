@@ -188,11 +188,15 @@ void declare(Arguments& a, BatchOptions& o)
              "file with a job in each line: {\"name\": \"rock\", \"command\": [\"lint\", \"rock.glb\"]}")
         .required()
         .reads();
+    a.group(HelpGroup::jobs);
     a.option("--jobs", o.processes, "jobs to run at a time; 0: one for each core, which share --threads")
-        .within(0, 4096);
+        .within(0, 4096)
+        .in("N")
+        .main();
     a.option("--store", o.stores, "folder that keeps results; default: beside the report. Several with --merge")
         .in("FOLDER")
-        .writes();
+        .writes()
+        .main();
     a.option("--shard", o.shard, "run part K of N, for farms; jobs that use each other's files stay together")
         .in("K/N");
     a.flag("--merge", o.merge, "run nothing; report what the stores hold");
@@ -212,11 +216,12 @@ void declare(Arguments& a, BatchOptions& o)
         .within(0, 1 << 24)
         .in("MIB")
         .withoutDefault();
-    a.option("--rows", o.rows, "most jobs that the page shows, the worst ones; --json has all")
+    a.group(HelpGroup::output);
+    a.option("--rows", o.rows, "maximum number of jobs that the page shows, the worst ones; --json has all")
         .within(1, 250000)
         .in("N");
     a.option("--thumbnails", o.thumbnails,
-             "pictures: of the first picture that a job writes; models: else of the model that it reads, drawn for it; "
+             "pictures: of the first image that a job writes; models: else of the model that it reads, drawn for it; "
              "none")
         .from({"none", "pictures", "models"})
         .in("NAME");
@@ -226,7 +231,7 @@ void declare(Arguments& a, BatchOptions& o)
 
 void addBatchCommand(Arguments& tool)
 {
-    Arguments command = tool.command("batch", "run many commands, keep their results, and show the worst first");
+    Arguments command = tool.command("batch", "Run many commands, keep their results, and show the worst first.");
     const auto options = std::make_shared<BatchOptions>();
     addCommonOptions(command, *options, "the report: a page with all jobs, worst first");
     declare(command, *options);

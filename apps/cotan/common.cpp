@@ -27,14 +27,16 @@ int printErrno = 0; // of the first print that failed
 
 void addCommonOptions(Arguments& command, CommonOptions& options, const std::string& outputHelp)
 {
-    Argument output = command.option("-o,--output", options.output, outputHelp).in("PATH").writes();
+    command.group(HelpGroup::output);
+    Argument output = command.option("-o,--output", options.output, outputHelp).in("PATH").writes().main();
     if (outputHelp.empty())
         output.unlisted().refused(
             [name = command.name()] { return name + " writes no files but --json FILE; leave out -o"; });
     command.option("--json", options.json, "write a machine-readable report; - is standard output").in("FILE").writes();
-    command.flag("--quiet", options.quiet, "print no notes and warnings");
-    command.option("--threads", options.threads, "threads to use; 0 means all cores").within(0, 1024);
     command.flag("--overwrite", options.overwrite, "let outputs replace input files");
+    command.group(HelpGroup::general);
+    command.flag("--quiet", options.quiet, "print no notes and warnings");
+    command.option("--threads", options.threads, "threads to use; 0 means all cores").within(0, 1024).in("N");
 }
 
 void addOlderName(Arguments& command, const std::string& older, const std::string& name, std::string& value)

@@ -42,6 +42,7 @@ struct CommandText {
     const char *name, *summary;
     std::string output; // what -o writes; empty: nothing
     std::vector<std::string> examples;
+    bool needsOutput = false; // it does nothing without -o
 };
 
 // Adds a command whose options are CommonOptions and more: `declare` adds the others, `run` does what they ask for.
@@ -52,6 +53,8 @@ void addCommand(Arguments& parent, const CommandText& text, void (*declare)(Argu
     Arguments command = parent.command(text.name, text.summary);
     const auto options = std::make_shared<Options>();
     addCommonOptions(command, *options, text.output);
+    if (text.needsOutput)
+        command.find("--output").needed();
     declare(command, *options);
     addExamples(command, text.examples);
     command.does([options, run] { return withThreads(options->threads, [&] { return run(*options); }); });

@@ -49,7 +49,7 @@ std::vector<std::string> comparedFiles(const std::array<FrameChoice, 2>& pair)
 Status run(const CompareCommandOptions& o)
 {
     if (o.output.empty())
-        return usageError("compare: expected -o FOLDER; found none");
+        return usageError("compare needs -o FOLDER");
     const auto pair = parsePair(o.frames);
     if (!pair)
         return pair.error();
@@ -111,7 +111,12 @@ Status run(const CompareCommandOptions& o)
 void declare(Arguments& a, CompareCommandOptions& o)
 {
     addPictureOptions(a, o.picture);
-    a.option("--frames", o.frames, "the two frames, from: auto, " + frameNames()).in("A,B").offers(frameWords());
+    a.option("--frames", o.frames,
+             "the two frames: auto, " + usefulFrameNames() + ", or historical ones of --list-frames")
+        .in("A,B")
+        .offers(frameWords())
+        .main();
+    addListOfFrames(a);
 }
 
 } // namespace
@@ -121,10 +126,11 @@ void addCompareCommand(Arguments& tool)
     addCommand<CompareCommandOptions>(
         tool,
         {"compare",
-         "draw a model with two frames and measure the difference in degrees",
-         "folder for both pictures and the heat map",
+         "Draw a model with two frames and measure the difference in degrees.",
+         "folder for both images and the heat map",
          {"cotan compare model.glb -o difference",
-          "cotan compare model.glb --frames orthonormal,mikktspace --size 480x360 -o difference"}},
+          "cotan compare model.glb --frames orthonormal,mikktspace --size 480x360 -o difference"},
+         /*needsOutput=*/true},
         declare, run);
 }
 

@@ -84,7 +84,7 @@ Result<std::optional<FramePair>> checkUsage(const ConvertCommandOptions& o)
         return usageError(fmt::format(
             "--to-frame: expected a frame that reads no tangents, since --keep-maps drops them; found {}", name(*to)));
     if (o.output.empty())
-        return usageError("convert: expected -o FILE; found none");
+        return usageError("convert needs -o FILE");
     if (Status names = checkGltfNames(o.model, o.output); !names)
         return names.error();
     std::vector<PlannedOutput> files = {{"-o", o.output}};
@@ -236,10 +236,13 @@ void declare(Arguments& a, ConvertCommandOptions& o)
              "frame that the maps were made for (default: the one that the file names, else "
              "mikktspace)")
         .in("FRAME")
-        .offers(frameWords());
+        .offers(frameWords())
+        .main();
     a.option("--to-frame", o.to, "frame to make the maps for; mikktspace and vertex write TANGENT, all others drop it")
         .in("FRAME")
-        .offers(frameWords());
+        .offers(frameWords())
+        .main();
+    addListOfFrames(a);
     addOlderName(a, "--from", "--from-frame", o.from);
     addOlderName(a, "--to", "--to-frame", o.to);
     addTangentsOption(
@@ -247,7 +250,9 @@ void declare(Arguments& a, ConvertCommandOptions& o)
         "for --from-frame mikktspace or vertex: stored (as in the file, generated where missing) or generated");
     a.flag("--keep-maps", o.keepMaps,
            "leave the maps byte for byte as they are, to be read with --to-frame (default then: orthonormal), and drop "
-           "the tangents only: the file never grows by maps");
+           "the tangents only: the file never grows by maps")
+        .main();
+    a.group(HelpGroup::output);
     a.flag("--keep-tangents", o.keepTangents, "keep the tangents of the file");
     a.option("--bits", o.bits,
              "bits of the new maps, 8 or 16; writes all anew (default: bits of the old map; a map that fits stays)")
@@ -270,9 +275,10 @@ void declare(Arguments& a, ConvertCommandOptions& o)
         .withoutDefault();
     addMemoryOption(a, o.memory, ", and most that the triangles of one map take besides the model");
     a.option("--verify", o.verify,
-             "draw both models from five sides, compare normals, and write the pictures into this folder")
+             "draw both models from five sides, compare normals, and write the images into this folder")
         .in("FOLDER")
-        .writes();
+        .writes()
+        .main();
     addDeviceOption(a, o.device, "for --verify: ");
 }
 
@@ -283,12 +289,13 @@ void addConvertCommand(Arguments& tool)
     addCommand<ConvertCommandOptions>(
         tool,
         {"convert",
-         "make a glTF model's normal maps for another frame, and drop the tangents; or its vertices for the frame "
-         "triangle",
+         "Convert a glTF model's normal maps to another frame and drop its tangents, or its vertices to the frame "
+         "triangle.",
          "the converted model, .glb or .gltf",
          {"cotan convert model.glb --to-frame smooth -o out.glb", "cotan convert model.glb --keep-maps -o out.glb",
           "cotan convert model.glb --from-frame mikktspace --to-frame orthonormal -o out.glb --verify check",
-          "cotan convert model.glb --provoking first -o out.glb"}},
+          "cotan convert model.glb --provoking first -o out.glb"},
+         /*needsOutput=*/true},
         declare, run);
 }
 

@@ -81,17 +81,20 @@ void declare(Arguments& a, CostCommandOptions& o)
     a.option("--frames", o.frames, "frames to measure besides floor and mikktspace; default: all")
         .separatedByCommas()
         .in("A,B")
-        .offers(rowWords());
+        .offers(rowWords())
+        .main();
+    a.group(HelpGroup::input);
     a.option("--device", o.devices, "only devices with this in their name; default: all").in("NAME");
     a.option("--family", o.families,
              "graphics cards that Mesa's Radeon driver compiles for without the card; default, if no --device is "
              "given: POLARIS10, VEGA10, NAVI21, GFX1100")
         .in("NAME")
         .offers({"POLARIS10", "VEGA10", "NAVI21", "GFX1100"});
+    a.group(HelpGroup::diagnostics);
     a.flag("--no-timing", o.noTiming, "measure no times");
     a.flag("--time-cpu-devices", o.timeCpuDevices, "measure times also where a driver draws on the processor");
-    a.option("--repeats", o.repeats, "how often to draw; the time is the median").within(1, 1000);
-    a.option("--csv", o.csv, "write every number, one per line").in("FILE").writes();
+    a.option("--repeats", o.repeats, "how often to draw; the time is the median").within(1, 1000).in("N");
+    a.option("--csv", o.csv, "write every number, one per line").in("FILE").writes().under(HelpGroup::output);
 }
 
 } // namespace
@@ -101,7 +104,7 @@ void addCostCommand(Arguments& tool)
     addCommand<CostCommandOptions>(
         tool,
         {"cost",
-         "what each frame costs: operations, SPIR-V, machine code, time",
+         "Measure what each frame costs: operations, SPIR-V, machine code, time.",
          "file for the tables instead of standard output, and beside it a chart, .svg; where it has the marks of "
          "docs/explanation/cost.md, only what is between them is replaced",
          {"cotan cost --frames cotangent --no-timing", "cotan cost --family NAVI21 --csv cost.csv"}},

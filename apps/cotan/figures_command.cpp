@@ -34,7 +34,7 @@ std::string commandOf(const FiguresCommandOptions& o)
 Status run(const FiguresCommandOptions& o)
 {
     if (o.output.empty())
-        return usageError("figures: expected -o FOLDER; found none");
+        return usageError("figures needs -o FOLDER");
     const auto size = parseSize(o.size);
     if (!size)
         return size.error();
@@ -73,12 +73,14 @@ Status run(const FiguresCommandOptions& o)
 
 void declare(Arguments& a, FiguresCommandOptions& o)
 {
+    a.group(HelpGroup::output);
     a.option("--size", o.size, "width and height of a panel in pixels, 512 is 512x512; square panels take the height")
         .in("WxH");
     const auto names = figures::figureNames();
     a.option("--only", o.only, fmt::format("figures to make, separated by commas: {}", fmt::join(names, ", ")))
         .in("NAMES")
-        .offers({names.begin(), names.end()});
+        .offers({names.begin(), names.end()})
+        .main();
     addDeviceOption(a, o.device);
 }
 
@@ -89,9 +91,10 @@ void addFiguresCommand(Arguments& tool)
     addCommand<FiguresCommandOptions>(
         tool,
         {"figures",
-         "draw the figures of the papers, with errors in degrees, as one HTML page and PNGs",
-         "folder for index.html and the pictures",
-         {"cotan figures --only mirrored -o figures", "cotan figures --only 2.6.4,decode --size 240x180 -o figures"}},
+         "Draw the figures of the papers, with errors in degrees, as one HTML page and PNGs.",
+         "folder for index.html and the images",
+         {"cotan figures --only mirrored -o figures", "cotan figures --only 2.6.4,decode --size 240x180 -o figures"},
+         /*needsOutput=*/true},
         declare, run);
 }
 

@@ -95,7 +95,10 @@ Status run(const LintCommandOptions& o)
         for (const std::string& line : details)
             say(o, line);
     else
-        say(o, "--details adds {} lines: each primitive and map in figures, and where to look", details.size());
+        say(o,
+            "--details adds {} lines: the statistics of each primitive and map, and cameras that look at the worst "
+            "places",
+            details.size());
 
     Json j = {{"command", "lint"},
               {"model", o.model},
@@ -132,8 +135,10 @@ void declare(Arguments& a, LintCommandOptions& o)
     addUpOption(a, o.up);
     addMemoryOption(a, o.memory, ", and most that all triangles take besides the model");
     a.flag("--details", o.details,
-           "print the figures of each primitive and map, too, and cameras that look at the worst places");
+           "print the figures of each primitive and map, too, and cameras that look at the worst places")
+        .main();
     addOwnNormalMap(a, o.maps);
+    a.group(HelpGroup::diagnostics);
     a.option("--distance", o.distance,
              "distance from the eye in world units, for a picture of 45 degrees and 1080 lines; 0: where the model "
              "fills it")
@@ -143,7 +148,8 @@ void declare(Arguments& a, LintCommandOptions& o)
          "a check of each primitive by itself: exit code 5 where the error with --frame exceeds this many degrees on "
          "more than 5 % of a primitive's area, a map's green points the other way, or a normal map could not be judged")
         .in("DEGREES")
-        .withoutDefault();
+        .withoutDefault()
+        .main();
     a.option("--limit-area", o.limits.area,
              "a check: exit code 5 where degenerate uv, mirrored uv that overlap, or stored tangents against the uv "
              "exceed this % of a primitive's area, or a map's green points the other way")
@@ -153,20 +159,22 @@ void declare(Arguments& a, LintCommandOptions& o)
     a.option("--frame", o.limits.frame,
              "frame that --limit judges: cotangent, orthonormal, smooth, exact, triangle or stored")
         .from(readingNames())
-        .in("NAME");
+        .in("NAME")
+        .main();
 }
 
 } // namespace
 
 void addLintCommand(Arguments& tool)
 {
-    addCommand<LintCommandOptions>(tool,
-                                   {"lint",
-                                    "how far off a model's normal maps will be without stored tangents, in degrees",
-                                    "",
-                                    {"cotan lint model.glb", "cotan lint model.glb --limit 2",
-                                     "cotan lint model.glb --distance 3 --json report.json"}},
-                                   declare, run);
+    addCommand<LintCommandOptions>(
+        tool,
+        {"lint",
+         "Check a model: how far off its normal maps will be without stored tangents, in degrees.",
+         "",
+         {"cotan lint model.glb", "cotan lint model.glb --limit 2",
+          "cotan lint model.glb --distance 3 --json report.json"}},
+        declare, run);
 }
 
 } // namespace cotan::app

@@ -3,6 +3,7 @@
 #include <cstdio>
 #include <exception>
 #include <filesystem>
+#include <memory>
 #include <string>
 #include <system_error>
 #include <vector>
@@ -54,15 +55,51 @@ int finish(const cotan::Status& status)
     return printed ? 0 : fail(printed.error());
 }
 
+// Arguments itself takes "help render" for "render --help"; this is what the help and completion have of it.
+void addHelpCommand(cotan::Arguments& tool)
+{
+    std::vector<std::string> names;
+    for (const cotan::CommandHelp& command : tool.describe().commands)
+        names.push_back(command.name);
+    cotan::Arguments command = tool.command("help", "Show the options of a command.");
+    const auto words = std::make_shared<std::vector<std::string>>();
+    command.option("COMMAND", *words, "command, such as render, or map convert").offers(names);
+    cotan::app::addExamples(command, {"cotan help render", "cotan help map convert"});
+    command.does([words] { return cotan::Status(cotan::Done{}); });
+}
+
+// By what somebody wants to do; the order here is that of the help.
+void addCommands(cotan::Arguments& tool)
+{
+    using namespace cotan::app;
+    tool.heading("Look at models");
+    addViewCommand(tool);
+    addRenderCommand(tool);
+    addCompareCommand(tool);
+    tool.heading("Check and repair");
+    addLintCommand(tool);
+    addMapCommand(tool);
+    tool.heading("Make maps and models");
+    addBakeCommand(tool);
+    addConvertCommand(tool);
+    addTangentsCommand(tool);
+    tool.heading("Put it into an engine");
+    addShaderCommand(tool);
+    addCostCommand(tool);
+    tool.heading("Many files, and proofs");
+    addBatchCommand(tool);
+    addAccuracyCommand(tool);
+    addFiguresCommand(tool);
+    tool.heading("Help");
+    addHelpCommand(tool);
+}
+
 int runCommandLine(std::vector<std::string> words)
 {
     using namespace cotan::app;
     cotan::Arguments tool("cotan", "Normal mapping without precomputed tangents.", "cotan " COTAN_VERSION);
-    addExamples(tool, {"cotan render model.glb -o picture.png", "cotan render --help"});
-    for (const auto add : {addRenderCommand, addCompareCommand, addFiguresCommand, addMapCommand, addAccuracyCommand,
-                           addBakeCommand, addTangentsCommand, addLintCommand, addConvertCommand, addShaderCommand,
-                           addCostCommand, addViewCommand, addBatchCommand})
-        add(tool);
+    addExamples(tool, {"cotan render model.glb -o picture.png", "cotan help render"});
+    addCommands(tool);
     if (words.size() == 2 && words[0] == "--help-files")
         return finish(writeHelpFiles(tool, words[1]));
     return finish(tool.run(std::move(words), print));

@@ -96,18 +96,24 @@ Status run(const MapBlendCommandOptions& o)
 void declare(Arguments& a, MapBlendCommandOptions& o)
 {
     addMemoryOption(a, o.memory);
+    a.group(HelpGroup::input);
     a.option("BASE", o.base, "the base map").required().reads();
     a.option("DETAIL", o.detail, "the detail map").required().reads();
     a.option("--mode", o.mode, "how to combine the maps: reoriented, whiteout, udn, slopes or linear")
-        .offers({"reoriented", "whiteout", "udn", "slopes", "linear"});
-    a.option("--strength", o.strength, "factor on the detail's slopes");
-    a.option("--tiles", o.tiles, "how often the detail repeats over the base").in("N[xM]");
-    a.option("--mask", o.mask, "picture whose red, 0 to 1, multiplies the strength").in("FILE").reads();
+        .in("NAME")
+        .offers({"reoriented", "whiteout", "udn", "slopes", "linear"})
+        .main();
+    a.option("--strength", o.strength, "factor on the detail's slopes").in("X").main();
+    a.option("--tiles", o.tiles, "how often the detail repeats over the base").in("N[xM]").main();
+    a.option("--mask", o.mask, "image whose red, 0 to 1, multiplies the strength").in("FILE").reads();
     a.option("--from", o.from, "how the base is stored: " + conventionWords()).in("WORDS").offers(conventionWordList());
     a.option("--detail-from", o.detailFrom, "how the detail is stored; as the base if not given")
         .in("WORDS")
         .offers(conventionWordList());
-    a.option("--to", o.to, "how to store the blend; as the base if not given").in("WORDS").offers(conventionWordList());
+    a.option("--to", o.to, "how to store the blend; as the base if not given")
+        .in("WORDS")
+        .offers(conventionWordList())
+        .under(HelpGroup::output);
     addBits(a, o, " (as the base)");
     addDither(a, o.dither);
 }
@@ -119,10 +125,11 @@ void addMapBlend(Arguments& map)
     addCommand<MapBlendCommandOptions>(
         map,
         {"blend",
-         "combine a base map and a detail map",
+         "Combine a base map and a detail map.",
          "the blend, of the base's size",
          {"cotan map blend rocks.png grain.png -o out.png",
-          "cotan map blend rocks.png grain.png --tiles 4 --strength 0.5 --mode udn -o out.png"}},
+          "cotan map blend rocks.png grain.png --tiles 4 --strength 0.5 --mode udn -o out.png"},
+         /*needsOutput=*/true},
         declare, run);
 }
 

@@ -12,7 +12,9 @@ void addBits(Arguments& command, MapOptions& options, const std::string& help)
         .option("--bits", options.bits,
                 "bits per component: auto" + help + ", 8, 16, half (" + imageEndings(&ImageFormat::halfs, ", ")
                     + ") or float")
-        .offers({"auto", "8", "16", "half", "float"});
+        .in("N")
+        .offers({"auto", "8", "16", "half", "float"})
+        .under(HelpGroup::output);
 }
 
 void addCompress(Arguments& command, std::string& compress)
@@ -22,12 +24,15 @@ void addCompress(Arguments& command, std::string& compress)
                 "for " + imageEndings(&ImageFormat::texture, ", ", " and ")
                     + ": none, or blocks of a byte a texel: bc5, x and y, which are the more exact for it; "
                       "bc7, x, y, z and alpha")
-        .offers({"none", "bc5", "bc7"});
+        .in("NAME")
+        .offers({"none", "bc5", "bc7"})
+        .under(HelpGroup::output);
 }
 
 void addDither(Arguments& command, bool& dither)
 {
-    command.flag("--dither", dither, "add noise of half a step before rounding; it is the same on every run");
+    command.flag("--dither", dither, "add noise of half a step before rounding; it is the same on every run")
+        .under(HelpGroup::output);
 }
 
 Result<StatedConvention> parseConvention(const std::string& text, const std::string& option)
@@ -48,13 +53,13 @@ Result<std::pair<StatedConvention, StatedConvention>> parseFromTo(const std::str
 Status needOutput(const MapOptions& options, const std::string& command, const std::filesystem::path& file)
 {
     if (options.output.empty())
-        return usageError(fmt::format("map {}: expected -o FILE; found none", command));
+        return usageError(fmt::format("map {} needs -o FILE", command));
     return beginOutputs(options, {{"-o", file.empty() ? options.output : file}});
 }
 
 void addMapCommand(Arguments& tool)
 {
-    Arguments map = tool.command("map", "normal-map files: inspect them, and convert between ways to store them");
+    Arguments map = tool.command("map", "Inspect, repair and convert normal-map files.");
     addExamples(map, {"cotan map detect rocks.png", "cotan map convert rocks.png --from directx --to gltf -o out.png"});
     for (const auto add : {addMapInfo, addMapDetect, addMapConvert, addMapDiff, addMapFromHeight, addMapToHeight,
                            addMapBlend, addMapMips})

@@ -81,6 +81,7 @@ Status run(const MapConvertCommandOptions& o)
 void declare(Arguments& a, MapConvertCommandOptions& o)
 {
     addMemoryOption(a, o.memory);
+    a.group(HelpGroup::input);
     a.option("FILE", o.file, "the map").required().reads();
     std::vector<std::string> words = conventionWordList();
     std::string damages;
@@ -89,26 +90,35 @@ void declare(Arguments& a, MapConvertCommandOptions& o)
         damages += ' ' + word;
     }
     a.option("--from", o.from,
-             "how the map is stored: " + conventionWords() + "; and of broken maps, which are mended:" + damages)
+             "how the map is stored: " + conventionWords() + "; and of broken maps, which are repaired:" + damages)
         .in("WORDS")
         .offers(words)
-        .required();
+        .required()
+        .main();
     a.option("--to", o.to, "how to store the result; the same words")
         .in("WORDS")
         .offers(conventionWordList())
-        .required();
+        .required()
+        .main();
     addBits(a, o, "");
-    a.option("--strength", o.strength, "factor on the slopes; negative turns bumps into dents");
+    a.option("--strength", o.strength, "factor on the slopes; negative turns bumps into dents").in("X").main();
     a.flag("--normalise", o.normalise,
-           "make every vector of unit length; without this, vectors of three channels keep their lengths");
+           "make every vector of unit length; without this, vectors of three channels keep their lengths")
+        .under(HelpGroup::output);
     addCompress(a, o.compress);
     addDither(a, o.dither);
     a.option("--mesh", o.mesh, "mesh of the map; needed to or from object space").in("FILE").reads();
-    a.option("--frame", o.frame, "with --mesh: the frame that reads the tangent-space map").offers(frameWords());
+    a.option("--frame", o.frame, "with --mesh: the frame that reads the tangent-space map")
+        .in("NAME")
+        .offers(frameWords())
+        .under(HelpGroup::frame);
+    addListOfFrames(a);
+    a.group(HelpGroup::input);
     addUpOption(a, o.up, "--mesh");
-    a.option("--material", o.material, "with --mesh: only triangles of this material; -1: all").within(-1, 1 << 20);
-    a.option("--tangents", o.tangents, "with --mesh, for the frames vertex and mikktspace: stored or generated")
-        .from({"stored", "generated"});
+    a.option("--material", o.material, "with --mesh: only triangles of this material; -1: all")
+        .within(-1, 1 << 20)
+        .in("N");
+    addTangentsOption(a, o.tangents, "with --mesh, for the frames vertex and mikktspace: stored or generated");
 }
 
 } // namespace
@@ -118,10 +128,11 @@ void addMapConvert(Arguments& map)
     addCommand<MapConvertCommandOptions>(
         map,
         {"convert",
-         "store the same directions another way",
+         "Convert a normal map between conventions, or repair it: green, channels, sRGB, space, bits.",
          "the new map: " + imageEndings([](const ImageFormat& f) { return f.writes || f.texture; }),
          {"cotan map convert rocks.png --from directx --to gltf -o out.png",
-          "cotan map convert rocks.png --from gltf --to unity,orthographic --bits 16 -o out.tif"}},
+          "cotan map convert rocks.png --from gltf --to unity,orthographic --bits 16 -o out.tif"},
+         /*needsOutput=*/true},
         declare, run);
 }
 

@@ -42,6 +42,7 @@ Status run(const MapDiffCommandOptions& o)
 void declare(Arguments& a, MapDiffCommandOptions& o)
 {
     addMemoryOption(a, o.memory);
+    a.group(HelpGroup::input);
     a.option("A", o.a, "the first map").required().reads();
     a.option("B", o.b, "the second, of the same size").required().reads();
     a.option("--from", o.from, "how A is stored: " + conventionWords()).in("WORDS").offers(conventionWordList());
@@ -54,7 +55,7 @@ void addMapDiff(Arguments& map)
 {
     addCommand<MapDiffCommandOptions>(map,
                                       {"diff",
-                                       "the angle between two maps, in degrees",
+                                       "Measure the angle between two maps, in degrees.",
                                        "heat map of the angles",
                                        {"cotan map diff rocks.png other.png",
                                         "cotan map diff rocks.png other.png --from gltf --to directx -o heat.png"}},

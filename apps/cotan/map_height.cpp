@@ -173,20 +173,28 @@ Status runTo(const MapToHeightCommandOptions& o)
 void declareFrom(Arguments& a, MapFromHeightCommandOptions& o)
 {
     addMemoryOption(a, o.memory);
+    a.group(HelpGroup::input);
     a.option("FILE", o.file, "heights: grey, or the red channel").required().reads();
     a.option("--to", o.convention, "how to store the map: " + conventionWords())
         .in("WORDS")
-        .offers(conventionWordList());
-    a.option("--metres", o.metres, "size of the picture in metres; with --range").in("W[xH]");
+        .offers(conventionWordList())
+        .main();
+    a.option("--metres", o.metres, "size of the image in metres; with --range").in("W[xH]").main();
     addOlderName(a, "--size", "--metres", o.metres);
     a.option("--range", o.range, "metres from black to white (floats: metres per unit); below 0: white is low")
         .in("METRES")
-        .withoutDefault();
+        .withoutDefault()
+        .main();
     a.option("--strength", o.strength,
-             "without --metres: height from black to white, in hundredths of the picture's width");
+             "without --metres: height from black to white, in hundredths of the image's width")
+        .in("X")
+        .main();
     a.option("--kernel", o.kernel, "how slopes are measured: forward, central, sobel or scharr")
+        .in("NAME")
         .offers({"forward", "central", "sobel", "scharr"});
-    a.option("--wrap", o.wrap, "at the borders: repeat, clamp or mirror").offers({"repeat", "clamp", "mirror"});
+    a.option("--wrap", o.wrap, "at the borders: repeat, clamp or mirror")
+        .in("NAME")
+        .offers({"repeat", "clamp", "mirror"});
     addBits(a, o, " (as the heights)");
     addDither(a, o.dither);
 }
@@ -194,15 +202,19 @@ void declareFrom(Arguments& a, MapFromHeightCommandOptions& o)
 void declareTo(Arguments& a, MapToHeightCommandOptions& o)
 {
     addMemoryOption(a, o.memory);
+    a.group(HelpGroup::input);
     a.option("FILE", o.file, "the map").required().reads();
     a.option("--from", o.convention, "how the map is stored: " + conventionWords())
         .in("WORDS")
-        .offers(conventionWordList());
-    a.option("--metres", o.metres, "size of the picture in metres; heights are then in metres, without this in texels")
-        .in("W[xH]");
+        .offers(conventionWordList())
+        .main();
+    a.option("--metres", o.metres, "size of the image in metres; heights are then in metres, without this in texels")
+        .in("W[xH]")
+        .main();
     addOlderName(a, "--size", "--metres", o.metres);
     a.option("--kernel", o.kernel,
              "what made the slopes: spectral (a baker, true derivatives), forward, central, sobel, scharr")
+        .in("NAME")
         .offers({"spectral", "forward", "central", "sobel", "scharr"});
     a.flag("--free", o.free, "the map does not repeat at its borders");
     addBits(a, o, " (16 where the file can hold it)");
@@ -215,10 +227,11 @@ void addMapFromHeight(Arguments& map)
     addCommand<MapFromHeightCommandOptions>(
         map,
         {"from-height",
-         "a normal map from a height picture",
+         "Make a normal map from a height map.",
          "the normal map",
          {"cotan map from-height height.png --metres 2 --range 0.05 -o normal.png",
-          "cotan map from-height height.png --strength 2 --wrap clamp -o normal.png"}},
+          "cotan map from-height height.png --strength 2 --wrap clamp -o normal.png"},
+         /*needsOutput=*/true},
         declareFrom, runFrom);
 }
 
@@ -226,10 +239,11 @@ void addMapToHeight(Arguments& map)
 {
     addCommand<MapToHeightCommandOptions>(map,
                                           {"to-height",
-                                           "a height picture from a normal map: the one whose slopes are nearest",
+                                           "Make a height map from a normal map: the one whose slopes are nearest.",
                                            "the heights; floats keep their unit, others go from black to white",
                                            {"cotan map to-height rocks.png -o height.png",
-                                            "cotan map to-height rocks.png --metres 2 --bits float -o height.exr"}},
+                                            "cotan map to-height rocks.png --metres 2 --bits float -o height.exr"},
+                                           /*needsOutput=*/true},
                                           declareTo, runTo);
 }
 

@@ -144,7 +144,7 @@ Status runDetect(const InspectOptions& o) { return run(o, "map detect", detect);
 void declare(Arguments& a, InspectOptions& o)
 {
     addMemoryOption(a, o.memory);
-    a.option("FILE", o.files, "maps; of a folder all pictures in it and below").required().reads();
+    a.option("FILE", o.files, "maps; of a folder all images in it and below").required().reads();
 }
 
 } // namespace
@@ -153,7 +153,7 @@ void addMapInfo(Arguments& map)
 {
     addCommand<InspectOptions>(map,
                                {"info",
-                                "properties of maps: lengths, tilt, centre, channels, and what is wrong",
+                                "Show the properties of maps: lengths, tilt, centre, channels, and what is wrong.",
                                 "",
                                 {"cotan map info rocks.png", "cotan map info rocks.png --json rocks.json"}},
                                declare, runInfo);
@@ -164,7 +164,7 @@ void addMapDetect(Arguments& map)
     addCommand<InspectOptions>(
         map,
         {"detect",
-         "which way green points, and how sure that is",
+         "Detect which way green points, and how sure that is.",
          "",
          {"cotan map detect rocks.png", "cotan map detect rocks.png grain.png --json maps.json"}},
         declare, runDetect);

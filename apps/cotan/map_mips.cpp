@@ -63,13 +63,23 @@ Status run(const MapMipsCommandOptions& o)
 void declare(Arguments& a, MapMipsCommandOptions& o)
 {
     addMemoryOption(a, o.memory);
+    a.group(HelpGroup::input);
     a.option("FILE", o.file, "the map").required().reads();
     a.option("--from", o.from, "how the map is stored: " + conventionWords()).in("WORDS").offers(conventionWordList());
-    a.option("--to", o.to, "how to store the levels; as the map if not given").in("WORDS").offers(conventionWordList());
-    a.option("--roughness", o.roughness, "perceptual roughness of the material, 0 to 1").within(0.0, 1.0);
+    a.option("--to", o.to, "how to store the levels; as the map if not given")
+        .in("WORDS")
+        .offers(conventionWordList())
+        .under(HelpGroup::output);
+    a.option("--roughness", o.roughness, "perceptual roughness of the material, 0 to 1")
+        .within(0.0, 1.0)
+        .in("X")
+        .main();
     a.option("--model", o.model, "how lost detail becomes roughness: toksvig, vmf or lean")
-        .offers({"toksvig", "vmf", "lean"});
-    a.flag("--keep-lengths", o.keepLengths, "with three channels: store mean vectors with their shortened lengths");
+        .in("NAME")
+        .offers({"toksvig", "vmf", "lean"})
+        .main();
+    a.flag("--keep-lengths", o.keepLengths, "with three channels: store mean vectors with their shortened lengths")
+        .under(HelpGroup::output);
     addBits(a, o, " (as the map)");
     addCompress(a, o.compress);
 }
@@ -81,12 +91,13 @@ void addMapMips(Arguments& map)
     addCommand<MapMipsCommandOptions>(
         map,
         {"mips",
-         "mip levels, filtered as vectors, and the roughness that each needs",
+         "Make mip levels, filtered as vectors, and the roughness that each needs.",
          "OUT.dds or OUT.ktx2 (all levels, roughness in alpha, or with bc5 in OUT_roughness.dds), or OUT.png and "
          "others: "
          "OUT_0.png, OUT_roughness_0.png, ...",
          {"cotan map mips rocks.png -o rocks.dds", "cotan map mips rocks.png --compress bc5 -o rocks.ktx2",
-          "cotan map mips rocks.png --roughness 0.4 -o level.png"}},
+          "cotan map mips rocks.png --roughness 0.4 -o level.png"},
+         /*needsOutput=*/true},
         declare, run);
 }
 

@@ -6,7 +6,7 @@ namespace cotan::app {
 
 void addBatchCommand(Arguments& tool)
 {
-    Arguments command = tool.command("batch", "run many commands; not in this build: needs xxHash");
+    Arguments command = tool.command("batch", "Run many commands. Not in this build: needs xxHash.");
     command.takesAnything();
     command.does([]() -> Status { return notBuiltWith("xxHash", "libxxhash-dev"); });
 }

@@ -6,7 +6,7 @@ namespace cotan::app {
 
 void addCostCommand(Arguments& tool)
 {
-    Arguments command = tool.command("cost", "what each frame costs; not in this build: needs Vulkan");
+    Arguments command = tool.command("cost", "Measure what each frame costs. Not in this build: needs Vulkan.");
     command.takesAnything();
     command.does([]() -> Status { return notBuiltWith("Vulkan", "libvulkan-dev and glslang-tools"); });
 }

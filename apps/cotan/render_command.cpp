@@ -8,7 +8,10 @@
 #include "cotan/image/animation.hpp"
 #include "cotan/image/file.hpp"
 #include "cotan/image/format_table.hpp"
+#include "cotan/inspect/edges.hpp"
 #include "cotan/parse_number.hpp"
+#include "cotan/picture/light.hpp"
+#include "cotan/picture/turntable.hpp"
 #include "cotan/scene/geometry.hpp"
 #include "cotan/scene/meant_frame.hpp"
 #include "parse.hpp"
@@ -22,8 +25,18 @@ struct RenderCommandOptions : CommonOptions {
     PictureOptions picture;
     std::string frame{kAutoFrame};
     std::string frames; // "A..B"
-    double rate = 24;
+    int turntable = 0;  // images of one turn; 0: it stands
+    double rate = 0;    // images per second; 0: the usual rate of the file
 };
+
+constexpr double kUsualRate = 24, kUsualGifRate = 25; // GIF counts in hundredths of a second
+
+double rateOf(const RenderCommandOptions& o)
+{
+    if (o.rate > 0)
+        return o.rate;
+    return animationRate(o.output, kUsualRate) == kUsualRate ? kUsualRate : kUsualGifRate;
+}
 
 Result<Image> drawPicture(Painter& painter, const Picture& picture, const RenderCommandOptions& o, Json& report)
 {
@@ -45,18 +58,32 @@ struct Sequence {
     std::unique_ptr<AnimationWriter> animation;
 };
 
+// The model with the frame that was chosen for it. like: the view of the image before.
+Result<Picture> loadFramed(const RenderCommandOptions& o, FrameChoice frame, const View* like)
+{
+    auto picture = loadPicture(o.picture, o, {frame, Frame::exact}, like);
+    if (!picture)
+        return picture;
+    picture->view.frame = picture->frames.front();
+    if (const std::string note = frameNote(picture->scene, picture->view.frame); !note.empty())
+        warn(o, note);
+    picture->view.output = outputOf(o.picture.show);
+    return picture;
+}
+
+Status writeNext(const RenderCommandOptions& o, const Image& image, Sequence& sequence)
+{
+    return sequence.animation ? sequence.animation->add(image) : writeImage(o.output, image);
+}
+
 // Draws one picture into o.output, or as the next one of the sequence's file.
 Status renderOne(const RenderCommandOptions& o, FrameChoice frame, Sequence& sequence)
 {
     std::optional<View>& shared = sequence.view;
     Stopwatch total;
-    auto picture = loadPicture(o.picture, o, {frame, Frame::exact}, shared ? &*shared : nullptr);
+    auto picture = loadFramed(o, frame, shared ? &*shared : nullptr);
     if (!picture)
         return picture.error();
-    picture->view.frame = picture->frames.front();
-    if (const std::string note = frameNote(picture->scene, picture->view.frame); !note.empty())
-        warn(o, note);
-    picture->view.output = outputOf(o.picture.show);
 
     Stopwatch watch;
     auto painter = makePicturePainter(o.picture, o, *picture);
@@ -72,7 +99,7 @@ Status renderOne(const RenderCommandOptions& o, FrameChoice frame, Sequence& seq
     if (!image)
         return image.error();
     const double drawSeconds = watch.lap();
-    if (Status written = sequence.animation ? sequence.animation->add(*image) : writeImage(o.output, *image); !written)
+    if (Status written = writeNext(o, *image, sequence); !written)
         return written;
     const double writeSeconds = watch.lap();
 
@@ -92,10 +119,17 @@ Status renderOne(const RenderCommandOptions& o, FrameChoice frame, Sequence& seq
 
 constexpr int kMostFrames = 100000;
 
-// The pictures of --frames: their numbers, none where it was not given.
-Result<std::vector<int>> parseFrames(const RenderCommandOptions& o)
+// The numbers of the images of --frames or --turntable; none without either.
+Result<std::vector<int>> imageNumbers(const RenderCommandOptions& o)
 {
     std::vector<int> frames;
+    if (o.turntable > 0) {
+        if (!o.frames.empty() || !o.json.empty())
+            return usageError("--turntable: expected neither --frames nor --json with it");
+        frames.resize(std::size_t(o.turntable));
+        std::iota(frames.begin(), frames.end(), 0);
+        return frames;
+    }
     if (o.frames.empty())
         return frames;
     const std::size_t dots = o.frames.find("..");
@@ -122,34 +156,108 @@ std::filesystem::path numbered(std::filesystem::path file, int number)
 // One file for all pictures.
 Status beginAnimation(const RenderCommandOptions& o, std::size_t pictures, Sequence& sequence)
 {
-    const auto size = parseSize(o.picture.size);
+    const auto size = parsePictureSize(o.picture.size);
     if (!size)
         return size.error();
-    auto animation = createAnimation(o.output, {size->first, size->second, pictures, o.rate});
+    const double wanted = rateOf(o);
+    auto animation = createAnimation(o.output, {size->first, size->second, pictures, wanted});
     if (!animation)
         return animation.error();
     sequence.animation = std::move(*animation);
-    if (const double rate = animationRate(o.output, o.rate); rate != o.rate)
-        warn(o, "{}: GIF counts in hundredths of a second: {:.4g} pictures a second, not {:g}", o.output.string(), rate,
-             o.rate);
+    if (const double rate = animationRate(o.output, wanted); rate != wanted)
+        warn(o, "{}: GIF counts in hundredths of a second: {:.4g} images per second, not {:g}", o.output.string(), rate,
+             wanted);
     return Done{};
+}
+
+// The images of --frames: the model is posed anew for each.
+Status renderFrames(const RenderCommandOptions& o, FrameChoice frame, const std::vector<int>& numbers,
+                    Sequence& sequence)
+{
+    RenderCommandOptions one = o;
+    for (const int number : numbers) {
+        if (!sequence.animation)
+            one.output = numbered(o.output, number);
+        one.picture.time = number / rateOf(o);
+        if (Status drawn = renderOne(one, frame, sequence); !drawn)
+            return drawn;
+        if (one.quiet && !sequence.animation) // the first speaks for itself
+            say(o, "{}", one.output.string());
+        one.quiet = true; // what is to be warned of was said for the first
+    }
+    return Done{};
+}
+
+// The images of --turntable: one model, loaded once, and its shadow for each.
+Status renderTurn(const RenderCommandOptions& o, FrameChoice frame, const std::vector<int>& numbers, Sequence& sequence)
+{
+    RenderCommandOptions one = o;
+    one.picture.turntable = true;
+    auto picture = loadFramed(one, frame, nullptr);
+    if (!picture)
+        return picture.error();
+    auto painter = makePicturePainter(one.picture, o, *picture);
+    if (!painter)
+        return painter.error();
+    const Turntable table(picture->scene);
+    one.quiet = true; // not a line for each
+    Json none;
+    const std::size_t draws = numbers.size() * (o.picture.show == "error" ? 2 : 1);
+    const auto drawAll = [&](Progress progress) -> Status {
+        (*painter)->progress = std::move(progress);
+        for (const int number : numbers) {
+            if (number > 0) {
+                table.turn(picture->scene, 360.0 * number / double(numbers.size()));
+                if (Status loaded = (*painter)->load(picture->scene, /*sameImages=*/true); !loaded)
+                    return loaded;
+                picture->view.ground = groundOf(one.picture, picture->scene, picture->view);
+                if (o.picture.edges != "none")
+                    picture->edges = surfaceEdges(picture->scene);
+            }
+            one.output = sequence.animation ? o.output : numbered(o.output, number);
+            const auto image = drawPicture(**painter, *picture, one, none);
+            if (!image)
+                return image.error();
+            if (Status written = writeNext(one, *image, sequence); !written)
+                return written;
+        }
+        return Done{};
+    };
+    if (Status drawn = withProgress(o, draws, "drawing", drawAll); !drawn)
+        return drawn;
+    say(o, "{}: {} images of {}x{}, {} triangles, frame {}, on {}", o.output.string(), numbers.size(),
+        picture->view.width, picture->view.height, trianglesDrawn(picture->scene), name(picture->view.frame),
+        (*painter)->device());
+    return Done{};
+}
+
+// Files that drop alpha would show black.
+Status checkBackground(const RenderCommandOptions& o)
+{
+    if (o.picture.background != "none" || imageFormatHas(o.output, &ImageFormat::alpha) || !imageFormatOf(o.output))
+        return Done{};
+    return usageError(fmt::format(
+        "--background none: {} files keep no transparency; expected {}", o.output.extension().string(),
+        imageEndings([](const ImageFormat& f) { return (f.writes || f.animation) && f.alpha; }, ", ", " or ")));
 }
 
 Status run(const RenderCommandOptions& o)
 {
     if (o.output.empty())
-        return usageError("render: expected -o FILE; found none");
+        return usageError("render needs -o FILE");
     const auto frame = parseFrameChoice(o.frame);
     if (!frame)
         return frame.error();
     if (Status fits = checkLighting(o.picture, *frame); !fits)
         return fits;
-    const auto numbers = parseFrames(o);
+    if (Status keeps = checkBackground(o); !keeps)
+        return keeps;
+    const auto numbers = imageNumbers(o);
     if (!numbers)
         return numbers.error();
     const bool animated = isAnimation(o.output);
     if (animated && numbers->empty())
-        return usageError(fmt::format("-o: {} files hold the pictures of --frames; found no --frames",
+        return usageError(fmt::format("-o: {} files hold the images of --turntable or --frames; found neither",
                                       o.output.extension().string()));
     std::vector<PlannedOutput> outputs;
     for (const int number : *numbers)
@@ -169,16 +277,9 @@ Status run(const RenderCommandOptions& o)
     if (animated)
         if (Status begun = beginAnimation(o, numbers->size(), sequence); !begun)
             return begun;
-    for (const int number : *numbers) {
-        if (!animated)
-            one.output = numbered(o.output, number);
-        one.picture.time = number / o.rate;
-        if (Status drawn = renderOne(one, *frame, sequence); !drawn)
-            return drawn;
-        if (one.quiet && !animated) // the first speaks for itself
-            say(o, "{}", one.output.string());
-        one.quiet = true; // what is to be warned of was said for the first
-    }
+    const auto draw = o.turntable > 0 ? renderTurn : renderFrames;
+    if (Status drawn = draw(one, *frame, *numbers, sequence); !drawn)
+        return drawn;
     return animated ? sequence.animation->finish() : Status(Done{});
 }
 
@@ -187,11 +288,20 @@ void declare(Arguments& a, RenderCommandOptions& o)
     addPictureOptions(a, o.picture);
     addFrameOption(a, o.frame);
     addShowOption(a, o.picture.show);
+    a.group(HelpGroup::output);
     a.option("--frames", o.frames,
-             "pictures A to B of --animation, all with one camera, written as NAME-0000.png and so on, or into one "
+             "images A to B of --animation, all with one camera, written as NAME-0000.png and so on, or into one "
                  + imageEndings(&ImageFormat::animation, ", ", " or "))
         .in("A..B");
-    a.option("--rate", o.rate, "pictures of --frames a second").above0().in("N");
+    a.option("--turntable", o.turntable,
+             "turn the model once around, counter-clockwise from above, in N images: written as those of --frames")
+        .within(2, 3600)
+        .in("N")
+        .withoutDefault();
+    a.option("--rate", o.rate, "images of --frames or --turntable per second (default: 24; in GIF 25)")
+        .above0()
+        .in("N")
+        .withoutDefault();
 }
 
 } // namespace
@@ -201,13 +311,15 @@ void addRenderCommand(Arguments& tool)
     addCommand<RenderCommandOptions>(
         tool,
         {"render",
-         "draw a model, or the built-in scene, to a picture",
-         fmt::format("picture to write: {} (8 bit); {} keep floats; {}: all of --frames",
+         "Draw a model, or the built-in scene, to an image file.",
+         fmt::format("image to write: {} (8 bit); {} (floats); {} (all of --turntable or --frames)",
                      imageEndings([](const ImageFormat& f) { return f.writes && !f.floats; }, ", "),
                      imageEndings([](const ImageFormat& f) { return f.writes && f.floats; }, ", "),
                      imageEndings(&ImageFormat::animation, ", ")),
          {"cotan render model.glb -o picture.png --frame cotangent --view normal",
-          "cotan render --size 640x360 -o scene.png"}},
+          "cotan render --size 640x360 -o scene.png",
+          "cotan render --shape teapot --turntable 4 --size 160x120 -o turning.gif"},
+         /*needsOutput=*/true},
         declare, run);
 }
 

@@ -146,10 +146,15 @@ void declare(Arguments& a, ShaderCommandOptions& o)
     a.find("--threads").unlisted(); // accepted by all commands, listed where it is used
     a.option("--lang", o.language, "glsl, essl, hlsl, wgsl, msl, cpp or godot (a whole spatial shader)")
         .required()
-        .in("NAME");
-    a.option("--frame", o.frame, "one of " + frameNames() + " (default: cotangent; with --lang godot orthonormal)")
         .in("NAME")
-        .offers(frameWords());
+        .main();
+    a.option("--frame", o.frame,
+             "frame to print: " + usefulFrameNames()
+                 + ", or a historical one of --list-frames (default: cotangent; with --lang godot orthonormal)")
+        .in("NAME")
+        .offers(frameWords())
+        .main();
+    addListOfFrames(a);
     a.option(
          "--form", o.form,
          "fused: frame and texel in one step (cotangent, gradient, orthonormal, smooth, triangle); total: the frame as "
@@ -162,12 +167,14 @@ void declare(Arguments& a, ShaderCommandOptions& o)
              "compute, both in one. Default: all")
         .in("NAME")
         .offers({"fragment", "vertex", "mesh", "compute"});
+    a.group(HelpGroup::input);
     a.option("--preset", o.preset,
              "how the normal map is sampled: gltf, opengl, directx, unity, unreal, blender, godot, maya, "
              "3dsmax, source; unity, unreal and godot keep two channels of the imported file. The next three options "
              "replace parts of it. Default: 3 channels, green against v, exact; for Godot: godot")
         .in("NAME")
-        .offers(presetWords());
+        .offers(presetWords())
+        .main();
     a.option("--channels", o.channels, "3, 2 (z from the other two), stereographic or slope")
         .in("N")
         .offers({"3", "2", "stereographic", "slope"});
@@ -180,9 +187,11 @@ void declare(Arguments& a, ShaderCommandOptions& o)
     a.option("--uv-sets", o.uvSets,
              "number of normal maps, 1 to 4, each with its own uv set; they are added as gradients")
         .in("N");
+    a.group(HelpGroup::output);
     a.option("--set", o.sets, "more functions: gradient, blend, light, environment, tone, shadow, all")
         .separatedByCommas()
-        .in("A,B");
+        .in("A,B")
+        .main();
     a.flag("--functions", o.functions,
            "Godot: the functions alone, to paste or as a .gdshaderinc, without shader_type, the map and fragment()");
     a.flag("--two-sided", o.twoSided, "Godot: with back faces, as of a thin sheet: a bump in front is a dent behind");
@@ -207,7 +216,7 @@ void addShaderCommand(Arguments& tool)
     addCommand<ShaderCommandOptions>(
         tool,
         {"shader",
-         "print the shader code of a frame, self-contained",
+         "Print self-contained shader code that applies a normal map.",
          "file for the text instead of standard output",
          {"cotan shader --lang wgsl -o normal.wgsl", "cotan shader --lang glsl --preset unity --set blend,light"}},
         declare, run);

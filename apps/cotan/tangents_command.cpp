@@ -138,7 +138,7 @@ Status checkUsage(const TangentsCommandOptions& o)
         return usageError("--frame smooth is derived when a model is loaded and never stored; leave "
                           "out -o for its statistics");
     if (o.replace && o.output.empty())
-        return usageError("--replace: expected -o FILE to write to; found none");
+        return usageError("--replace needs -o FILE");
     if (Status names = checkGltfNames(o.model, o.output); !names)
         return names;
     return beginOutputs(o, {{"-o", o.output}});
@@ -174,9 +174,12 @@ void declare(Arguments& a, TangentsCommandOptions& o)
     a.option("--frame", o.frame,
              "mikktspace (every shared edge joined, as in three.js 0.187), vertex (classic averages), or smooth "
              "(statistics only)")
-        .offers({"mikktspace", "vertex", "smooth"});
+        .in("NAME")
+        .offers({"mikktspace", "vertex", "smooth"})
+        .main();
     a.flag("--replace", o.replace,
-           "generate tangents also where the file has them; without this only where they are missing");
+           "generate tangents also where the file has them; without this only where they are missing")
+        .main();
 }
 
 } // namespace
@@ -186,7 +189,7 @@ void addTangentsCommand(Arguments& tool)
     addCommand<TangentsCommandOptions>(
         tool,
         {"tangents",
-         "write tangents into a glTF model; without -o: compare those in the file with MikkTSpace",
+         "Write tangents into a glTF model; without -o, compare those in the file with MikkTSpace.",
          "the model with tangents, .glb or .gltf",
          {"cotan tangents model.glb", "cotan tangents model.glb --replace -o with-tangents.glb"}},
         declare, run);

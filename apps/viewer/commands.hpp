@@ -36,6 +36,9 @@ inline constexpr std::size_t kMostLines = 17;
 // In the order of the menus.
 std::vector<Entry> entriesOf(const State& state);
 
+// A key as it is written on a keyboard: "Ctrl+O" of "ctrl+o", "Num 1" of "kp1".
+std::string keyLabel(const std::string& key);
+
 // The command of a key, such as "ctrl+c"; empty where it has none.
 std::string commandOfKey(const State& state, const std::string& key);
 

@@ -42,7 +42,7 @@ std::string statusOf(const State& s)
         text += (s.compare == Compare::angle ? " against " : " | ") + frameLabel(s, s.b);
     if (s.statisticsShown && !s.statisticsOf.empty())
         text += s.statistics.count > 0
-            ? fmt::format("   {}: mean {}, 95 % {}, most {}", s.statisticsOf, degrees(s.statistics.mean),
+            ? fmt::format("   {}: mean {}, 95 % {}, max {}", s.statisticsOf, degrees(s.statistics.mean),
                           degrees(s.statistics.percentile95), degrees(s.statistics.maximum))
             : fmt::format("   {}: no normal map is seen", s.statisticsOf);
     text += "   " + s.device;
@@ -56,8 +56,8 @@ std::vector<Slider> slidersOf(const State& s)
     const auto number = [&](const char* name) { return std::atof(valueOf(*findSetting(name), s.picture).c_str()); };
     std::vector<Slider> sliders = {
         {"exposure", "set exposure", "", s.picture.exposure == "auto" ? s.metered : number("exposure"), 0.05, 20, true},
-        {"light turned", "set environment-rotation", "degrees", number("environment-rotation"), -180, 180},
-        {"light", "set environment-intensity", "", number("environment-intensity"), 0.05, 20, true},
+        {"light rotation", "set environment-rotation", "degrees", number("environment-rotation"), -180, 180},
+        {"light intensity", "set environment-intensity", "", number("environment-intensity"), 0.05, 20, true},
         {"shadow softness", "set shadow-softness", "degrees", number("shadow-softness"), 0, 60},
     };
     if (s.picture.shadowSoftness < 0) // that of the lamp
@@ -142,19 +142,25 @@ std::vector<std::pair<double, glm::vec3>> scaleOfDegrees()
     return scale;
 }
 
-// A line of the cheat sheet; the keys 1 to 9 of a menu share one, which says what is chosen.
-void addToSheet(const Entry& entry, std::vector<std::pair<std::string, std::string>>& sheet)
+// A line of the list of keys; the keys 1 to 9 of a menu share one, which says what is chosen. The first line of a menu
+// comes behind its title.
+void addToSheet(const Entry& entry, std::string& heading, std::vector<std::pair<std::string, std::string>>& sheet)
 {
+    if (entry.key.empty())
+        return;
+    if (heading != entry.menu)
+        sheet.emplace_back("", entry.menu);
+    heading = entry.menu;
     const std::string before = entry.key.substr(0, entry.key.size() - std::min<std::size_t>(entry.key.size(), 1));
-    const bool digit = (before.empty() || before == "shift+" || before == "alt+") && !entry.key.empty()
-        && entry.key.back() >= '1' && entry.key.back() <= '9';
+    const bool digit = (before.empty() || before == "shift+" || before == "alt+") && entry.key.back() >= '1'
+        && entry.key.back() <= '9';
     const std::string shared = entry.menu + ": ";
-    if (digit && (sheet.empty() || !sheet.back().second.starts_with(shared)))
-        sheet.emplace_back(before + "1 ... 9", shared);
-    if (!sheet.empty() && sheet.back().second == shared && entry.on)
+    if (digit && !sheet.back().second.starts_with(shared))
+        sheet.emplace_back(keyLabel(before + "1") + " ... 9", shared);
+    if (sheet.back().second == shared && entry.on)
         sheet.back().second += entry.label;
-    else if (!digit && !entry.key.empty())
-        sheet.emplace_back(entry.key, entry.label + (entry.on ? ": on" : ""));
+    else if (!digit)
+        sheet.emplace_back(keyLabel(entry.key), entry.label + (entry.on ? ": on" : ""));
 }
 
 } // namespace
@@ -168,18 +174,24 @@ Interface interfaceOf(const State& s)
     i.cheatSheet = s.cheatSheet;
     i.slidersShown = s.settingsShown;
     i.hotSpotsShown = s.hotSpotsShown;
+    std::string heading;
     for (const Entry& entry : entriesOf(s)) {
         if (i.menus.empty() || i.menus.back().title != entry.menu)
             i.menus.push_back({entry.menu, {}});
-        i.menus.back().items.push_back({entry.label, entry.key, entry.command, entry.on, entry.usable, entry.submenu});
-        addToSheet(entry, i.sheet);
+        i.menus.back().items.push_back(
+            {entry.label, keyLabel(entry.key), entry.command, entry.on, entry.usable, entry.submenu});
+        addToSheet(entry, heading, i.sheet);
     }
-    for (const auto& [keys, what] : {std::pair("left drag", "turn"),
-                                     {"middle, right drag", "move"},
-                                     {"wheel", "zoom to the pointer"},
-                                     {"click", "pivot"},
-                                     {"shift drag", "turn the light"},
-                                     {"w a s d q e + right", "fly"}})
+    for (auto& [key, what] : i.sheet) // none of 1 to 9 is chosen
+        if (what.ends_with(": "))
+            what.resize(what.size() - 2);
+    i.sheet.emplace_back("", "Mouse");
+    for (const auto& [keys, what] : {std::pair("Left drag", "Orbit"),
+                                     {"Middle or right drag", "Pan"},
+                                     {"Wheel", "Zoom to the pointer"},
+                                     {"Click", "Set the pivot"},
+                                     {"Shift+drag", "Rotate the light"},
+                                     {"Right button + W A S D Q E", "Fly"}})
         i.sheet.emplace_back(keys, what);
     i.sliders = slidersOf(s);
     i.status = statusOf(s);

@@ -60,7 +60,7 @@ struct Interface {
     std::vector<std::pair<double, glm::vec3>> scaleBar; // degrees and their colours
     bool hotSpotsShown = false;
     std::vector<Choice> hotSpots;
-    std::vector<std::pair<std::string, std::string>> sheet; // key; what it does and how it stands
+    std::vector<std::pair<std::string, std::string>> sheet; // key, what it does and how it stands; a title without key
 };
 
 } // namespace cotan::viewer

@@ -42,6 +42,8 @@ std::string memoryOf(const State& state)
 
 void remember(const std::string& text, State& state)
 {
+    if (text.empty()) // nothing was kept: the first start
+        state.said = "H: keys";
     const PictureOptions usual;
     std::istringstream lines(text);
     for (std::string line; std::getline(lines, line);) {

@@ -100,7 +100,9 @@ void resetCamera(State& state)
     const glm::vec3 forward = glm::normalize(state.camera.target - state.camera.eye);
     if (!state.model->box.empty()) {
         const float depth = glm::dot(state.model->box.centre() - state.camera.eye, forward);
-        if (!o.camera.empty() && o.camera != "front" && o.camera != "fit" && depth > 0)
+        const bool own =
+            !o.camera.empty() && !std::isalpha(static_cast<unsigned char>(o.camera[0])); // of eye and target
+        if (own && depth > 0)
             state.camera.target = state.camera.eye + forward * depth;
     }
 }

@@ -38,7 +38,7 @@ Status run(const ViewCommandOptions& o)
 {
     viewer::State state;
     state.picture = o.picture;
-    const auto size = parseSize(o.picture.size);
+    const auto size = parsePictureSize(o.picture.size);
     if (!size)
         return size.error();
     state.size = {size->first, size->second};
@@ -85,8 +85,9 @@ void declare(Arguments& a, ViewCommandOptions& o)
 {
     addPictureOptions(a, o.picture);
     addFrameOption(a, o.frame);
-    a.option("--second", o.second, "another frame, beside the first").in("NAME").offers(frameWords());
+    a.option("--second", o.second, "another frame, to compare with the first").in("NAME").offers(frameWords()).main();
     addShowOption(a, o.picture.show);
+    a.group(HelpGroup::diagnostics);
     a.option("--do", o.commands, "a command of the viewer to begin with, such as \"compare angle\"; may be repeated")
         .in("TEXT");
     a.option("--record", o.record, "write what happens in the window to a file").in("FILE");
@@ -102,7 +103,7 @@ void addViewCommand(Arguments& tool)
     addCommand<ViewCommandOptions>(
         tool,
         {"view",
-         "look at a model or a map in a window",
+         "Open a model or a map in a window.",
          "",
          {"cotan view model.glb", "cotan view statue_low.obj --normal-map rocks.png --second mikktspace"}},
         declare, run);

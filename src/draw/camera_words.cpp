@@ -59,8 +59,8 @@ Result<Camera> lookingFromTo(const std::string& text)
     for (std::size_t i = 7; good && i < parts.size(); ++i)
         good = finite(parts[i], camera.up[int(i) - 7]);
     if (!good)
-        return usageError("expected fit, front, the number of a camera, or six numbers ex,ey,ez,tx,ty,tz and perhaps a "
-                          "lens and a direction up; found '"
+        return usageError("expected front, left, right, top, bottom, back, fit, orbit:AZ,EL, the number of a camera, "
+                          "or six numbers ex,ey,ez,tx,ty,tz and perhaps a lens and a direction up; found '"
                           + text + "'");
     camera.eye = {v[0], v[1], v[2]};
     camera.target = {v[3], v[4], v[5]};
@@ -76,6 +76,26 @@ Result<Camera> lookingFromTo(const std::string& text)
     return camera;
 }
 
+struct Side {
+    std::string_view name;
+    double azimuth, elevation;
+};
+constexpr std::array<Side, 5> kSides = {
+    {{"left", -90, 0}, {"right", 90, 0}, {"top", 0, 90}, {"bottom", 0, -90}, {"back", 180, 0}}};
+constexpr std::string_view kOrbit = "orbit:";
+
+Result<Camera> orbiting(const std::string& text, const Scene& scene, int width, int height)
+{
+    const std::vector<std::string_view> parts = between(std::string_view(text).substr(kOrbit.size()), ',');
+    double azimuth = 0, elevation = 0;
+    if (parts.size() != 2 || !parseNumber(parts[0], azimuth) || !parseNumber(parts[1], elevation)
+        || !(std::abs(azimuth) <= 360 && std::abs(elevation) <= 90))
+        return usageError("expected orbit:AZ,EL, degrees around (-360 to 360) and above the horizon (-90 to 90); "
+                          "found '"
+                          + text + "'");
+    return orbitCamera(scene, azimuth, elevation, width, height);
+}
+
 } // namespace
 
 Result<Camera> cameraFromWords(const std::string& text, const Scene& scene, int width, int height)
@@ -84,6 +104,11 @@ Result<Camera> cameraFromWords(const std::string& text, const Scene& scene, int 
         return fitCamera(framedBounds(scene), width, height);
     if (text == "front")
         return frontCamera(scene, width, height);
+    for (const Side& side : kSides)
+        if (text == side.name)
+            return orbitCamera(scene, side.azimuth, side.elevation, width, height);
+    if (text.starts_with(kOrbit))
+        return orbiting(text, scene, width, height);
     int number = 0;
     if (!parseNumber(std::string_view(text), number))
         return lookingFromTo(text);

@@ -229,8 +229,8 @@ std::string notJudged(const LintReport& report)
     return names.empty() ? "" : fmt::format("The normal map could not be judged in {}.", listed(names));
 }
 
-// The primitive with the largest mean error of that reading among those where somebody might see it; empty
-// if there is none.
+// A sentence on the primitive with the largest mean error of that reading among those where somebody might see it;
+// empty if there is none.
 std::string worstReading(const LintReport& report, const std::string& name)
 {
     std::string text;
@@ -239,21 +239,21 @@ std::string worstReading(const LintReport& report, const std::string& name)
         if (const Reading* r = readingOf(p, name);
             r && (r->error.mean > kUnseenMean || r->error.percentile95 > kUnseen95) && r->error.mean > worst) {
             worst = r->error.mean;
-            text = fmt::format("; most in {}: {:.2f}, and 5 % of it over {:.1f}", nameOf(p), r->error.mean,
-                               r->error.percentile95);
+            text = fmt::format("The largest error is in {}: {:.2f} degrees on average, over {:.1f} on 5 % of its area.",
+                               nameOf(p), r->error.mean, r->error.percentile95);
         }
     return text;
 }
 
-std::string seen(const LintReport& report, const Whole& orthonormal, const Whole& cotangent)
+std::string seen(const Whole& orthonormal, const Whole& cotangent)
 {
     const char* how = orthonormal.unseen() ? "nobody sees a difference"
         : orthonormal.mean < kWrongMean    ? "moving highlights show a difference"
                                            : "the light seems to come from elsewhere";
     return fmt::format("If the maps were made for MikkTSpace and are read without tangents, {}: {:.2f} degrees off on "
                        "average with the "
-                       "frame orthonormal ({:.2f} with cotangent){}.",
-                       how, orthonormal.mean, cotangent.mean, worstReading(report, "orthonormal"));
+                       "frame orthonormal ({:.2f} with cotangent).",
+                       how, orthonormal.mean, cotangent.mean);
 }
 
 // Counts what the command would do; dropTangents (cotan/convert/tangents.hpp) says which tangents go. Maps that are to
@@ -330,7 +330,8 @@ void adviseForMaps(LintReport& report)
 {
     const Whole orthonormal = wholeReading(report, "orthonormal"), steps = wholeSteps(report);
     report.seen =
-        report.named ? seenOfNamed(report, orthonormal) : seen(report, orthonormal, wholeReading(report, "cotangent"));
+        report.named ? seenOfNamed(report, orthonormal) : seen(orthonormal, wholeReading(report, "cotangent"));
+    report.worst = report.named ? std::string() : worstReading(report, "orthonormal");
     report.advice = report.named           ? Advice::readNamed
         : readsAsItIs(report, orthonormal) ? Advice::readOrthonormal
         : orthonormal.unseen()             ? Advice::convertToOrthonormal
@@ -365,7 +366,7 @@ void recommend(LintReport& report)
         adviseWithoutMaps(report);
     }
     for (const std::string* sentence :
-         {&report.defects, &report.seen, &report.advised, &report.notJudged, &report.otherReaders})
+         {&report.defects, &report.seen, &report.worst, &report.advised, &report.notJudged, &report.otherReaders})
         if (!sentence->empty())
             report.recommendation += (report.recommendation.empty() ? "" : " ") + *sentence;
 }

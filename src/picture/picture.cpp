@@ -1,11 +1,13 @@
 #include "cotan/picture/picture.hpp"
 
 #include <algorithm>
+#include <array>
 #include <future>
 #include <map>
 #include <utility>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "cotan/draw/camera_words.hpp"
 #include "cotan/draw/exposure.hpp"
@@ -15,6 +17,7 @@
 #include "cotan/model/load.hpp"
 #include "cotan/parse_number.hpp"
 #include "cotan/picture/light.hpp"
+#include "cotan/picture/turntable.hpp"
 #include "cotan/picture/words.hpp"
 #include "cotan/scene/geometry.hpp"
 #include "cotan/scene/meant_frame.hpp"
@@ -51,6 +54,53 @@ Result<std::pair<int, int>> parseSize(const std::string& text)
 
 namespace {
 
+struct SizePreset {
+    const char* name;
+    int width, height;
+};
+constexpr std::array<SizePreset, 6> kSizePresets = {{{"thumbnail", 320, 180},
+                                                     {"720p", 1280, 720},
+                                                     {"1080p", 1920, 1080},
+                                                     {"1440p", 2560, 1440},
+                                                     {"2160p", 3840, 2160},
+                                                     {"square", 1024, 1024}}};
+
+} // namespace
+
+std::vector<std::string> sizePresetWords()
+{
+    std::vector<std::string> words;
+    for (const SizePreset& preset : kSizePresets)
+        words.emplace_back(preset.name);
+    return words;
+}
+
+std::string sizePresetNames()
+{
+    std::string names;
+    for (const SizePreset& preset : kSizePresets)
+        names += fmt::format("{}{} ({}x{})",
+                             names.empty()                         ? ""
+                                 : &preset == &kSizePresets.back() ? " or "
+                                                                   : ", ",
+                             preset.name, preset.width, preset.height);
+    return names;
+}
+
+Result<std::pair<int, int>> parsePictureSize(const std::string& text)
+{
+    for (const SizePreset& preset : kSizePresets)
+        if (text == preset.name)
+            return std::pair(preset.width, preset.height);
+    if (auto size = parseSize(text))
+        return size;
+    return usageError(fmt::format("--size: expected WxH, or one number for both, each from 1 to 16384, or {}; found "
+                                  "'{}'",
+                                  fmt::join(sizePresetWords(), ", "), text));
+}
+
+namespace {
+
 const std::map<std::string, NormalMapping> kNormalMappings = {{"shading", NormalMapping::shading},
                                                               {"rays", NormalMapping::rays},
                                                               {"shadowed", NormalMapping::shadowed},
@@ -62,13 +112,13 @@ const std::map<std::string, NormalMapping> kNormalMappings = {{"shading", Normal
 Result<View> viewOf(const PictureOptions& options, const Scene& scene)
 {
     View view;
-    const auto size = parseSize(options.size);
+    const auto size = parsePictureSize(options.size);
     if (!size)
         return size.error();
     view.width = size->first;
     view.height = size->second;
-    const bool ownCamera =
-        options.camera.empty() && options.model.empty() && options.shape.empty() && !scene.cameras.empty();
+    const bool ownCamera = options.camera.empty() && options.model.empty() && options.shape.empty()
+        && !scene.cameras.empty() && !options.turntable;
     const std::string camera = !options.camera.empty() ? options.camera : ownCamera ? "0" : "front";
     auto parsed = cameraFromWords(camera, scene, view.width, view.height);
     if (!parsed)
@@ -237,7 +287,7 @@ Result<Scene> sceneOf(Result<MovingModel> model)
 Result<Picture> openPicture(const PictureOptions& options, int threads, std::initializer_list<FrameChoice> frames,
                             const View* like)
 {
-    if (const auto size = parseSize(options.size); !size) // before a large model is loaded
+    if (const auto size = parsePictureSize(options.size); !size) // before a large model is loaded
         return size.error();
     Picture picture;
     // What takes its time while the model is read.
@@ -253,6 +303,8 @@ Result<Picture> openPicture(const PictureOptions& options, int threads, std::ini
         return scene.error();
     picture.scene = std::move(*scene);
     joinParts(picture.scene);
+    if (options.turntable)
+        picture.scene.reach = sweptPoints(picture.scene);
     if (options.edges != "none")
         picture.edges = surfaceEdges(picture.scene);
     auto prepared = prepareScene(options, options.show, frames, picture.scene);

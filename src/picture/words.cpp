@@ -17,6 +17,31 @@ std::vector<std::string> frameWords()
 
 std::string frameNames() { return fmt::format("{}", fmt::join(frameWords(), ", ")); }
 
+std::string usefulFrameNames()
+{
+    std::string names;
+    for (const FrameInfo& f : frames())
+        if (f.total)
+            names += (names.empty() ? "" : ", ") + std::string(f.name);
+    return names;
+}
+
+std::string listOfFrames()
+{
+    std::string useful = "For use; no input gives NaN:\n",
+                historical = "Historical forms, to compare with; some input gives NaN:\n";
+    for (const FrameInfo& f : frames())
+        (f.total ? useful : historical) += fmt::format("  {:<18}{}\n", f.name, f.summary);
+    return useful + "\n" + historical;
+}
+
+void addListOfFrames(Arguments& a)
+{
+    a.group(HelpGroup::frame);
+    a.answers("--list-frames", "print every frame with a line on what it is, historical ones too, and end",
+              listOfFrames);
+}
+
 Result<Frame> parseFrame(const std::string& text)
 {
     if (const auto frame = frameFromName(text))
@@ -35,69 +60,76 @@ Result<FrameChoice> parseFrameChoice(const std::string& text)
 
 void addMemoryOption(Arguments& a, int& memory, const std::string& also)
 {
-    a.option("--memory", memory,
-             "largest picture held in memory at once" + also
-                 + ", in MiB; up to 640 the pictures that are read, together, take no more than 192 MiB and 128 times "
-                   "the size of their files, beyond that this many MiB instead of 192")
+    a.option(
+         "--memory", memory,
+         "largest image to hold in memory" + also
+             + ", in MiB; all images together may take 192 MiB (above 640: the given MiB) and 128 times the size of "
+               "their files")
         .within(1, 1 << 16)
-        .in("MIB");
+        .in("MIB")
+        .under(HelpGroup::general);
 }
 
 void addUpOption(Arguments& a, std::string& up, const std::string& what)
 {
     a.option("--up", up,
-             "which axis of " + what
-                 + " is up: y; or z, as in PLY and STL of Blender and CAD: it is turned by 90 degrees about x")
+             "axis of " + what
+                 + " that points up: y; or z, as in PLY and STL of Blender and CAD, which rotates it by 90 degrees "
+                   "about x")
         .from({"y", "z"})
-        .in("NAME");
+        .in("NAME")
+        .under(HelpGroup::input);
 }
 
 void addTangentsOption(Arguments& a, std::string& tangents, const std::string& help)
 {
-    a.option("--tangents", tangents, help).from({"stored", "generated"}).in("NAME");
+    a.option("--tangents", tangents, help).from({"stored", "generated"}).in("NAME").under(HelpGroup::frame);
 }
 
 void addDeviceOption(Arguments& a, std::string& device, const std::string& use)
 {
     a.option("--device", device, use + "auto, reference, or a part of a Vulkan device's name")
         .in("DEVICE")
-        .offers({"auto", "reference"});
+        .offers({"auto", "reference"})
+        .under(HelpGroup::general);
 }
 
 namespace {
 
 void addLightOptions(Arguments& a, PictureOptions& o)
 {
+    a.group(HelpGroup::light);
     a.option("--exposure", o.exposure,
              "factor that multiplies all light, or auto: by the brightness of the model (1 in files that keep floats)")
         .above0Or("auto")
         .in("X|auto")
         .offers({"auto"});
     a.option("--tone-mapping", o.toneMapping,
-             "how bright light becomes a colour: none (cut off at 1), neutral (Khronos PBR Neutral), aces (Narkowicz's "
+             "how bright light becomes a colour: none (clamped to 1), neutral (Khronos PBR Neutral), aces (Narkowicz's "
              "curve) or agx; files that keep floats stay linear")
         .from({"none", "neutral", "aces", "agx"})
-        .in("NAME");
+        .in("NAME")
+        .under(HelpGroup::look);
     a.option(
          "--environment", o.environment,
-         "surroundings that light the model: studio and evening (with a lamp and a sun, for models without lights), "
-         "overcast, or "
-         "a .hdr or .exr file in equirectangular projection; or none: a formula and a lamp")
+         "environment that lights the model: studio and evening (with a lamp and a sun, for models without lights), "
+         "overcast, or a .hdr or .exr file in equirectangular projection; or none: a formula and a lamp")
         .in("NAME|FILE")
         .offers({"studio", "overcast", "evening", "none"})
         .reads();
     a.option("--environment-rotation", o.environmentRotation,
-             "turn the surroundings counter-clockwise, seen from above")
+             "rotate the environment counter-clockwise, seen from above")
         .within(-360.0, 360.0)
         .in("DEGREES");
-    a.option("--environment-intensity", o.environmentIntensity, "factor on the light of the surroundings")
+    a.option("--environment-intensity", o.environmentIntensity, "factor on the light of the environment")
         .above0()
         .in("X");
     a.option("--background", o.background,
              "what is behind the model: paper (a photographer's; the default in the studio), blur (the environment out "
              "of focus; the default in others), environment, gradient (the default without), or none (transparent)")
         .from({"paper", "blur", "environment", "gradient", "none"})
-        .in("NAME");
+        .in("NAME")
+        .under(HelpGroup::look);
     a.option("--ground", o.ground, "on: the model stands on level ground, which only shows its shadow; off: it floats")
         .from({"on", "off"})
         .in("NAME");
@@ -114,18 +146,21 @@ void addLightOptions(Arguments& a, PictureOptions& o)
 
 void addOwnNormalMap(Arguments& a, OwnMaps& maps)
 {
-    a.option("--normal-map", maps.normal, "image that takes the place of the model's normal maps, such as a new bake")
+    a.option("--normal-map", maps.normal, "image that replaces the model's normal maps, such as a new bake")
         .in("FILE")
-        .reads();
+        .reads()
+        .under(HelpGroup::input);
     a.option("--convention", maps.convention,
              "how that image is stored (default: gltf), or without one how the model's own normal maps are to be read "
              "(default: as the model says): "
                  + conventionWords())
         .in("WORDS")
-        .offers(conventionWordList());
+        .offers(conventionWordList())
+        .under(HelpGroup::input);
     a.option("--material", maps.material, "number of the material that gets this image; -1: all")
         .within(-1, 100000)
-        .in("N");
+        .in("N")
+        .under(HelpGroup::input);
 }
 
 namespace {
@@ -133,14 +168,13 @@ namespace {
 void addOwnMaps(Arguments& a, OwnMaps& maps)
 {
     addOwnNormalMap(a, maps);
-    a.option("--base-color", maps.baseColor, "image that takes the place of the model's colours, sRGB")
-        .in("FILE")
-        .reads();
+    a.group(HelpGroup::input);
+    a.option("--base-color", maps.baseColor, "image that replaces the model's colours, sRGB").in("FILE").reads();
     a.option("--metallic-roughness", maps.metallicRoughness,
-             "image with roughness in green and metallic in blue, as glTF has it, in place of the model's")
+             "image that replaces the model's roughness (green) and metallic (blue), as glTF has them")
         .in("FILE")
         .reads();
-    a.option("--occlusion", maps.occlusion, "image with ambient occlusion in red, in place of the model's")
+    a.option("--occlusion", maps.occlusion, "image that replaces the model's ambient occlusion (red)")
         .in("FILE")
         .reads();
 }
@@ -153,10 +187,12 @@ void addFrameOption(Arguments& a, std::string& frame)
     names.insert(names.begin(), std::string(kAutoFrame));
     a.option("--frame", frame,
              "frame to apply normal maps with: auto (the one that the model names for its maps, else orthonormal for a "
-             "model's maps, which are made for MikkTSpace, and cotangent for shapes and repeated images) or one of "
-                 + frameNames())
+             "model's maps, which are made for MikkTSpace, and cotangent for shapes and repeated images), "
+                 + usefulFrameNames() + ", or a historical one of --list-frames")
         .in("NAME")
-        .offers(names);
+        .offers(names)
+        .main();
+    addListOfFrames(a);
 }
 
 void addShowOption(Arguments& a, std::string& show)
@@ -165,16 +201,19 @@ void addShowOption(Arguments& a, std::string& show)
          "--view", show,
          "what to draw: shaded; normal, tangent, bitangent, uv, depth; error (degrees from the frame exact); checker, "
          "density, stretch, shear, mirrored (uv and texels), w (of stored tangents), facing; or one map by itself: "
-         "base-color, alpha, normal-map, normal-map-red, -green, -blue, roughness, metallic, occlusion, emissive")
+         "base-color, alpha, normal-map, normal-map-red, normal-map-green, normal-map-blue, roughness, metallic, "
+         "occlusion, emissive")
         .from(showNames())
-        .in("NAME");
+        .in("NAME")
+        .main();
 }
 
 void addPictureOptions(Arguments& a, PictureOptions& o)
 {
+    a.group(HelpGroup::input);
     a.option("MODEL", o.model, "glTF, GLB, OBJ, PLY, STL, COLLADA, FBX or 3DS file; the built-in scene if left out")
         .reads();
-    a.option("--shape", o.shape, "without MODEL: a shape to look at maps on: plane, sphere, torus or teapot")
+    a.option("--shape", o.shape, "without MODEL: shape to show maps on: plane, sphere, torus or teapot")
         .from({"plane", "sphere", "torus", "teapot"})
         .in("NAME");
     addUpOption(a, o.up);
@@ -187,30 +226,40 @@ void addPictureOptions(Arguments& a, PictureOptions& o)
              "animation of a glTF model, by name or number; the pose of the file if left out")
         .in("NAME|N");
     a.option("--time", o.time, "moment of --animation, in seconds from its start").within(0.0, 1e6).in("S");
-    a.option("--size", o.size, "width and height in pixels; 512 is 512x512").in("WxH");
-    a.option(
-         "--camera", o.camera,
-         "front (filling the picture), fit (the whole box around the model), both with all of an --animation in it, "
-         "the number of a camera of the file, or "
-         "eye and target \"ex,ey,ez,tx,ty,tz\" in world units, with \",DEGREES\" for another lens than 45 or \",hX\" "
-         "for "
-         "an orthographic picture X units high, and \",ux,uy,uz\" for what is up (default: front; the built-in scene's "
-         "own)")
+    a.group(HelpGroup::camera);
+    a.option("--size", o.size, "width and height in pixels; 512 is 512x512; or " + sizePresetNames())
+        .in("WxH")
+        .offers(sizePresetWords())
+        .main();
+    a.option("--camera", o.camera,
+             "where to look from: front (a little from the right and above), left, right, top, bottom, back, or "
+             "orbit:AZ,EL "
+             "(degrees around and above), each as near as the model fills the image; fit (farther: the whole box "
+             "around the "
+             "model); the number of a camera in the file; or eye and target \"ex,ey,ez,tx,ty,tz\" in world units, then "
+             "\",DEGREES\" for another lens than 45 or \",hX\" for an orthographic view X units high, then "
+             "\",ux,uy,uz\" for "
+             "the direction up (default: front; the built-in scene's own)")
         .in("CAMERA")
-        .offers({"front", "fit"});
+        .offers({"front", "left", "right", "top", "bottom", "back", "fit"})
+        .main();
     addDeviceOption(a, o.device);
+    a.group(HelpGroup::diagnostics);
     a.option("--edges", o.edges,
-             "lines over the picture: none, triangles, seams (of uv: yellow; mirrored: magenta; borders: cyan) or all")
+             "lines over the image: none, triangles, seams (of uv: yellow; mirrored: magenta; borders: cyan) or all")
         .from({"none", "triangles", "seams", "all"})
         .in("NAME");
-    a.option("--shading", o.shading, "shading model: pbr or blinn-phong").from({"pbr", "blinn-phong"}).in("NAME");
+    a.option("--shading", o.shading, "shading model: pbr or blinn-phong")
+        .from({"pbr", "blinn-phong"})
+        .in("NAME")
+        .under(HelpGroup::look);
     a.option("--lighting", o.lighting,
              "space to light in: world; or tangent space, entered per vertex (tangent-vertex) or per pixel "
              "(tangent-pixel), for comparison and on the reference device only")
         .from({"world", "tangent-vertex", "tangent-pixel"})
         .in("NAME");
     a.option("--normal-mapping", o.normalMapping,
-             "what a turned normal does: shading; or by rays, on the reference device only: rays (light from below "
+             "what a perturbed normal does: shading; or by rays, on the reference device only: rays (light from below "
              "the surface is lost), shadowed, facets (a second facet makes up for it), mirror-facet")
         .from({"shading", "rays", "shadowed", "facets", "mirror-facet"})
         .in("NAME");
@@ -218,21 +267,22 @@ void addPictureOptions(Arguments& a, PictureOptions& o)
         a, o.tangents,
         "for the frames vertex and mikktspace: stored (as in the file, generated where missing) or generated");
     a.option("--samples", o.samples,
-             "samples per pixel of the shaded picture: 1; 4 for smooth edges; or 16, each lit by itself, for smooth "
-             "highlights "
-             "too, at the cost of 16 pictures")
+             "samples per pixel of the shaded image: 1; 4 for smooth edges; or 16, each lit by itself, for smooth "
+             "highlights too, at the cost of 16 images")
         .from({1, 4, 16})
-        .in("N");
+        .in("N")
+        .under(HelpGroup::look);
     addLightOptions(a, o);
-    a.option("--rows", o.rows,
-             "whether the rows of the render target run down or up; the picture is upright either way")
+    a.group(HelpGroup::diagnostics);
+    a.option("--rows", o.rows, "whether the rows of the render target run down or up; the image is upright either way")
         .from({"down", "up"})
         .in("NAME");
     a.option("--derivatives", o.derivatives, "screen derivatives: fine or coarse").from({"fine", "coarse"}).in("NAME");
     a.flag("--no-normal-maps", o.noNormalMaps, "use interpolated normals only");
     a.flag("--specular-antialiasing", o.specularAntialiasing,
            "light 16 to 256 normals of a pixel, the more the sharper, each rougher by what is smaller than its part of "
-           "it");
+           "it")
+        .under(HelpGroup::look);
     a.flag("--point-sampled", o.pointSampled, "read the nearest texel of the finest level, for comparing devices");
 }
 

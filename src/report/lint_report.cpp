@@ -167,7 +167,10 @@ std::vector<std::string> verdictLines(const std::string& model, const LintReport
 
 std::vector<std::string> detailLines(const LintReport& report)
 {
-    std::vector<std::string> lines = {"three figures are: mean / 95 % / maximum, by area"};
+    std::vector<std::string> lines;
+    if (!report.worst.empty())
+        lines.push_back(report.worst);
+    lines.emplace_back("Three figures are mean / 95 % / maximum, weighted by area.");
     for (std::size_t i = 0; i < report.primitives.size(); ++i)
         addPrimitive(report, i, lines);
     for (const GreenEvidence& g : report.maps)

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include <glm/geometric.hpp>
 
@@ -18,8 +19,9 @@ namespace {
 using glm::dvec3;
 
 constexpr double kFieldOfView = 0.523599; // 30 degrees
-constexpr double kFilled = 0.92;          // of the picture, so that 4 % stay free on each side
-constexpr float kFlat = 0.05f;            // depth over width or height
+constexpr double kRadians = std::numbers::pi / 180;
+constexpr double kFilled = 0.92; // of the picture, so that 4 % stay free on each side
+constexpr float kFlat = 0.05f;   // depth over width or height
 
 // The axes of a camera, and what it goes around.
 struct Stand {
@@ -63,20 +65,14 @@ void centre(const Scene& scene, const Stand& stand, double distance, double& x, 
     }
 }
 
-} // namespace
-
-Camera frontCamera(const Scene& scene, int width, int height)
+// From where `back` points to, with that direction up.
+Camera filledFrom(const Scene& scene, const Bounds& box, const dvec3& back, const glm::vec3& upward, int width,
+                  int height)
 {
     Camera camera;
-    camera.name = "front";
     camera.verticalFieldOfView = float(kFieldOfView);
-    const Bounds box = framedBounds(scene);
-    if (box.empty())
-        return camera;
-    const glm::vec3 size = box.high - box.low;
-    const bool flat = size.z < kFlat * std::max(size.x, size.y);
-    const dvec3 back = flat ? dvec3(0, 0, 1) : glm::normalize(dvec3(0.36, 0.24, 1));
-    const CameraAxes axes = axesAlong(-back, dvec3(0, 1, 0));
+    camera.up = upward;
+    const CameraAxes axes = axesAlong(-back, dvec3(upward));
     const dvec3 right = axes.right, up = axes.up;
     const dvec3 middle = dvec3(box.low) * 0.5 + dvec3(box.high) * 0.5;
 
@@ -108,6 +104,49 @@ Camera frontCamera(const Scene& scene, int width, int height)
         return camera;
     camera.target = glm::vec3(aim);
     camera.eye = eye;
+    return camera;
+}
+
+// Without rounding at multiples of 90 degrees: sides are seen straight on.
+double sineOf(double degrees)
+{
+    const double quarters = degrees / 90;
+    if (quarters == std::floor(quarters))
+        return std::array<double, 4>{0, 1, 0, -1}[std::size_t(std::fmod(std::fmod(quarters, 4) + 4, 4))];
+    return std::sin(degrees * kRadians);
+}
+
+} // namespace
+
+Camera frontCamera(const Scene& scene, int width, int height)
+{
+    const Bounds box = framedBounds(scene);
+    Camera camera;
+    if (box.empty()) {
+        camera.verticalFieldOfView = float(kFieldOfView);
+    } else {
+        const glm::vec3 size = box.high - box.low;
+        const bool flat = size.z < kFlat * std::max(size.x, size.y);
+        const dvec3 back = flat ? dvec3(0, 0, 1) : glm::normalize(dvec3(0.36, 0.24, 1));
+        camera = filledFrom(scene, box, back, {0, 1, 0}, width, height);
+    }
+    camera.name = "front";
+    return camera;
+}
+
+Camera orbitCamera(const Scene& scene, double azimuth, double elevation, int width, int height)
+{
+    const double sinA = sineOf(azimuth), cosA = sineOf(azimuth + 90);
+    const double sinE = sineOf(elevation), cosE = sineOf(elevation + 90);
+    const Bounds box = framedBounds(scene);
+    Camera camera;
+    if (box.empty()) {
+        camera.verticalFieldOfView = float(kFieldOfView);
+    } else {
+        const glm::vec3 up = cosE == 0 ? glm::vec3(dvec3(-sinA, 0, -cosA) * sinE) : glm::vec3(0, 1, 0);
+        camera = filledFrom(scene, box, {sinA * cosE, sinE, cosA * cosE}, up, width, height);
+    }
+    camera.name = "orbit";
     return camera;
 }
 

@@ -56,31 +56,34 @@ Mesh makeMirroredSphere(float radius, int segments, float repeatU, float repeatV
     return mesh;
 }
 
+// A still life on a table that is not there: what it stands on, and what is behind it, are the ground and the backdrop
+// of whoever draws it.
 void addShapes(Scene& scene)
 {
-    addShape(scene, makePlane(40, 20, 24), {"brick floor", Relief::bricks, {0.20f, 0.075f, 0.045f}, 0, 0.7f},
-             {0, 0, 0});
-    addShape(scene, makeTeapot(12), {"copper", Relief::domes, {0.93f, 0.52f, 0.36f}, 1, 0.32f}, {-0.1f, 0, 0}, -25,
-             1.5f);
+    Mesh teapot = makeTeapot(16);
+    scaleTexcoords(teapot, 2, 2);
+    addShape(scene, std::move(teapot), {"copper", Relief::domes, {0.90f, 0.45f, 0.30f}, 1, 0.36f}, {0, 0, 0.25f}, -24,
+             1.45f);
+    scene.materials.back().normalScale = 0.55f;
     scene.materials.back().doubleSided = true; // the spout is open
-    addShape(scene, makeTorus(0.46f, 0.19f, 96, 6, 2.5f),
-             {"blue plastic", Relief::waves, {0.02f, 0.08f, 0.32f}, 0, 0.3f}, {-1.75f, 0.19f, 1.25f});
-    addShape(scene, makeMirroredSphere(0.5f, 96, 4, 2), {"gold", Relief::domes, {1.0f, 0.71f, 0.29f}, 1, 0.4f},
-             {1.75f, 0.5f, 0.95f}, -20);
-    addShape(scene, makeCube(0.9f, 1), {"stone", Relief::bricks, {0.26f, 0.25f, 0.23f}, 0, 0.6f},
-             {-2.1f, 0.45f, -0.75f}, 30);
     Mesh panel = makePatch(2, 0.7f, /*mirrored*/ false, 1);
     scaleTexcoords(panel, 2, 2);
-    addShape(scene, std::move(panel), {"plaster panel", Relief::domes, {0.30f, 0.32f, 0.30f}, 0, 0.35f},
-             {1.1f, 0.9f, -1.7f}, -12, 1.8f);
+    addShape(scene, std::move(panel), {"teal tile", Relief::domes, {0.02f, 0.15f, 0.16f}, 0, 0.38f},
+             {-1.35f, 0.95f, -1.35f}, 16, 1.9f);
     scene.materials.back().doubleSided = true; // a sheet without a back
+    addShape(scene, makeCube(0.9f, 1), {"slate", Relief::bricks, {0.10f, 0.105f, 0.115f}, 0, 0.5f},
+             {1.72f, 0.45f, -0.85f}, -30);
+    addShape(scene, makeMirroredSphere(0.48f, 96, 4, 2), {"gold", Relief::domes, {1.0f, 0.76f, 0.33f}, 1, 0.40f},
+             {1.72f, 1.38f, -0.85f}, -6);
+    addShape(scene, makeTorus(0.42f, 0.18f, 96, 6, 2.5f),
+             {"coral glaze", Relief::waves, {0.55f, 0.10f, 0.065f}, 0, 0.34f}, {-1.5f, 0.18f, 1.0f});
 }
 
 Light keyLight()
 {
     Light light;
-    light.direction = glm::normalize(glm::vec3(0.72f, -0.75f, -0.4f)); // from the upper left
-    light.color = {1.0f, 0.97f, 0.92f};
+    light.direction = glm::normalize(glm::vec3(0.66f, -0.85f, -0.62f)); // from the upper left, in front
+    light.color = {1.0f, 0.985f, 0.96f};
     light.intensity = 3;
     return light;
 }
@@ -89,9 +92,9 @@ Camera frontCamera()
 {
     Camera camera;
     camera.name = "front";
-    camera.verticalFieldOfView = glm::radians(27.0f);
-    camera.eye = {0.9f, 2.6f, 6.6f};
-    camera.target = {-0.1f, 0.62f, 0};
+    camera.verticalFieldOfView = glm::radians(19.0f);
+    camera.eye = {0.55f, 2.5f, 8.9f};
+    camera.target = {0.02f, 0.84f, 0};
     return camera;
 }
 

@@ -1,8 +1,6 @@
 #include "cotan/terminal/arguments.hpp"
 
 #include <algorithm>
-#include <cmath>
-#include <cstdlib>
 #include <map>
 #include <sstream>
 #include <utility>
@@ -10,50 +8,13 @@
 #include <CLI/CLI.hpp>
 
 #include "cotan/terminal/command_words.hpp"
+#include "cotan/terminal/help_text.hpp"
+#include "parse_errors.hpp"
+#include "value_checks.hpp"
 
 namespace cotan {
 
 namespace {
-
-// CLI11's own range checks let NaN pass.
-std::string positiveNumber(const std::string& text)
-{
-    char* end = nullptr;
-    const float value = std::strtof(text.c_str(), &end);
-    const bool good = end != text.c_str() && *end == '\0' && value > 0 && value <= 1e6f;
-    return good ? "" : "expected a number above 0 and at most 1e6; found '" + text + "'";
-}
-
-std::string textOf(double value)
-{
-    std::ostringstream text;
-    text << value;
-    return text.str();
-}
-
-// Says what is expected; CLI11's own checks of ranges, which the help is made of, say less and let NaN pass.
-std::function<std::string(const std::string&)> numberWithin(double least, double most)
-{
-    return [least, most](const std::string& text) -> std::string {
-        char* end = nullptr;
-        const double value = std::strtod(text.c_str(), &end);
-        if (end != text.c_str() && *end == '\0' && value >= least && value <= most)
-            return {};
-        return "expected a number from " + textOf(least) + " to " + textOf(most) + "; found '" + text + "'";
-    };
-}
-
-// what: "a whole number from 0 to 8"
-std::function<std::string(const std::string&)> wholeNumber(const std::string& what,
-                                                           std::function<bool(long long)> isGood)
-{
-    return [what, isGood = std::move(isGood)](const std::string& text) -> std::string {
-        char* end = nullptr;
-        const long long value = std::strtoll(text.c_str(), &end, 0);
-        const bool good = end != text.c_str() && *end == '\0' && isGood(value);
-        return good ? std::string() : "expected " + what + "; found '" + text + "'";
-    };
-}
 
 std::vector<const CLI::App*> commandsOf(const CLI::App& app)
 {
@@ -68,11 +29,13 @@ CommandNames namesOf(const CLI::App& app)
     return all;
 }
 
-OptionHelp helpOf(const CLI::Option& option, const std::vector<std::string>& words)
+OptionHelp helpOf(const CLI::Option& option, const Argument::Facts& facts)
 {
     OptionHelp help;
+    help.group = facts.group;
     help.help = option.get_description();
-    help.words = words;
+    help.words = facts.words;
+    help.closed = facts.closed;
     help.positional = option.get_positional();
     if (help.positional)
         help.names = {option.get_name(true)};
@@ -89,7 +52,7 @@ OptionHelp helpOf(const CLI::Option& option, const std::vector<std::string>& wor
         help.most = type.substr(to + 3, type.find(']', to) - to - 3);
     }
     help.usual = option.get_default_str();
-    help.required = option.get_required();
+    help.required = option.get_required() || facts.needed;
     help.repeated = option.get_items_expected_max() > 1;
     return help;
 }
@@ -106,21 +69,17 @@ Argument& Argument::from(std::initializer_list<std::string> words) { return from
 
 Argument& Argument::from(const std::vector<std::string>& words)
 {
-    option_->check(CLI::IsMember(words));
+    option_->check(wordOf(words));
+    facts_->closed = true;
     return offers(words);
 }
 
 Argument& Argument::from(std::initializer_list<int> numbers)
 {
-    std::string what;
-    for (const int number : numbers) {
-        what += (what.empty() ? "" : number == *(numbers.end() - 1) ? " or " : ", ") + std::to_string(number);
+    for (const int number : numbers)
         facts_->words.push_back(std::to_string(number));
-    }
-    option_->check(wholeNumber(what, [all = std::vector<long long>(numbers.begin(), numbers.end())](long long value) {
-        return std::ranges::find(all, value) != all.end();
-    }));
-    option_->check(CLI::IsMember(numbers));
+    facts_->closed = true;
+    option_->check(wholeNumberOf({numbers.begin(), numbers.end()}));
     return *this;
 }
 
@@ -132,31 +91,27 @@ Argument& Argument::offers(std::vector<std::string> words)
 
 Argument& Argument::within(int least, int most)
 {
-    option_->check(wholeNumber("a whole number from " + std::to_string(least) + " to " + std::to_string(most),
-                               [=](long long value) { return value >= least && value <= most; }));
-    option_->check(CLI::Range(least, most));
+    option_->check(wholeNumberWithin(least, most));
+    option_->check(CLI::Range(least, most)); // for the help
     return *this;
 }
 
 Argument& Argument::within(double least, double most)
 {
     option_->check(numberWithin(least, most));
-    option_->check(CLI::Range(least, most));
+    option_->check(CLI::Range(least, most)); // for the help
     return *this;
 }
 
 Argument& Argument::above0()
 {
-    option_->check(positiveNumber);
+    option_->check(numberAbove0());
     return *this;
 }
 
 Argument& Argument::above0Or(const std::string& word)
 {
-    option_->check([word](const std::string& text) {
-        const std::string wrong = text == word ? "" : positiveNumber(text);
-        return wrong.empty() ? "" : "expected " + word + " or " + wrong.substr(wrong.find(' ') + 1);
-    });
+    option_->check(numberAbove0Or(word));
     return *this;
 }
 
@@ -169,6 +124,20 @@ Argument& Argument::reads()
 Argument& Argument::writes()
 {
     facts_->use = FileUse::writes;
+    return *this;
+}
+
+Argument& Argument::under(HelpGroup group)
+{
+    facts_->group = group;
+    return *this;
+}
+
+Argument& Argument::main() { return under(HelpGroup::main); }
+
+Argument& Argument::needed()
+{
+    facts_->needed = true;
     return *this;
 }
 
@@ -211,11 +180,14 @@ struct Arguments::Tool {
     CLI::App app;
     std::vector<std::pair<CLI::App*, std::function<Status()>>> works;
     std::map<const CLI::Option*, Argument::Facts> facts;
-    struct Ending {
+    struct Words { // of a command, for its help
+        std::string heading;
         std::vector<std::string> examples;
         std::string closing;
+        HelpGroup group = HelpGroup::general; // of the options that are declared next
+        std::string nextHeading;              // of the commands that are added next
     };
-    std::map<const CLI::App*, Ending> endings;
+    std::map<const CLI::App*, Words> words;
 
     CommandHelp describe(const CLI::App& command)
     {
@@ -224,11 +196,15 @@ struct Arguments::Tool {
         help.summary = command.get_description();
         for (const CLI::Option* option : command.get_options())
             if (!option->get_group().empty())
-                help.options.push_back(helpOf(*option, facts[option].words));
+                help.options.push_back(helpOf(*option, facts[option]));
+        std::ranges::stable_sort(help.options, {}, [](const OptionHelp& option) {
+            return std::pair(option.group, !option.positional); // what stands right behind the command comes first
+        });
         for (const CLI::App* inner : commandsOf(command))
             help.commands.push_back(describe(*inner));
-        help.examples = endings[&command].examples;
-        help.closing = endings[&command].closing;
+        help.heading = words[&command].heading;
+        help.examples = words[&command].examples;
+        help.closing = words[&command].closing;
         return help;
     }
 };
@@ -239,13 +215,16 @@ Arguments::Arguments(const std::string& name, const std::string& summary, const 
     app_ = &tool_->app;
     app_->name(name);
     app_->description(summary);
-    app_->set_version_flag("--version", version);
+    app_->set_help_flag("-h,--help", "print this help; -h prints the main options only");
+    app_->set_version_flag("--version", version, "print the version");
 }
 
 Arguments Arguments::command(const std::string& name, const std::string& summary)
 {
     app_->require_subcommand(1);
-    return {tool_, *app_->add_subcommand(name, summary)};
+    Arguments command(tool_, *app_->add_subcommand(name, summary));
+    tool_->words[command.app_].heading = tool_->words[app_].nextHeading;
+    return command;
 }
 
 template<class Value> Argument Arguments::option(const std::string& names, Value& value, const std::string& help)
@@ -256,7 +235,9 @@ template<class Value> Argument Arguments::option(const std::string& names, Value
         empty = value.empty();
     if (!empty)
         option->capture_default_str();
-    return Argument(*option, tool_->facts[option]);
+    Argument::Facts& facts = tool_->facts[option];
+    facts.group = option->get_positional() ? HelpGroup::main : tool_->words[app_].group;
+    return Argument(*option, facts);
 }
 
 template Argument Arguments::option(const std::string&, std::string&, const std::string&);
@@ -266,10 +247,25 @@ template Argument Arguments::option(const std::string&, float&, const std::strin
 template Argument Arguments::option(const std::string&, double&, const std::string&);
 template Argument Arguments::option(const std::string&, std::vector<std::string>&, const std::string&);
 
-void Arguments::flag(const std::string& name, bool& value, const std::string& help)
+Argument Arguments::flag(const std::string& name, bool& value, const std::string& help)
 {
-    app_->add_flag(name, value, help);
+    CLI::Option* option = app_->add_flag(name, value, help);
+    Argument::Facts& facts = tool_->facts[option];
+    facts.group = tool_->words[app_].group;
+    return Argument(*option, facts);
 }
+
+void Arguments::answers(const std::string& name, const std::string& help, std::function<std::string()> text)
+{
+    // As --version does it.
+    CLI::Option* option = app_->add_flag_callback(
+        name, [text = std::move(text)] { throw CLI::CallForVersion(text(), 0); }, help);
+    tool_->facts[option].group = tool_->words[app_].group;
+}
+
+void Arguments::group(HelpGroup group) { tool_->words[app_].group = group; }
+
+void Arguments::heading(const std::string& heading) { tool_->words[app_].nextHeading = heading; }
 
 Argument Arguments::find(const std::string& name)
 {
@@ -281,11 +277,8 @@ void Arguments::takesAnything() { app_->allow_extras(); }
 
 void Arguments::examples(std::vector<std::string> lines, const std::string& closing)
 {
-    std::string text = "Examples:\n";
-    for (const std::string& line : lines)
-        text += "  " + line + "\n";
-    app_->footer(text + "\n" + closing);
-    tool_->endings[app_] = {std::move(lines), closing};
+    tool_->words[app_].examples = std::move(lines);
+    tool_->words[app_].closing = closing;
 }
 
 void Arguments::does(std::function<Status()> work) { tool_->works.emplace_back(app_, std::move(work)); }
@@ -296,54 +289,74 @@ CommandHelp Arguments::describe() const { return tool_->describe(*app_); }
 
 namespace {
 
-// "-o=a.png" as "-o" and "a.png": CLI11 takes the sign for the beginning of the name.
-std::vector<std::string> withoutEquals(std::vector<std::string> words)
+constexpr const char* kHelpCommand = "help";
+
+// "help", "help render"; but "help --help" is about the command help.
+bool asksForHelp(const std::vector<std::string>& words)
 {
-    for (std::size_t i = 0; i < words.size() && words[i] != "--"; ++i)
-        if (const std::string word = words[i]; word.size() > 2 && word[0] == '-' && word[1] != '-' && word[2] == '=') {
-            words[i] = word.substr(0, 2);
-            words.insert(words.begin() + std::ptrdiff_t(i) + 1, word.substr(3));
-            ++i;
-        }
-    return words;
+    return !words.empty() && words[0] == kHelpCommand && (words.size() == 1 || !words[1].starts_with('-'));
+}
+
+bool hasHelpCommand(const CLI::App& tool)
+{
+    return std::ranges::any_of(commandsOf(tool), [](const CLI::App* c) { return c->get_name() == kHelpCommand; });
 }
 
 } // namespace
 
-// help: the text of --help or --version, where that is asked for.
-Status Arguments::read(std::vector<std::string> words, std::string& help) const
+std::vector<const CLI::App*> Arguments::given() const
+{
+    std::vector<const CLI::App*> path{app_};
+    while (!path.back()->get_subcommands().empty()) // those that were given
+        path.push_back(path.back()->get_subcommands().front());
+    return path;
+}
+
+std::string Arguments::help(HelpLength length) const
+{
+    const CommandHelp tool = describe();
+    std::vector<const CommandHelp*> path{&tool};
+    for (const CLI::App* command : given())
+        for (const CommandHelp& inner : path.back()->commands)
+            if (command != app_ && inner.name == command->get_name()) {
+                path.push_back(&inner);
+                break;
+            }
+    return helpText(path, length, helpWidth());
+}
+
+// answer: the text of --help, --version and their like, where that is asked for.
+Status Arguments::read(std::vector<std::string> words, std::string& answer) const
 {
     words = withoutEquals(std::move(words));
+    if (asksForHelp(words) && hasHelpCommand(*app_)) {
+        words.erase(words.begin());
+        words.emplace_back("--help");
+    }
+    const bool brief = std::ranges::find(words, "--help") == words.end(); // but -h
     if (Status known = checkCommandWords(namesOf(*app_), words); !known)
         return known;
+    std::ranges::reverse(words); // CLI11 takes them from the back
     try {
-        std::ranges::reverse(words); // CLI11 takes them from the back
         app_->parse(std::move(words));
+    } catch (const CLI::CallForHelp&) {
+        answer = help(brief ? HelpLength::brief : HelpLength::full);
+    } catch (const CLI::CallForVersion& e) {
+        answer = e.what();
+        answer += answer.ends_with('\n') ? "" : "\n";
     } catch (const CLI::ParseError& e) {
-        if (e.get_exit_code() == 0) {
-            std::ostringstream text;
-            app_->exit(e, text, text);
-            help = text.str();
-            return Done{};
-        }
-        std::string message = e.what();
-        std::ranges::replace(message, '\n', ' ');
-        constexpr std::string_view kConversion = "Could not convert: ", kIs = " = ";
-        if (const std::size_t is = message.find(kIs); message.starts_with(kConversion) && is != std::string::npos)
-            message = message.substr(kConversion.size(), is - kConversion.size()) + ": expected a number; found '"
-                + message.substr(is + kIs.size()) + "'";
-        return usageError(message + " (see --help)");
+        return usageError(messageOf(e, *given().back()));
     }
     return Done{};
 }
 
 Status Arguments::run(std::vector<std::string> words, const std::function<void(const std::string&)>& print)
 {
-    std::string help;
-    if (Status known = read(std::move(words), help); !known)
+    std::string answer;
+    if (Status known = read(std::move(words), answer); !known)
         return known;
-    if (!help.empty()) {
-        print(help);
+    if (!answer.empty()) {
+        print(answer);
         return Done{};
     }
     for (const auto& [app, work] : tool_->works)
@@ -354,23 +367,23 @@ Status Arguments::run(std::vector<std::string> words, const std::function<void(c
 
 Result<GivenCommand> Arguments::parse(std::vector<std::string> words) const
 {
-    std::string help;
-    if (Status known = read(std::move(words), help); !known)
+    std::string answer;
+    if (Status known = read(std::move(words), answer); !known)
         return known.error();
-    if (!help.empty())
+    if (!answer.empty())
         return usageError("expected a command that does something; found --help or --version");
-    GivenCommand given;
-    const CLI::App* app = app_;
-    while (!app->get_subcommands().empty()) { // those that were given
-        app = app->get_subcommands().front();
-        given.name += (given.name.empty() ? "" : " ") + app->get_name();
+    GivenCommand result;
+    for (const CLI::App* app : given()) {
+        if (app == app_)
+            continue;
+        result.name += (result.name.empty() ? "" : " ") + app->get_name();
         for (const CLI::Option* option : app->get_options())
             if (option->count() > 0)
-                given.options.push_back({option->get_single_name(), option->results(), tool_->facts[option].use});
+                result.options.push_back({option->get_single_name(), option->results(), tool_->facts[option].use});
     }
-    if (given.name.empty())
+    if (result.name.empty())
         return usageError("expected a command; found none");
-    return given;
+    return result;
 }
 
 } // namespace cotan

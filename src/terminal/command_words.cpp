@@ -21,7 +21,7 @@ Error unknown(const std::string& before, const std::string& word, const std::vec
     std::vector<std::string_view> names;
     for (const CommandNames& command : commands)
         names.push_back(command.name);
-    return usageError(fmt::format("{}there is no command '{}'; {}", before, word,
+    return usageError(fmt::format("unknown {}command '{}'; {}", before, word,
                                   near ? fmt::format("did you mean {}?", nearest->name)
                                        : fmt::format("expected one of {}", fmt::join(names, ", "))));
 }
@@ -55,13 +55,24 @@ Status checkCommandWords(const CommandNames& tool, std::span<const std::string> 
         const auto found = std::ranges::find(at->commands, word, &CommandNames::name);
         if (found == at->commands.end()) {
             if (word.size() > 100)
-                return usageError(before + "there is no command of such a length");
+                return usageError(fmt::format("unknown {}command of {} letters", before, word.size()));
             return unknown(before, word, at->commands);
         }
-        before = word + ": ";
+        before = word + " ";
         at = &*found;
     }
     return Done{};
+}
+
+std::vector<std::string> withoutEquals(std::vector<std::string> words)
+{
+    for (std::size_t i = 0; i < words.size() && words[i] != "--"; ++i)
+        if (const std::string word = words[i]; word.size() > 2 && word[0] == '-' && word[1] != '-' && word[2] == '=') {
+            words[i] = word.substr(0, 2);
+            words.insert(words.begin() + std::ptrdiff_t(i) + 1, word.substr(3));
+            ++i;
+        }
+    return words;
 }
 
 std::string quoted(const std::string& path)

@@ -55,16 +55,26 @@ std::string sentence(std::string text)
     return text + (text.ends_with('.') || text.ends_with("...") ? "" : ".");
 }
 
+// "Bake a map." as what a line of apropos says: "bake a map".
+std::string withoutStop(std::string text)
+{
+    if (text.size() > 1 && std::islower(static_cast<unsigned char>(text[1])))
+        text[0] = char(std::tolower(static_cast<unsigned char>(text[0])));
+    if (text.ends_with('.'))
+        text.pop_back();
+    return text;
+}
+
 std::string bold(const std::string& text) { return "\\fB" + literal(text) + "\\fR"; }
 std::string italic(const std::string& text) { return "\\fI" + literal(text) + "\\fR"; }
 
 std::string heading(const std::string& text) { return ".SH " + text + "\n"; }
 
-// Words that the help does not name itself.
+// Words to choose from that the help does not name itself.
 std::string choices(const OptionHelp& option)
 {
     const auto told = [&](const std::string& word) { return option.help.find(word) != std::string::npos; };
-    return option.words.empty() || std::ranges::all_of(option.words, told)
+    return !option.closed || std::ranges::all_of(option.words, told)
         ? ""
         : " Words: " + joined(option.words, ", ") + ".";
 }
@@ -91,9 +101,15 @@ std::string entry(const OptionHelp& option)
 std::string entries(const CommandHelp& command, bool positional)
 {
     std::string text;
-    for (const OptionHelp& option : command.options)
-        if (option.positional == positional)
-            text += entry(option);
+    const OptionHelp* before = nullptr;
+    for (const OptionHelp& option : command.options) {
+        if (option.positional != positional)
+            continue;
+        if (!positional && (!before || before->group != option.group))
+            text += ".SS " + std::string(headingOf(option.group)) + "\n";
+        text += entry(option);
+        before = &option;
+    }
     return text;
 }
 
@@ -119,21 +135,28 @@ std::string manPage(const std::vector<const CommandHelp*>& path, const std::stri
     std::string page = ".\\\" Made from the same table as \"" + words + " --help\".\n";
     page +=
         ".TH " + literal(upper) + " 1 \"\" \"" + path[0]->name + " " + version + "\" \"User Commands\"\n.nh\n.ad l\n";
-    page += heading("NAME") + literal(name) + " \\- " + prose(replaced(command.summary, "\n", " ")) + "\n";
+    page += heading("NAME") + literal(name) + " \\- " + prose(withoutStop(replaced(command.summary, "\n", " "))) + "\n";
     page += heading("SYNOPSIS") + bold(words);
     page += command.commands.empty() ? "" : " " + italic("COMMAND");
-    page += " [" + italic("OPTIONS") + "]";
     for (const OptionHelp& option : command.options)
         if (option.positional)
             page += option.required ? " " + italic(option.names[0]) : " [" + italic(option.names[0]) + "]";
-    page += "\n";
+    for (const OptionHelp& option : command.options)
+        if (!option.positional && option.required)
+            page += " " + bold(option.names[0]) + " " + italic(option.value);
+    page += " [" + italic("OPTIONS") + "]\n";
     if (const std::string arguments = entries(command, true); !arguments.empty())
         page += heading("ARGUMENTS") + arguments;
     if (!command.commands.empty()) {
         page += heading("COMMANDS") + "Each has a page of its own.\n";
-        for (const CommandHelp& inner : command.commands)
+        std::string before;
+        for (const CommandHelp& inner : command.commands) {
+            if (inner.heading != before)
+                page += ".SS \"" + inner.heading + "\"\n";
+            before = inner.heading;
             page +=
                 ".TP\n" + bold(pageOf(path, path.size(), inner.name)) + "(1)\n" + prose(sentence(inner.summary)) + "\n";
+        }
     }
     page += heading("OPTIONS") + entries(command, false);
     if (!command.examples.empty()) {

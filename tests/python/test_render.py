@@ -124,8 +124,10 @@ def test_words_cannot_smuggle_options(tmp_path, monkeypatch):
 def test_every_option_of_the_command_is_a_keyword(command):
     import re
 
-    listed = set(re.findall(r"^  (?:-\w,)?--([a-z-]+)", command("render", "--help"), re.M))
-    elsewhere = {"help", "output", "json", "quiet", "overwrite", "frames", "rate"}  # about files and the terminal
+    listed = set(re.findall(r"^  (?:-\w, )?--([a-z-]+)", command("render", "--help"), re.M))
+    # About files and the terminal.
+    elsewhere = {"help", "output", "json", "quiet", "overwrite", "frames", "rate", "turntable",
+                 "list-frames"}
     keywords = {name.replace("_", "-") for name in inspect.signature(cotan.render).parameters}
     assert listed - elsewhere <= keywords
     assert keywords - listed == {"model", "floats", "report", "progress", "beside"}

@@ -194,10 +194,10 @@ void drawHotSpots(const Interface& interface, Commands& chosen)
     const float line = ImGui::GetFrameHeight();
     ImGui::SetNextWindowPos({size.x - line / 2, 2 * line}, ImGuiCond_Always, {1, 0});
     ImGui::SetNextWindowSizeConstraints({8 * line, 0}, {std::max(8 * line, size.x * 0.6f), size.y * 0.4f});
-    if (ImGui::Begin("Hot spots", nullptr,
+    if (ImGui::Begin("Problem areas", nullptr,
                      kPanel | ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_HorizontalScrollbar)) {
         if (interface.hotSpots.empty())
-            ImGui::TextUnformatted("nothing found, or not looked yet");
+            ImGui::TextUnformatted("none found");
         int number = 0;
         for (const Choice& spot : interface.hotSpots) {
             ImGui::PushID(number++);
@@ -227,11 +227,16 @@ void drawSheet(const Interface& interface)
                     const std::size_t i = std::size_t(column * high + row);
                     if (i >= interface.sheet.size())
                         continue;
+                    const auto& [keys, what] = interface.sheet[i];
                     ImGui::TableSetColumnIndex(2 * column);
-                    ImGui::TextColored(interface.dark ? ImVec4(0.95f, 0.75f, 0.2f, 1) : ImVec4(0.6f, 0.3f, 0, 1), "%s",
-                                       interface.sheet[i].first.c_str());
+                    if (keys.empty())
+                        ImGui::TextDisabled("%s", what.c_str());
+                    else
+                        ImGui::TextColored(interface.dark ? ImVec4(0.95f, 0.75f, 0.2f, 1) : ImVec4(0.6f, 0.3f, 0, 1),
+                                           "%s", keys.c_str());
                     ImGui::TableSetColumnIndex(2 * column + 1);
-                    ImGui::TextUnformatted((interface.sheet[i].second + "   ").c_str());
+                    if (!keys.empty())
+                        ImGui::TextUnformatted((what + "   ").c_str());
                 }
             }
             ImGui::EndTable();

@@ -10,6 +10,8 @@ namespace cotan {
 
 // "fit": the whole scene from the front, a little from above; "front": the same, as near as its vertices allow; both
 // frame all of an animation (Scene::reach);
+// "left", "right", "top", "bottom", "back": the same from that side, straight on; "orbit:AZIMUTH,ELEVATION": from
+// any, in degrees as orbitCamera (cotan/scene/front_camera.hpp) has them, at most 360 around and 90 up or down;
 // "0", "1", ...: a camera of the scene; or
 // "ex,ey,ez,tx,ty,tz": from the eye e to the target t, in world units, y up (-z where it looks straight up or down),
 // with a lens of 45 degrees from bottom to top; a seventh number is another lens in degrees, "h" and a number an

@@ -127,8 +127,8 @@ struct LintReport {
     std::size_t mapsConverted = 0, mapsKept = 0;
     bool dropsTangents = false;
     // In sentences, each empty where there is nothing to say: what is wrong with the model as it is, what is seen
-    // without tangents, what to do, which maps were not judged, what else reads tangents.
-    std::string defects, seen, advised, notJudged, otherReaders;
+    // without tangents, where most, what to do, which maps were not judged, what else reads tangents.
+    std::string defects, seen, worst, advised, notJudged, otherReaders;
     std::string recommendation; // all of these
 };
 

@@ -27,6 +27,11 @@ inline Up upFrom(std::string_view word) { return word == "z" ? Up::z : Up::y; }
 // "WxH", or one number for both, each 1..16384.
 Result<std::pair<int, int>> parseSize(const std::string& text);
 
+// The same of a picture, which may also have the size of a preset: "1080p", "square" and others.
+Result<std::pair<int, int>> parsePictureSize(const std::string& text);
+std::vector<std::string> sizePresetWords();
+std::string sizePresetNames(); // "thumbnail (320x180), 720p, ... or square (1024x1024)"
+
 // Pictures of one's own on a model: --normal-map, and for models that come without --base-color, --metallic-roughness
 // and --occlusion.
 struct OwnMaps { // files; empty: what the model has
@@ -53,6 +58,7 @@ struct PictureOptions {
     std::string variant;
     std::string animation;
     double time = 0;
+    bool turntable = false; // for the command to say: cameras frame all that the model covers as it turns
     std::string size = "1280x720";
     std::string camera; // empty: the built-in scene's own, front for a model
     std::string device = "auto";

@@ -16,6 +16,12 @@ namespace cotan {
 std::vector<std::string> frameWords();
 std::string frameNames();
 
+// The names of the frames to choose from: those that no input makes NaN. The others are historical, to compare with.
+std::string usefulFrameNames();
+
+// Adds --list-frames, which prints all of them, a line for each.
+void addListOfFrames(Arguments& a);
+
 // A frame's name; the error lists all of them.
 Result<Frame> parseFrame(const std::string& text);
 
@@ -41,7 +47,7 @@ void addDeviceOption(Arguments& a, std::string& device, const std::string& use =
 // Adds --normal-map, --convention and --material.
 void addOwnNormalMap(Arguments& a, OwnMaps& maps);
 
-// Adds --frame, also for kAutoFrame.
+// Adds --frame, also for kAutoFrame, and --list-frames.
 void addFrameOption(Arguments& a, std::string& frame);
 
 // Adds --view.

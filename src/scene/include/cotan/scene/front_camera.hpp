@@ -1,4 +1,4 @@
-// A camera that fills the picture with a scene.
+// Cameras that fill the image with a scene.
 #pragma once
 
 #include "cotan/scene/scene.hpp"
@@ -11,5 +11,10 @@ namespace cotan {
 // (cotan/scene/bounds.hpp) the corners of the meshes' boxes stand for their vertices.
 // What is flat is seen straight on. Nothing finite to see gives the default camera.
 Camera frontCamera(const Scene& scene, int width, int height);
+
+// The same from another side. azimuth: degrees from the front (+z) counter-clockwise as seen from above, so that 90 is
+// the right side (+x), -90 the left one and 180 the back; elevation: degrees above the horizon, -90 to 90, where 90
+// looks straight down with the front below. Both finite.
+Camera orbitCamera(const Scene& scene, double azimuth, double elevation, int width, int height);
 
 } // namespace cotan

@@ -1,5 +1,5 @@
 // Commands and what they take on the command line: each option is declared once, with its name, help, unit, range and
-// default. CLI11 reads them; only arguments.cpp sees it.
+// default. CLI11 reads them; only arguments.cpp and parse_errors.cpp see it.
 #pragma once
 
 #include <filesystem>
@@ -11,6 +11,7 @@
 
 #include "cotan/result.hpp"
 #include "cotan/terminal/command_help.hpp"
+#include "cotan/terminal/help_text.hpp"
 
 namespace CLI {
 class App;
@@ -42,6 +43,9 @@ public:
     struct Facts {
         FileUse use = FileUse::none;
         std::vector<std::string> words; // that it offers
+        bool closed = false;            // and takes no other
+        HelpGroup group = HelpGroup::general;
+        bool needed = false;
     };
     Argument(CLI::Option& option, Facts& facts) : option_(&option), facts_(&facts) {}
 
@@ -55,9 +59,12 @@ public:
     Argument& within(double least, double most);
     Argument& above0(); // and at most 1e6
     Argument& above0Or(const std::string& word);
-    Argument& reads();  // names files that are read, or words that stand for one
-    Argument& writes(); // names files or folders that are written
+    Argument& reads();                // names files that are read, or words that stand for one
+    Argument& writes();               // names files or folders that are written
+    Argument& under(HelpGroup group); // in the help, whatever group it is declared in
+    Argument& main();                 // stands first there
     Argument& required();
+    Argument& needed(); // required, but it is the command that refuses to go on without it
     Argument& separatedByCommas();
     Argument& withoutDefault(); // what the variable holds means that nothing was given
     Argument& unlisted();       // works, but the help leaves it out
@@ -82,7 +89,13 @@ public:
     // "-o,--output" are names of one option; "MODEL" is a positional argument. A value is a std::string, a
     // std::filesystem::path, an int, float or double, or several strings in a vector.
     template<class Value> Argument option(const std::string& names, Value& value, const std::string& help);
-    void flag(const std::string& name, bool& value, const std::string& help);
+    Argument flag(const std::string& name, bool& value, const std::string& help);
+    // An option that prints a text and does nothing else, such as a list.
+    void answers(const std::string& name, const std::string& help, std::function<std::string()> text);
+    // The group of the options that are declared next; at first general.
+    void group(HelpGroup group);
+    // The heading of the commands that are added next.
+    void heading(const std::string& heading);
     Argument find(const std::string& name);
 
     // Words that nobody declared are no error.
@@ -98,7 +111,8 @@ public:
     CommandHelp describe() const;
 
     // Reads the words (without the program's name) and does what they ask for: runs a command, or hands the text of
-    // --help and --version to `print`. Errors: ErrorKind::usage, those of the command.
+    // --help (-h: the main options alone), --version and what answers() added to `print`. "help map convert" is
+    // "map convert --help". Errors: ErrorKind::usage, those of the command.
     Status run(std::vector<std::string> words, const std::function<void(const std::string&)>& print);
 
     // Reads the words and runs nothing. Errors: ErrorKind::usage, for --help and --version, too.
@@ -106,7 +120,9 @@ public:
 
 private:
     struct Tool;
-    Status read(std::vector<std::string> words, std::string& help) const;
+    Status read(std::vector<std::string> words, std::string& answer) const;
+    std::vector<const CLI::App*> given() const; // the tool and the commands that the words named
+    std::string help(HelpLength length) const;  // of the last of those
     Arguments(std::shared_ptr<Tool> tool, CLI::App& app) : tool_(std::move(tool)), app_(&app) {}
 
     std::shared_ptr<Tool> tool_;

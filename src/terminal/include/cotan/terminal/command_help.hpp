@@ -17,7 +17,12 @@ enum class ValueKind {
 };
 ValueKind valueKind(std::string_view valueWord);
 
+// The heading that an option stands under, in the order of the help. The main ones are the few that matter first.
+enum class HelpGroup { main, input, output, rays, camera, light, frame, look, jobs, diagnostics, general };
+std::string_view headingOf(HelpGroup group);
+
 struct OptionHelp {
+    HelpGroup group = HelpGroup::general;
     std::vector<std::string> names; // with their hyphens, short ones first; of a positional argument its word
     std::string value;              // the word for its value: "FILE"; empty: a flag
     ValueKind kind = ValueKind::none;
@@ -25,12 +30,14 @@ struct OptionHelp {
     std::string usual;              // what it is if it is not given; empty: not told
     std::string least, most;        // of a number with a range
     std::vector<std::string> words; // to choose from, or to begin with; may be empty
+    bool closed = false;            // it takes none but these words
     bool positional = false, required = false, repeated = false;
 };
 
 struct CommandHelp {
     std::string name, summary;
-    std::vector<OptionHelp> options; // positional arguments among them, in their order
+    std::string heading;             // of the list of commands that it stands in; may be empty
+    std::vector<OptionHelp> options; // by their groups; positional arguments among them, in their order
     std::vector<CommandHelp> commands;
     std::vector<std::string> examples; // command lines
     std::string closing;               // a sentence on exit codes

@@ -20,6 +20,9 @@ struct CommandNames {
 // the command line, without the program. Errors: ErrorKind::usage with the word and the nearest that there is.
 Status checkCommandWords(const CommandNames& tool, std::span<const std::string> words);
 
+// "-o=a.png" as "-o" and "a.png", which CLI11 takes for the beginning of a name.
+std::vector<std::string> withoutEquals(std::vector<std::string> words);
+
 // Letters to insert, leave out, exchange with another or with their neighbour until one word is the other.
 std::size_t editDistance(std::string_view a, std::string_view b);
 

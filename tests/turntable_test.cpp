@@ -1,0 +1,101 @@
+// A model that turns once around: where it stands, and that one camera sees all of it.
+#include "cotan/picture/turntable.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include <glm/ext/matrix_transform.hpp>
+#include <glm/geometric.hpp>
+
+#include "cotan/scene/bounds.hpp"
+#include "cotan/scene/front_camera.hpp"
+#include "cotan/shapes/shapes.hpp"
+
+namespace cotan {
+namespace {
+
+Scene movedTeapot()
+{
+    Scene scene = shapeScene("teapot");
+    scene.instances[0].toWorld = glm::translate(glm::mat4(1), {3, -2, 7}) * scene.instances[0].toWorld;
+    return scene;
+}
+
+TEST(Turntable, turnsCounterClockwiseAboutTheMiddleOfTheBoxAndComesBackExactly)
+{
+    Scene scene = movedTeapot();
+    const glm::mat4 before = scene.instances[0].toWorld;
+    const glm::vec3 middle = bounds(scene).centre();
+    const Turntable table(scene);
+    table.turn(scene, 90);
+    const glm::vec3 right =
+        scene.instances[0].toWorld * (glm::inverse(before) * glm::vec4(middle + glm::vec3(1, 2, 0), 1));
+    EXPECT_LT(glm::distance(right, middle + glm::vec3(0, 2, -1)), 1e-5f); // what was at the right is behind
+    EXPECT_LT(glm::distance(bounds(scene).centre(), middle), 0.2f);
+    table.turn(scene, 0);
+    EXPECT_EQ(scene.instances[0].toWorld, before);
+    table.turn(scene, 360);
+    for (int i = 0; i < 4; ++i)
+        EXPECT_LT(glm::distance(scene.instances[0].toWorld[i], before[i]), 1e-5f);
+}
+
+TEST(Turntable, lightsAndCamerasStay)
+{
+    Scene scene = builtinScene();
+    const glm::vec3 light = scene.lights.at(0).direction, eye = scene.cameras.at(0).eye;
+    Turntable(scene).turn(scene, 90);
+    EXPECT_EQ(scene.lights[0].direction, light);
+    EXPECT_EQ(scene.cameras[0].eye, eye);
+}
+
+// Of all vertices at all angles: the largest distance from the middle of the image, of half its width or height.
+double furthest(Scene scene, const Camera& camera, double aspect)
+{
+    const Turntable table(scene);
+    const glm::dvec3 forward = glm::normalize(glm::dvec3(camera.target) - glm::dvec3(camera.eye));
+    const glm::dvec3 right = glm::normalize(glm::cross(forward, glm::dvec3(camera.up))),
+                     up = glm::cross(right, forward);
+    const double tanY = std::tan(camera.verticalFieldOfView / 2.0);
+    double most = 0;
+    for (int angle = 0; angle < 360; angle += 7) {
+        table.turn(scene, angle);
+        forEachPlacedPoint(scene, [&](const glm::mat4& toWorld, const glm::vec3& point) {
+            const glm::dvec3 d = glm::dvec3(toWorld * glm::vec4(point, 1)) - glm::dvec3(camera.eye);
+            const double depth = glm::dot(d, forward);
+            EXPECT_GT(depth, 0);
+            most = std::max({most, std::abs(glm::dot(d, right)) / (depth * tanY * aspect),
+                             std::abs(glm::dot(d, up)) / (depth * tanY)});
+        });
+    }
+    return most;
+}
+
+TEST(Turntable, oneCameraSeesAllOfItAtEveryAngleAndIsNear)
+{
+    const Scene still = movedTeapot();
+    Scene scene = still;
+    scene.reach = sweptPoints(still);
+    for (const double aspect : {16 / 9.0, 0.5}) {
+        const int width = int(900 * aspect);
+        for (const Camera& camera : {frontCamera(scene, width, 900), orbitCamera(scene, 40, 60, width, 900)}) {
+            const double most = furthest(still, camera, aspect);
+            EXPECT_LT(most, 0.93);
+            EXPECT_GT(most, 0.85);
+        }
+        // The camera of one moment cuts it off at another.
+        EXPECT_GT(furthest(still, frontCamera(still, width, 900), aspect), aspect < 1 ? 0.9 : 0.0);
+    }
+}
+
+TEST(Turntable, aSceneWithoutExtentSweepsNothing)
+{
+    EXPECT_TRUE(sweptPoints(Scene{}).empty());
+    Scene scene;
+    scene.instances.resize(1);
+    Turntable(scene).turn(scene, 30); // no mesh
+    EXPECT_EQ(scene.instances.size(), 1u);
+}
+
+} // namespace
+} // namespace cotan
