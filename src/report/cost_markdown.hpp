@@ -18,7 +18,7 @@ std::string title(const cost::DeviceCode& device);
 
 std::vector<const cost::DeviceCode*> devicesWithCode(const cost::CostReport& report);
 
-// `header`, and a column for each of the devices.
+// `header`, and a column for each of the devices: two lines, their makers over their names.
 Table tableOf(std::vector<std::string> header, const std::vector<const cost::DeviceCode*>& devices);
 
 // A number of pixels, in three digits or so.
