@@ -27,7 +27,7 @@ std::optional<double> tangentAtVertex(const DeviceCode& d)
 
 std::string byVertex(const CostReport& report)
 {
-    const auto devices = devicesWithCode(report);
+    const auto devices = devicesWith(report, &StageCode::instructions);
     Table table = tableOf({"wins below ... pixels a vertex", "in bytes"}, devices);
     const int tangentBytes = vertexStage(Stored::tangent).bytes;
     for (const Row* row : report.rows) {
@@ -56,8 +56,7 @@ std::string range(const PixelRange& r)
 
 std::string byTriangle(const CostReport& report)
 {
-    auto devices = devicesWithCode(report);
-    std::erase_if(devices, [](const DeviceCode* d) { return !trianglePrice(*d, choices().front()); });
+    const auto devices = devicesWith(report, &StageCode::inverseThroughput);
     Table table = tableOf({"wins where triangles cover ... pixels", "vertices a triangle"}, devices);
     for (const Choice& choice : choices()) {
         if (&choice == &choices().front())

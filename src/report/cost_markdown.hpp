@@ -16,7 +16,9 @@ std::string aligned(const Table& table);
 // What tables call it: the family, or the name of the device.
 std::string title(const cost::DeviceCode& device);
 
-std::vector<const cost::DeviceCode*> devicesWithCode(const cost::CostReport& report);
+// Devices whose driver gives this number of fragment shaders.
+using Measure = std::optional<double> cost::StageCode::*;
+std::vector<const cost::DeviceCode*> devicesWith(const cost::CostReport& report, Measure measure);
 
 // `header`, and a column for each of the devices: two lines, their makers over their names.
 Table tableOf(std::vector<std::string> header, const std::vector<const cost::DeviceCode*>& devices);

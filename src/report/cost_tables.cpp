@@ -38,11 +38,11 @@ std::string aligned(const Table& table)
 
 std::string title(const DeviceCode& d) { return d.family.empty() ? d.name : d.family; }
 
-std::vector<const DeviceCode*> devicesWithCode(const CostReport& report)
+std::vector<const DeviceCode*> devicesWith(const CostReport& report, Measure measure)
 {
     std::vector<const DeviceCode*> list;
     for (const DeviceCode& d : report.code)
-        if (d.silence.empty())
+        if (d.silence.empty() && fragmentCode(d, "floor").*measure)
             list.push_back(&d);
     return list;
 }
@@ -75,7 +75,7 @@ std::string over(std::optional<double> value, std::optional<double> floor, bool 
 
 std::string overview(const CostReport& report)
 {
-    const auto devices = devicesWithCode(report);
+    const auto devices = devicesWith(report, &StageCode::instructions);
     Table table = tableOf({"over the floor", "scalar", "with fma", "SPIR-V"}, devices);
     table[0].emplace_back("2006");
     table[1].emplace_back();
@@ -97,13 +97,10 @@ std::string overview(const CostReport& report)
     return "### What perturbing the normal adds, in instructions\n\n" + aligned(table);
 }
 
-using Measure = std::optional<double> StageCode::*;
-
 // Of the cards whose driver gives it, over the floor or whole. Empty where none does.
 std::string fragmentsBy(const CostReport& report, const std::string& heading, Measure measure, bool overFloor)
 {
-    auto devices = devicesWithCode(report);
-    std::erase_if(devices, [&](const DeviceCode* d) { return !(fragmentCode(*d, "floor").*measure); });
+    const auto devices = devicesWith(report, measure);
     if (devices.empty())
         return "";
     Table table = tableOf({overFloor ? "over the floor" : "fragment shader"}, devices);
@@ -119,8 +116,7 @@ std::string fragmentsBy(const CostReport& report, const std::string& heading, Me
 
 std::string otherBounds(const CostReport& report)
 {
-    auto devices = devicesWithCode(report);
-    std::erase_if(devices, [](const DeviceCode* d) { return !vertexCode(*d, Stored::nothing).inverseThroughput; });
+    const auto devices = devicesWith(report, &StageCode::inverseThroughput);
     if (devices.empty())
         return "";
     Table table = tableOf({"stage"}, devices);
@@ -138,7 +134,7 @@ std::string otherBounds(const CostReport& report)
 
 std::string vertexStages(const CostReport& report)
 {
-    const auto devices = devicesWithCode(report);
+    const auto devices = devicesWith(report, &StageCode::instructions);
     Table table = tableOf({"vertex stage", "bytes a vertex"}, devices);
     for (const VertexStage& v : cost::vertexStages()) {
         std::vector<std::string> line = {std::string(v.name), v.bytes ? fmt::format("{:+}", v.bytes) : "0"};
@@ -153,7 +149,7 @@ std::string vertexStages(const CostReport& report)
 // Mesh stages and resolves over the first of their kind, passes whole.
 std::string otherStagesOf(StageKind kind, const CostReport& report)
 {
-    auto devices = devicesWithCode(report);
+    auto devices = devicesWith(report, &StageCode::instructions);
     const bool mesh = kind == StageKind::mesh, pass = kind == StageKind::pass;
     const Stage& first = *std::ranges::find(otherStages(), kind, &Stage::kind);
     if (mesh) // few have that stage
@@ -281,13 +277,14 @@ std::string toMarkdown(const CostReport& report, const std::string& chart)
     for (const DeviceCode& d : report.code)
         text += askedOf(d);
     text += '\n' + overview(report);
-    const auto devices = devicesWithCode(report);
+    const auto devices = devicesWith(report, &StageCode::instructions);
     text += fragmentsBy(report, "The same in instructions that compute, where drivers tell them apart",
                         &StageCode::arithmetic, true);
     text += fragmentsBy(report, "Whole fragment shaders, bound in cycles (inverse throughput), each driver's unit",
                         &StageCode::inverseThroughput, false);
     text += fragmentsBy(report, "Whole fragment shaders, latency in cycles, each driver's estimate",
                         &StageCode::latency, false);
+    text += fragmentsBy(report, "The same in bytes of code", &StageCode::bytes, true);
     text += fragmentsBy(report, "Whole fragment shaders, registers a thread", &StageCode::registers, false);
     if (!devices.empty())
         text += vertexStages(report) + breakEven(report);
@@ -355,17 +352,17 @@ std::string toCsv(const CostReport& report)
     for (const Stage& s : otherStages())
         text += fmt::format("{},SPIR-V {},,{},instructions,{}\n", quoted(s.name), kindName(s.kind),
                             quoted(spirvCompiler()), spirvInstructions(s.words));
-    for (const DeviceCode* d : devicesWithCode(report)) {
+    for (const DeviceCode& d : report.code) {
         const auto lines = [&](const std::string& name, std::string_view source, const StageCode& code) {
             for (const auto& [measure, value] : code.all)
-                text += fmt::format("{},{},{},{},{},{:.0f}\n", name, source, quoted(title(*d)), quoted(d->driver),
+                text += fmt::format("{},{},{},{},{},{:.0f}\n", name, source, quoted(title(d)), quoted(d.driver),
                                     quoted(measure), value);
         };
-        for (const RowCode& r : d->rows)
+        for (const RowCode& r : d.rows)
             lines(std::string(r.row), "fragment", r.fragment);
-        for (const VertexCode& v : d->vertices)
+        for (const VertexCode& v : d.vertices)
             lines(quoted(vertexStage(v.stored).name), "vertex", v.vertex);
-        for (const OtherCode& o : d->others)
+        for (const OtherCode& o : d.others)
             lines(quoted(o.stage->name), kindName(o.stage->kind), o.code);
     }
     for (const DeviceTiming& d : report.timing)
