@@ -40,7 +40,7 @@ Device describe(vk::raii::PhysicalDevice physical)
 {
     Device d;
     const vk::PhysicalDeviceProperties core = physical.getProperties();
-    if (core.apiVersion >= VK_API_VERSION_1_2) {
+    if (core.apiVersion >= VK_API_VERSION_1_2 || hasExtension(physical, VK_KHR_DRIVER_PROPERTIES_EXTENSION_NAME)) {
         const auto both = physical.getProperties2<vk::PhysicalDeviceProperties2, vk::PhysicalDeviceDriverProperties>();
         const auto& driver = both.get<vk::PhysicalDeviceDriverProperties>();
         d.driver = std::string(driver.driverName.data()) + ", " + std::string(driver.driverInfo.data());

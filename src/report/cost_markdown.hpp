@@ -26,6 +26,9 @@ Table tableOf(std::vector<std::string> header, const std::vector<const cost::Dev
 // A number of pixels, in three digits or so.
 std::string pixelsText(double pixels);
 
+// How each form stands against stored tangents, over all cards. Empty where no driver said anything.
+std::string againstStored(const cost::CostReport& report);
+
 // Where frames pay: by pixels a vertex, and by pixels a triangle. Empty where no driver said anything.
 std::string breakEven(const cost::CostReport& report);
 

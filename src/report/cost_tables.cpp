@@ -276,7 +276,7 @@ std::string toMarkdown(const CostReport& report, const std::string& chart)
     text += fmt::format("SPIR-V: {}.\n\n", spirvCompiler());
     for (const DeviceCode& d : report.code)
         text += askedOf(d);
-    text += '\n' + overview(report);
+    text += '\n' + againstStored(report) + overview(report);
     const auto devices = devicesWith(report, &StageCode::instructions);
     text += fragmentsBy(report, "The same in instructions that compute, where drivers tell them apart",
                         &StageCode::arithmetic, true);
