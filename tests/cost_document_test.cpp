@@ -120,22 +120,29 @@ TEST(CostDocument, whatIsSaidToHoldOnAllCardsHolds)
     EXPECT_TRUE(onAll(smooth, -1));
     says("`smooth-fused` has fewer instructions than stored tangents on all " + std::to_string(smooth.size())
          + " cards");
-    EXPECT_TRUE(onAll(read, -1));
-    says("`triangle-read` has fewer instructions than stored tangents on all " + std::to_string(read.size())
-         + " cards");
+    EXPECT_TRUE(onAll(read, 0));
+    const auto fewer = std::ranges::count_if(read, [](const auto& c) { return c.second < 0; });
+    says("`triangle-read` has at most as many instructions as stored tangents on all " + std::to_string(read.size())
+         + " cards that compile that stage, and fewer on " + std::to_string(fewer) + " of them.");
     // triangle, in the better of its forms
-    const Counts halfs = inForward("triangle-halfs"), floats = inForward("triangle-fused");
-    int at = 0;
+    int at = 0, asked = 0;
     std::vector<std::string> over;
-    for (std::size_t i = 0; i < halfs.size(); ++i)
-        if (std::min(halfs[i].second, floats[i].second) <= 0)
+    for (const DeviceCode& d : cards()) {
+        const auto measure = d.maker == "Arm" ? &StageCode::inverseThroughput : &StageCode::instructions;
+        const Count stored = fragmentCode(d, "mikktspace").*measure, halfs = fragmentCode(d, "triangle-halfs").*measure,
+                    floats = fragmentCode(d, "triangle-fused").*measure;
+        if (!stored || !halfs || !floats)
+            continue;
+        ++asked;
+        if (std::min(*halfs, *floats) <= *stored)
             ++at;
         else
-            over.push_back(halfs[i].first->family);
+            over.push_back(d.family);
+    }
     std::string except;
     for (std::size_t i = 0; i < over.size(); ++i)
         except += (i == 0 ? "" : i + 1 == over.size() ? " and " : ", ") + over[i];
-    says(std::to_string(at) + " of " + std::to_string(halfs.size()) + " cards, in the better of its two forms"
+    says(std::to_string(at) + " of " + std::to_string(asked) + " cards, in the better of its two forms"
          + (over.empty() ? "." : "; not on " + except + "."));
     const auto [least, most] = std::ranges::minmax_element(seen, {}, [](const auto& c) { return c.second; });
     EXPECT_GT(least->second, 0);
