@@ -18,7 +18,7 @@ FRAMES = "cotangent cotangent-2013 nonperspective paper-full paper-nodet paper-t
 # Words that are taken and that nobody needs: what is always there.
 UNTOLD = {("shader", "--set"): {"frame"}}
 # Options that take a name which nobody can list.
-FREE_NAMES = {("cost", "--device"), ("accuracy", "--scene")}
+FREE_NAMES = {("cost", "--device"), ("cost", "--name"), ("accuracy", "--scene")}
 
 
 class Option:

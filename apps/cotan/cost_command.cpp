@@ -3,7 +3,9 @@
 #include <filesystem>
 #include <optional>
 
+#include "cotan/cost/cards.hpp"
 #include "cotan/cost/rows.hpp"
+#include "cotan/files/bytes.hpp"
 #include "cotan/files/output.hpp"
 #include "cotan/report/cost_tables.hpp"
 #include "loading.hpp"
@@ -11,6 +13,8 @@
 namespace cotan::app {
 
 namespace {
+
+constexpr std::size_t kMaxCardBytes = 64 << 20;
 
 struct CostCommandOptions : CommonOptions {
     std::vector<std::string> frames;
@@ -20,6 +24,9 @@ struct CostCommandOptions : CommonOptions {
     bool timeCpuDevices = false;
     int repeats = 15;
     std::string csv;
+    std::string name;
+    std::string cards;
+    std::string writeCards;
 };
 
 Status run(const CostCommandOptions& o)
@@ -27,13 +34,24 @@ Status run(const CostCommandOptions& o)
     std::filesystem::path chart = o.output;
     if (!o.output.empty())
         chart.replace_extension(".svg");
-    if (Status planned = beginOutputs(o, {{"-o", o.output}, {"-o, the chart", chart.string()}, {"--csv", o.csv}});
+    if (Status planned = beginOutputs(
+            o,
+            {{"-o", o.output}, {"-o, the chart", chart.string()}, {"--csv", o.csv}, {"--write-cards", o.writeCards}});
         !planned)
         return planned;
+    std::string cards;
+    if (!o.cards.empty()) {
+        const auto bytes = readFileBytes(o.cards, kMaxCardBytes);
+        if (!bytes)
+            return bytes.error();
+        cards.assign(reinterpret_cast<const char*>(bytes->data()), bytes->size());
+    }
     const auto report = withProgress(o, 1, "pricing", [&](Progress progress) {
         return cost::price({.frames = o.frames,
                             .devices = o.devices,
                             .families = o.families,
+                            .cards = std::move(cards),
+                            .name = o.name,
                             .timing = !o.noTiming,
                             .timeCpuDevices = o.timeCpuDevices,
                             .repeats = o.repeats,
@@ -43,8 +61,8 @@ Status run(const CostCommandOptions& o)
         return inWords(report.error());
     // Tables without machine code do not take the place of older ones that may have it.
     if (!report->codeSilence.empty())
-        for (const std::filesystem::path& file :
-             {std::filesystem::path(o.output), std::filesystem::path(o.csv), std::filesystem::path(o.json)})
+        for (const std::filesystem::path& file : {std::filesystem::path(o.output), std::filesystem::path(o.csv),
+                                                  std::filesystem::path(o.json), std::filesystem::path(o.writeCards)})
             if (std::filesystem::is_regular_file(file))
                 return unavailableError(
                     fmt::format("{}; {} is there and stays as it is", report->codeSilence, file.string()));
@@ -61,6 +79,9 @@ Status run(const CostCommandOptions& o)
     }
     if (!o.csv.empty())
         if (Status written = writeFileWhole(o.csv, toCsv(*report)); !written)
+            return written;
+    if (!o.writeCards.empty())
+        if (Status written = writeFileWhole(o.writeCards, cost::cardsToCsv(report->code)); !written)
             return written;
     if (Status written = writeReport(o, toJson(*report)); !written)
         return written;
@@ -95,6 +116,15 @@ void declare(Arguments& a, CostCommandOptions& o)
     a.flag("--time-cpu-devices", o.timeCpuDevices, "measure times also where a driver draws on the processor");
     a.option("--repeats", o.repeats, "how often to draw; the time is the median").within(1, 1000).in("N");
     a.option("--csv", o.csv, "write every number, one per line").in("FILE").writes().under(HelpGroup::output);
+    a.option("--write-cards", o.writeCards, "write a line for each card and stage, which --cards reads")
+        .in("FILE.csv")
+        .writes()
+        .under(HelpGroup::output);
+    a.option("--cards", o.cards, "make the tables of the cards in this file instead of asking drivers")
+        .in("FILE.csv")
+        .reads()
+        .under(HelpGroup::input);
+    a.option("--name", o.name, "what the tables call the device, where there is one; default: its own name").in("NAME");
 }
 
 } // namespace

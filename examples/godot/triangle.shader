@@ -71,7 +71,10 @@ vec3 cotan_decode(vec3 texel)
 //   u, v   U and V in the space of n, as cotan_triangle_of_edges gives them
 vec3 cotan_perturb_triangle(vec3 n, vec3 u, vec3 v, vec3 m)
 {
-    vec3 r = n * (m.z + 1e-12) + cross(n, u * m.x + v * m.y);
+    vec3 w = u * m.x + v * m.y;
+    // cross(n, w) is written out and comes last: compilers fold that into multiply-adds, and wait less.
+    vec3 r = n * (m.z + 1e-12) + vec3(n.y, n.z, n.x) * vec3(w.z, w.x, w.y) - vec3(n.z, n.x, n.y)
+        * vec3(w.y, w.z, w.x);
     return r * inversesqrt(dot(r, r));
 }
 

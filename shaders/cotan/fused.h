@@ -149,7 +149,10 @@ COTAN_FUNCTION cotan_vec3 cotan_perturb_orthonormal(
 COTAN_FUNCTION cotan_vec3 cotan_perturb_triangle(
     cotan_vec3 n, cotan_vec3 u, cotan_vec3 v, cotan_vec3 m)
 {
-    cotan_vec3 r = n * (m.z + COTAN_FUSED_REST) + cross(n, u * m.x + v * m.y);
+    cotan_vec3 w = u * m.x + v * m.y;
+    // cross(n, w) is written out and comes last: compilers fold that into multiply-adds, and wait less.
+    cotan_vec3 r = n * (m.z + COTAN_FUSED_REST) + cotan_vec3(n.y, n.z, n.x) * cotan_vec3(w.z, w.x, w.y)
+        - cotan_vec3(n.z, n.x, n.y) * cotan_vec3(w.y, w.z, w.x);
     return r * cotan_inversesqrt(dot(r, r));
 }
 

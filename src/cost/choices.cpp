@@ -1,7 +1,5 @@
 #include "cotan/cost/choices.hpp"
 
-#include <algorithm>
-
 namespace cotan::cost {
 
 const std::vector<Choice>& choices()
@@ -19,13 +17,10 @@ const std::vector<Choice>& choices()
 
 std::optional<TrianglePrice> trianglePrice(const DeviceCode& device, const Choice& choice)
 {
-    const auto row = std::ranges::find(device.rows, choice.row, &RowCode::row);
-    const auto stage = std::ranges::find(device.vertices, choice.vertex, &VertexCode::stored);
-    if (row == device.rows.end() || stage == device.vertices.end() || !row->fragment.inverseThroughput
-        || !stage->vertex.inverseThroughput)
-        return std::nullopt;
-    return TrianglePrice{choice.verticesPerTriangle * *stage->vertex.inverseThroughput,
-                         *row->fragment.inverseThroughput};
+    const auto fragment = fragmentCode(device, choice.row).inverseThroughput,
+               vertex = vertexCode(device, choice.vertex).inverseThroughput;
+    return fragment && vertex ? std::optional(TrianglePrice{choice.verticesPerTriangle * *vertex, *fragment})
+                              : std::nullopt;
 }
 
 } // namespace cotan::cost

@@ -24,25 +24,43 @@ bool hasExtension(const vk::raii::PhysicalDevice& physical, const char* name)
     return false;
 }
 
+// By the number of the maker, or, for drivers that give Mesa's own, by the driver.
+std::string makerOf(std::uint32_t vendor, std::string_view driver)
+{
+    constexpr std::pair<std::uint32_t, const char*> kMakers[] = {
+        {0x1002, "AMD"},   {0x10de, "NVIDIA"}, {0x8086, "Intel"},        {0x5143, "Qualcomm"},
+        {0x106b, "Apple"}, {0x13b5, "Arm"},    {0x14e4, "Raspberry Pi"}, {0x1010, "Imagination"}};
+    for (const auto& [number, name] : kMakers)
+        if (number == vendor)
+            return name;
+    return driver.rfind("Honeykrisp", 0) == 0 ? "Apple" : "";
+}
+
 Device describe(vk::raii::PhysicalDevice physical)
 {
-    const auto properties =
-        physical.getProperties2<vk::PhysicalDeviceProperties2, vk::PhysicalDeviceDriverProperties>();
-    const auto& core = properties.get<vk::PhysicalDeviceProperties2>().properties;
-    const auto& driver = properties.get<vk::PhysicalDeviceDriverProperties>();
     Device d;
+    const vk::PhysicalDeviceProperties core = physical.getProperties();
+    if (core.apiVersion >= VK_API_VERSION_1_2 || hasExtension(physical, VK_KHR_DRIVER_PROPERTIES_EXTENSION_NAME)) {
+        const auto both = physical.getProperties2<vk::PhysicalDeviceProperties2, vk::PhysicalDeviceDriverProperties>();
+        const auto& driver = both.get<vk::PhysicalDeviceDriverProperties>();
+        d.driver = std::string(driver.driverName.data()) + ", " + std::string(driver.driverInfo.data());
+        d.radv = driver.driverID == vk::DriverId::eMesaRadv;
+    }
     d.name = core.deviceName.data();
-    d.driver = std::string(driver.driverName.data()) + ", " + std::string(driver.driverInfo.data());
+    d.name.erase(d.name.find_last_not_of(' ') + 1);
+    d.maker = makerOf(core.vendorID, d.driver);
     d.cpu = core.deviceType == vk::PhysicalDeviceType::eCpu;
-    d.radv = driver.driverID == vk::DriverId::eMesaRadv;
     d.reports = hasExtension(physical, VK_KHR_PIPELINE_EXECUTABLE_PROPERTIES_EXTENSION_NAME);
     d.meshShaders = hasExtension(physical, VK_EXT_MESH_SHADER_EXTENSION_NAME);
-    d.missing = core.apiVersion < VK_API_VERSION_1_3 ? "needs Vulkan 1.3" : "has no graphics queue";
+    d.dynamicRendering = core.apiVersion >= VK_API_VERSION_1_3;
+    d.missing = d.dynamicRendering ? "has no graphics queue" : "needs Vulkan 1.3";
     const auto families = physical.getQueueFamilyProperties();
-    for (std::size_t i = 0; i < families.size() && core.apiVersion >= VK_API_VERSION_1_3; ++i)
+    for (std::size_t i = 0; i < families.size(); ++i)
         if (families[i].queueFlags & vk::QueueFlagBits::eGraphics) {
             d.queueFamily = static_cast<std::uint32_t>(i);
-            d.missing.clear();
+            d.compiles = true;
+            if (d.dynamicRendering)
+                d.missing.clear();
             if (families[i].timestampValidBits > 0)
                 d.nanoseconds = double(core.limits.timestampPeriod);
             break;
@@ -85,7 +103,8 @@ void open(Device& d)
     use12.pNext = &use13;
     vk::PhysicalDeviceFeatures2 use;
     use.features.geometryShader = has.geometryShader; // what reading gl_PrimitiveID asks for
-    use.pNext = &use12;
+    if (d.dynamicRendering)                           // older drivers refuse structures that they do not know
+        use.pNext = &use12;
     std::vector<const char*> extensions;
     if (d.reports) {
         extensions.push_back(VK_KHR_PIPELINE_EXECUTABLE_PROPERTIES_EXTENSION_NAME);

@@ -23,13 +23,16 @@ struct Device {
     vk::raii::Device device{nullptr};
     std::uint32_t queueFamily = 0;
     std::string name;
+    std::string maker; // AMD, NVIDIA, ...; empty where it is not known
     std::string driver;
     bool cpu = false;
     bool radv = false;
-    bool reports = false;     // machine code
-    bool meshShaders = false; // VK_EXT_mesh_shader
-    std::string missing;      // empty: it can be opened
-    double nanoseconds = 0;   // per tick of its timestamps; 0: it has none
+    bool reports = false;          // machine code
+    bool meshShaders = false;      // VK_EXT_mesh_shader
+    bool dynamicRendering = false; // Vulkan 1.3; older devices only compile
+    bool compiles = false;         // has a graphics queue
+    std::string missing;           // empty: it can draw
+    double nanoseconds = 0;        // per tick of its timestamps; 0: it has none
 };
 
 // All devices, not opened; those that draw on the processor last.

@@ -31,6 +31,18 @@ std::vector<vk::VertexInputAttributeDescription> attributesOf(Stored stored)
     return list;
 }
 
+// What dynamic rendering says in one structure, for devices older than Vulkan 1.3.
+vk::raii::RenderPass makeRenderPass(const Device& device)
+{
+    vk::AttachmentDescription attachment;
+    attachment.format = kColorFormat;
+    attachment.finalLayout = vk::ImageLayout::eColorAttachmentOptimal;
+    const vk::AttachmentReference color(0, vk::ImageLayout::eColorAttachmentOptimal);
+    vk::SubpassDescription subpass;
+    subpass.setColorAttachments(color);
+    return vk::raii::RenderPass(device.device, vk::RenderPassCreateInfo({}, attachment, subpass));
+}
+
 } // namespace
 
 std::uint32_t vertexFloats(Stored stored) { return 8 + static_cast<std::uint32_t>(vertexStage(stored).bytes + 3) / 4; }
@@ -46,6 +58,8 @@ Layout makeLayout(const Device& device)
     Layout layout;
     layout.set = vk::raii::DescriptorSetLayout(device.device, vk::DescriptorSetLayoutCreateInfo({}, bindings));
     layout.pipeline = vk::raii::PipelineLayout(device.device, vk::PipelineLayoutCreateInfo({}, *layout.set));
+    if (!device.dynamicRendering)
+        layout.renderPass = makeRenderPass(device);
     const vk::PushConstantRange constants(vk::ShaderStageFlagBits::eCompute, 0, kPassConstants);
     layout.pass = vk::raii::PipelineLayout(device.device, vk::PipelineLayoutCreateInfo({}, *layout.set, constants));
     return layout;
@@ -79,7 +93,6 @@ vk::raii::Pipeline makeGraphics(const Device& device, const Layout& layout, vk::
     vk::GraphicsPipelineCreateInfo info;
     if (capture)
         info.flags = vk::PipelineCreateFlagBits::eCaptureStatisticsKHR;
-    info.pNext = &rendering;
     info.setStages(stages);
     info.pVertexInputState = &input;
     info.pInputAssemblyState = &assembly;
@@ -89,6 +102,10 @@ vk::raii::Pipeline makeGraphics(const Device& device, const Layout& layout, vk::
     info.pColorBlendState = &blend;
     info.pDynamicState = &dynamic;
     info.layout = *layout.pipeline;
+    if (device.dynamicRendering)
+        info.pNext = &rendering;
+    else
+        info.renderPass = *layout.renderPass;
     return vk::raii::Pipeline(device.device, nullptr, info);
 }
 

@@ -14,7 +14,8 @@ inline constexpr std::uint32_t kPassConstants = 128; // bytes that a compute pas
 struct Layout {
     vk::raii::DescriptorSetLayout set{nullptr}; // 0 uniforms, 1 normal map, 2.. buffers
     vk::raii::PipelineLayout pipeline{nullptr};
-    vk::raii::PipelineLayout pass{nullptr}; // of compute stages: the set, and constants
+    vk::raii::PipelineLayout pass{nullptr};   // of compute stages: the set, and constants
+    vk::raii::RenderPass renderPass{nullptr}; // where the device lacks dynamic rendering
 };
 
 Layout makeLayout(const Device& device);

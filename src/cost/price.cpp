@@ -5,6 +5,8 @@
 
 #include <sys/utsname.h>
 
+#include "cotan/cost/cards.hpp"
+
 namespace cotan::cost {
 
 namespace {
@@ -54,7 +56,7 @@ Status measure(const PriceOptions& o, CostReport& report)
 {
     Status usable = Done{};
     const std::vector<std::string> families = !o.families.empty() ? o.families
-        : o.devices.empty()                                       ? usualFamilies()
+        : o.devices.empty() && o.name.empty()                     ? usualFamilies()
                                                                   : std::vector<std::string>();
     CountedSteps steps(o.progress, families.size() + 2); // devices, families, times
     if (o.families.empty() || !o.devices.empty()) {
@@ -66,6 +68,11 @@ Status measure(const PriceOptions& o, CostReport& report)
         if (code && report.code.empty() && !o.devices.empty())
             return unavailableError("no Vulkan device has '" + joined(o.devices, "' or '") + "' in its name");
     }
+    if (!o.name.empty() && report.code.size() > 1)
+        return usageError("options.name: names one device; found " + std::to_string(report.code.size())
+                          + ": say which by options.devices");
+    if (!o.name.empty() && !report.code.empty())
+        report.code.front().family = o.name;
     if (!steps.step())
         return stoppedError();
     for (const std::string& family : families) {
@@ -97,8 +104,18 @@ Result<CostReport> price(const PriceOptions& options)
     CostReport report;
     report.machine = machineText();
     report.rows = std::move(*rows);
-    const Status measured = measure(options, report);
-    if (!measured && measured.error().kind == ErrorKind::stopped)
+    Status measured = Done{};
+    if (options.cards.empty()) {
+        measured = measure(options, report);
+    } else {
+        auto cards = cardsFromCsv(options.cards);
+        if (!cards)
+            return inputError("options.cards: " + cards.error().message);
+        report.code = std::move(*cards);
+        report.cardsRead = true;
+        report.timingSilence = "the figures of these cards were read from a file";
+    }
+    if (!measured && measured.error().kind != ErrorKind::unavailable)
         return measured.error();
     if (std::ranges::none_of(report.code, [](const DeviceCode& d) { return d.silence.empty(); }))
         report.codeSilence = measured

@@ -17,25 +17,17 @@ std::string ratio(double pixels)
     return std::isinf(pixels) ? "always" : pixels <= 0 ? "never" : fmt::format("{:.2f}", pixels);
 }
 
-const RowCode* find(const DeviceCode& d, std::string_view row)
-{
-    for (const RowCode& r : d.rows)
-        if (r.row == row)
-            return &r;
-    return nullptr;
-}
-
 // Extra instructions of the vertex stage with a stored tangent.
 std::optional<double> tangentAtVertex(const DeviceCode& d)
 {
-    const auto with = d.vertices[std::size_t(Stored::tangent)].vertex.instructions;
-    const auto without = d.vertices[std::size_t(Stored::nothing)].vertex.instructions;
+    const auto with = vertexCode(d, Stored::tangent).instructions;
+    const auto without = vertexCode(d, Stored::nothing).instructions;
     return with && without ? std::optional(*with - *without) : std::nullopt;
 }
 
 std::string byVertex(const CostReport& report)
 {
-    const auto devices = devicesWithCode(report);
+    const auto devices = devicesWith(report, &StageCode::instructions);
     Table table = tableOf({"wins below ... pixels a vertex", "in bytes"}, devices);
     const int tangentBytes = vertexStage(Stored::tangent).bytes;
     for (const Row* row : report.rows) {
@@ -44,14 +36,9 @@ std::string byVertex(const CostReport& report)
         std::vector<std::string> line = {std::string(row->name),
                                          ratio(pixelsPerVertex(tangentBytes, row->bytesPerPixel))};
         for (const DeviceCode* d : devices) {
-            const RowCode* mine = find(*d, row->name);
-            const RowCode* mikktspace = find(*d, "mikktspace");
-            const auto vertex = tangentAtVertex(*d);
-            const bool known =
-                mine && mikktspace && vertex && mine->fragment.instructions && mikktspace->fragment.instructions;
-            line.push_back(known ? ratio(pixelsPerVertex(
-                               *vertex, *mine->fragment.instructions - *mikktspace->fragment.instructions))
-                                 : "-");
+            const auto mine = fragmentCode(*d, row->name).instructions,
+                       mikktspace = fragmentCode(*d, "mikktspace").instructions, vertex = tangentAtVertex(*d);
+            line.push_back(mine && mikktspace && vertex ? ratio(pixelsPerVertex(*vertex, *mine - *mikktspace)) : "-");
         }
         table.push_back(std::move(line));
     }
@@ -69,7 +56,7 @@ std::string range(const PixelRange& r)
 
 std::string byTriangle(const CostReport& report)
 {
-    const auto devices = devicesWithCode(report);
+    const auto devices = devicesWith(report, &StageCode::inverseThroughput);
     Table table = tableOf({"wins where triangles cover ... pixels", "vertices a triangle"}, devices);
     for (const Choice& choice : choices()) {
         if (&choice == &choices().front())

@@ -213,7 +213,7 @@ std::optional<std::string> costChart(const CostReport& report)
 {
     std::optional<Chart> chart;
     std::string of;
-    for (const DeviceCode* d : devicesWithCode(report))
+    for (const DeviceCode* d : devicesWith(report, &StageCode::inverseThroughput))
         if (!chart || d->family == "NAVI21")
             if (auto found = chartOf(*d)) {
                 chart = std::move(found);

@@ -38,25 +38,32 @@ std::string aligned(const Table& table)
 
 std::string title(const DeviceCode& d) { return d.family.empty() ? d.name : d.family; }
 
-std::vector<const DeviceCode*> devicesWithCode(const CostReport& report)
+std::vector<const DeviceCode*> devicesWith(const CostReport& report, Measure measure)
 {
     std::vector<const DeviceCode*> list;
     for (const DeviceCode& d : report.code)
-        if (d.silence.empty())
+        if (d.silence.empty() && fragmentCode(d, "floor").*measure)
             list.push_back(&d);
     return list;
 }
 
 Table tableOf(std::vector<std::string> header, const std::vector<const DeviceCode*>& devices)
 {
-    for (const DeviceCode* d : devices)
-        header.push_back(title(*d));
-    return {std::move(header)};
+    std::vector<std::string> cards(header.size());
+    for (const DeviceCode* d : devices) {
+        header.push_back(d->maker);
+        cards.push_back(title(*d));
+    }
+    return {std::move(header), std::move(cards)};
 }
 
 namespace {
 
-std::string plain(std::optional<double> value) { return value ? fmt::format("{:.0f}", *value) : "-"; }
+// Cycles of some drivers are below 1 a pixel.
+std::string plain(std::optional<double> value)
+{
+    return !value ? "-" : *value < 100 ? fmt::format("{:.4g}", *value) : fmt::format("{:.0f}", *value);
+}
 
 // The floor as it is; other rows as what they add to it.
 std::string over(std::optional<double> value, std::optional<double> floor, bool isFloor)
@@ -68,9 +75,10 @@ std::string over(std::optional<double> value, std::optional<double> floor, bool 
 
 std::string overview(const CostReport& report)
 {
-    const auto devices = devicesWithCode(report);
+    const auto devices = devicesWith(report, &StageCode::instructions);
     Table table = tableOf({"over the floor", "scalar", "with fma", "SPIR-V"}, devices);
-    table[0].push_back("2006");
+    table[0].emplace_back("2006");
+    table[1].emplace_back();
     const Row& floor = *report.rows.front();
     const Operations floorOps = operationsOfRow(floor.name);
     for (std::size_t i = 0; i < report.rows.size(); ++i) {
@@ -81,49 +89,58 @@ std::string overview(const CostReport& report)
             over(ops.totalFused(), floorOps.totalFused(), i == 0),
             over(spirvInstructions(row.fragment), spirvInstructions(floor.fragment), i == 0)};
         for (const DeviceCode* d : devices)
-            line.push_back(over(d->rows[i].fragment.instructions, d->rows[0].fragment.instructions, i == 0));
+            line.push_back(
+                over(fragmentCode(*d, row.name).instructions, fragmentCode(*d, floor.name).instructions, i == 0));
         line.push_back(row.instructionsOf2006 ? std::to_string(row.instructionsOf2006) : "");
         table.push_back(std::move(line));
     }
     return "### What perturbing the normal adds, in instructions\n\n" + aligned(table);
 }
 
-std::vector<std::string> lineOf(std::string name, const StageCode& code)
+// Of the cards whose driver gives it, over the floor or whole. Empty where none does.
+std::string fragmentsBy(const CostReport& report, const std::string& heading, Measure measure, bool overFloor)
 {
-    return {std::move(name),   plain(code.instructions),      plain(code.registers),
-            plain(code.bytes), plain(code.inverseThroughput), plain(code.latency)};
+    const auto devices = devicesWith(report, measure);
+    if (devices.empty())
+        return "";
+    Table table = tableOf({overFloor ? "over the floor" : "fragment shader"}, devices);
+    for (const Row* row : report.rows) {
+        std::vector<std::string> line = {std::string(row->name)};
+        for (const DeviceCode* d : devices)
+            line.push_back(over(fragmentCode(*d, row->name).*measure, fragmentCode(*d, "floor").*measure,
+                                !overFloor || row == report.rows.front()));
+        table.push_back(std::move(line));
+    }
+    return "### " + heading + "\n\n" + aligned(table);
 }
 
-std::string kindName(StageKind kind)
+std::string otherBounds(const CostReport& report)
 {
-    return kind == StageKind::mesh ? "mesh" : kind == StageKind::pass ? "pass" : "resolve";
-}
-
-std::string details(const DeviceCode& d)
-{
-    Table table = {{"fragment shader", "instructions", "registers", "code bytes", "inverse throughput", "latency"}};
-    Table others = table;
-    others[0][0] = "stage";
-    for (const RowCode& r : d.rows)
-        table.push_back(lineOf(std::string(r.row), r.fragment));
-    for (const VertexCode& v : d.vertices)
-        others.push_back(lineOf(fmt::format("vertex: {}", vertexStage(v.stored).name), v.vertex));
-    for (const OtherCode& o : d.others)
-        if (o.code.instructions)
-            others.push_back(lineOf(fmt::format("{}: {}", kindName(o.stage->kind), o.stage->name), o.code));
-    return fmt::format("### {}: whole fragment shaders\n\n{} ({})\n\n", title(d), d.name, d.driver) + aligned(table)
-        + fmt::format("### {}: whole other stages\n\n", title(d)) + aligned(others);
+    const auto devices = devicesWith(report, &StageCode::inverseThroughput);
+    if (devices.empty())
+        return "";
+    Table table = tableOf({"stage"}, devices);
+    const auto add = [&](const std::string& name, const auto& codeOf) {
+        table.push_back({name});
+        for (const DeviceCode* d : devices)
+            table.back().push_back(plain(codeOf(*d).inverseThroughput));
+    };
+    for (const VertexStage& v : cost::vertexStages())
+        add(fmt::format("vertex: {}", v.name), [&](const DeviceCode& d) { return vertexCode(d, v.stored); });
+    for (const Stage& s : otherStages())
+        add(fmt::format("{}: {}", kindName(s.kind), s.name), [&](const DeviceCode& d) { return otherCode(d, s); });
+    return "### Whole other stages, bound in cycles (inverse throughput)\n\n" + aligned(table);
 }
 
 std::string vertexStages(const CostReport& report)
 {
-    const auto devices = devicesWithCode(report);
+    const auto devices = devicesWith(report, &StageCode::instructions);
     Table table = tableOf({"vertex stage", "bytes a vertex"}, devices);
     for (const VertexStage& v : cost::vertexStages()) {
         std::vector<std::string> line = {std::string(v.name), v.bytes ? fmt::format("{:+}", v.bytes) : "0"};
         for (const DeviceCode* d : devices)
-            line.push_back(over(d->vertices[std::size_t(v.stored)].vertex.instructions,
-                                d->vertices[0].vertex.instructions, v.stored == Stored::nothing));
+            line.push_back(over(vertexCode(*d, v.stored).instructions, vertexCode(*d, Stored::nothing).instructions,
+                                v.stored == Stored::nothing));
         table.push_back(std::move(line));
     }
     return "### What stored tangents add at every vertex, in instructions\n\n" + aligned(table);
@@ -132,26 +149,25 @@ std::string vertexStages(const CostReport& report)
 // Mesh stages and resolves over the first of their kind, passes whole.
 std::string otherStagesOf(StageKind kind, const CostReport& report)
 {
-    const auto devices = devicesWithCode(report);
+    auto devices = devicesWith(report, &StageCode::instructions);
     const bool mesh = kind == StageKind::mesh, pass = kind == StageKind::pass;
-    Table table =
-        tableOf(mesh || pass ? std::vector<std::string>{kindName(kind), "bytes a vertex", "a triangle", "SPIR-V"}
-                             : std::vector<std::string>{kindName(kind), "bytes read a pixel", "SPIR-V"},
-                devices);
-    const auto& stages = otherStages();
-    const auto first = std::ranges::find(stages, kind, &Stage::kind);
-    const auto firstAt = std::size_t(first - stages.begin());
-    for (std::size_t i = 0; i < stages.size(); ++i) {
-        const Stage& s = stages[i];
+    const Stage& first = *std::ranges::find(otherStages(), kind, &Stage::kind);
+    if (mesh) // few have that stage
+        std::erase_if(devices, [&](const DeviceCode* d) { return !otherCode(*d, first).instructions; });
+    Table table = tableOf(
+        mesh || pass ? std::vector<std::string>{std::string(kindName(kind)), "bytes a vertex", "a triangle", "SPIR-V"}
+                     : std::vector<std::string>{std::string(kindName(kind)), "bytes read a pixel", "SPIR-V"},
+        devices);
+    for (const Stage& s : otherStages()) {
         if (s.kind != kind)
             continue;
-        const bool whole = pass || i == firstAt;
+        const bool whole = pass || &s == &first;
         std::vector<std::string> line = {std::string(s.name)};
         for (const int bytes : mesh || pass ? std::vector{s.perVertex, s.perTriangle} : std::vector{s.perPixel})
             line.push_back(std::to_string(bytes));
-        line.push_back(over(spirvInstructions(s.words), spirvInstructions(first->words), whole));
+        line.push_back(over(spirvInstructions(s.words), spirvInstructions(first.words), whole));
         for (const DeviceCode* d : devices)
-            line.push_back(over(d->others[i].code.instructions, d->others[firstAt].code.instructions, whole));
+            line.push_back(over(otherCode(*d, s).instructions, otherCode(*d, first).instructions, whole));
         table.push_back(std::move(line));
     }
     return aligned(table);
@@ -215,6 +231,8 @@ std::string timings(const DeviceTiming& d)
 Json stageJson(const StageCode& code)
 {
     Json all = Json::object();
+    if (!code.failure.empty())
+        all["failure"] = code.failure;
     for (const auto& [name, value] : code.all)
         all[name] = value;
     return all;
@@ -229,22 +247,50 @@ Json operationsJson(const Operations& o)
 
 } // namespace
 
+namespace {
+
+// Who was asked, and which stages it did not compile.
+std::string askedOf(const DeviceCode& d)
+{
+    const std::string date = d.date.empty() ? "" : ", asked on " + d.date;
+    std::string text = d.silence.empty() ? fmt::format("- {}: {}, {}{}.\n", title(d), d.name, d.driver, date)
+                                         : fmt::format("- {}: no machine code: {}.\n", title(d), d.silence);
+    const auto failed = [&](std::string_view kind, std::string_view name, const StageCode& code) {
+        if (d.silence.empty() && !code.failure.empty())
+            text += fmt::format("  - {} {}: not compiled: {}.\n", kind, name, code.failure);
+    };
+    for (const RowCode& r : d.rows)
+        failed("fragment", r.row, r.fragment);
+    for (const VertexCode& v : d.vertices)
+        failed("vertex", vertexStage(v.stored).name, v.vertex);
+    for (const OtherCode& o : d.others)
+        failed(kindName(o.stage->kind), o.stage->name, o.code);
+    return text;
+}
+
+} // namespace
+
 std::string toMarkdown(const CostReport& report, const std::string& chart)
 {
-    std::string text = fmt::format("Machine: {}. SPIR-V: {}.\n", report.machine, spirvCompiler());
+    std::string text = report.cardsRead ? "" : fmt::format("Machine: {}. ", report.machine);
+    text += fmt::format("SPIR-V: {}.\n\n", spirvCompiler());
     for (const DeviceCode& d : report.code)
-        text += d.silence.empty() ? fmt::format("{}: {}, {}.\n", title(d), d.name, d.driver)
-                                  : fmt::format("{}: no machine code: {}.\n", title(d), d.silence);
-    text += '\n' + overview(report);
-    const auto devices = devicesWithCode(report);
+        text += askedOf(d);
+    text += '\n' + againstStored(report) + overview(report);
+    const auto devices = devicesWith(report, &StageCode::instructions);
+    text += fragmentsBy(report, "The same in instructions that compute, where drivers tell them apart",
+                        &StageCode::arithmetic, true);
+    text += fragmentsBy(report, "Whole fragment shaders, bound in cycles (inverse throughput), each driver's unit",
+                        &StageCode::inverseThroughput, false);
+    text += fragmentsBy(report, "Whole fragment shaders, latency in cycles, each driver's estimate",
+                        &StageCode::latency, false);
+    text += fragmentsBy(report, "The same in bytes of code", &StageCode::bytes, true);
+    text += fragmentsBy(report, "Whole fragment shaders, registers a thread", &StageCode::registers, false);
     if (!devices.empty())
         text += vertexStages(report) + breakEven(report);
     if (!chart.empty())
         text += fmt::format("![Cost of a triangle against `mikktspace`, by the pixels it covers]({})\n\n", chart);
-    text += stagesBesides(report);
-    for (const DeviceCode* d : devices)
-        text += details(*d);
-    text += frameOperations();
+    text += stagesBesides(report) + otherBounds(report) + frameOperations();
     if (!report.timingSilence.empty())
         text += "No timing: " + report.timingSilence + ".\n\n";
     for (const DeviceTiming& d : report.timing)
@@ -267,7 +313,8 @@ Json toJson(const CostReport& report)
     }
     json["devices"] = Json::array();
     for (const DeviceCode& d : report.code) {
-        Json device = {{"name", d.name}, {"driver", d.driver}, {"family", d.family}, {"silence", d.silence}};
+        Json device = {{"name", d.name},     {"maker", d.maker},     {"driver", d.driver},
+                       {"family", d.family}, {"silence", d.silence}, {"date", d.date}};
         for (const RowCode& r : d.rows)
             device["fragment"][std::string(r.row)] = stageJson(r.fragment);
         for (const VertexCode& v : d.vertices)
@@ -305,17 +352,17 @@ std::string toCsv(const CostReport& report)
     for (const Stage& s : otherStages())
         text += fmt::format("{},SPIR-V {},,{},instructions,{}\n", quoted(s.name), kindName(s.kind),
                             quoted(spirvCompiler()), spirvInstructions(s.words));
-    for (const DeviceCode* d : devicesWithCode(report)) {
+    for (const DeviceCode& d : report.code) {
         const auto lines = [&](const std::string& name, std::string_view source, const StageCode& code) {
             for (const auto& [measure, value] : code.all)
-                text += fmt::format("{},{},{},{},{},{:.0f}\n", name, source, quoted(title(*d)), quoted(d->driver),
+                text += fmt::format("{},{},{},{},{},{:.0f}\n", name, source, quoted(title(d)), quoted(d.driver),
                                     quoted(measure), value);
         };
-        for (const RowCode& r : d->rows)
+        for (const RowCode& r : d.rows)
             lines(std::string(r.row), "fragment", r.fragment);
-        for (const VertexCode& v : d->vertices)
+        for (const VertexCode& v : d.vertices)
             lines(quoted(vertexStage(v.stored).name), "vertex", v.vertex);
-        for (const OtherCode& o : d->others)
+        for (const OtherCode& o : d.others)
             lines(quoted(o.stage->name), kindName(o.stage->kind), o.code);
     }
     for (const DeviceTiming& d : report.timing)

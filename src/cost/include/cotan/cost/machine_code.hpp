@@ -15,11 +15,13 @@ namespace cotan::cost {
 // One compiled stage. Names differ between drivers; what a driver does not report is empty.
 struct StageCode {
     std::optional<double> instructions;
+    std::optional<double> arithmetic;                // instructions that compute, where the driver tells them apart
     std::optional<double> registers;                 // per thread (vector registers where there are two kinds)
     std::optional<double> bytes;                     // of code
-    std::optional<double> inverseThroughput;         // the driver's estimate, its unit
+    std::optional<double> inverseThroughput;         // the driver's bound in cycles, its unit
     std::optional<double> latency;                   // the driver's estimate, its unit
-    std::vector<std::pair<std::string, double>> all; // every number, by the driver's name
+    std::vector<std::pair<std::string, double>> all; // every number, by the driver's name; empty where it was read
+    std::string failure;                             // why the driver did not compile it
 };
 
 struct RowCode {
@@ -39,9 +41,11 @@ struct OtherCode {
 
 struct DeviceCode {
     std::string name;
+    std::string maker;   // AMD, NVIDIA, ...; empty where it is not known
     std::string driver;  // name and version
-    std::string family;  // where Mesa's Radeon driver compiled for a card that is not here
+    std::string family;  // what tables call it instead of its name, such as a family that was asked for
     std::string silence; // why there are no numbers; empty where there are
+    std::string date;    // when it was asked, YYYY-MM-DD
     std::vector<RowCode> rows;
     std::vector<VertexCode> vertices; // each with a fragment stage that uses all it hands on
     std::vector<OtherCode> others;    // all of otherStages()
@@ -50,14 +54,19 @@ struct DeviceCode {
 // The families that are asked for when nothing else is said.
 const std::vector<std::string>& usualFamilies();
 
-// Compiles the rows on every Vulkan device of this machine whose name contains one of `devices`
-// (any case; empty: all of them). Errors: ErrorKind::unavailable where Vulkan cannot be used at
-// all.
+// Compiles the rows on every Vulkan device of this machine whose name contains one of `devices` (any case; empty: all
+// of them). Drivers run in child processes: one that crashes loses the stage that it compiled, or its device, and no
+// more. Not for programs with other threads. Errors: ErrorKind::unavailable where Vulkan cannot be used at all.
 Result<std::vector<DeviceCode>> machineCodeOfDevices(const std::vector<const Row*>& rows,
                                                      const std::vector<std::string>& devices);
 
-// The same by Mesa's Radeon driver for a family of cards (RADV_FORCE_FAMILY), none of which is
-// needed. Sets the environment variable for the duration: not for programs with other threads.
+// The same by Mesa's Radeon driver for a family of cards (RADV_FORCE_FAMILY), none of which is needed. Mesa 26 no
+// longer takes it. Sets the environment variable for the duration.
 DeviceCode machineCodeOfFamily(const std::vector<const Row*>& rows, const std::string& family);
+
+// The stage of a device, or an empty one.
+const StageCode& fragmentCode(const DeviceCode& device, std::string_view row);
+const StageCode& vertexCode(const DeviceCode& device, Stored stored);
+const StageCode& otherCode(const DeviceCode& device, const Stage& stage);
 
 } // namespace cotan::cost

@@ -14,6 +14,11 @@ enum class StageKind {
     resolve, // compute, per pixel of a visibility buffer: the whole of shading with one row's frame
 };
 
+constexpr std::string_view kindName(StageKind kind)
+{
+    return kind == StageKind::mesh ? "mesh" : kind == StageKind::pass ? "pass" : "resolve";
+}
+
 struct Stage {
     StageKind kind;
     std::string_view name;

@@ -1,0 +1,167 @@
+// Figures of cards: what drivers' names mean, the file that carries them, and drivers that crash.
+#include <gtest/gtest.h>
+
+#include <csignal>
+#include <thread>
+
+#include "cotan/cost/cards.hpp"
+#include "in_child.hpp"
+#include "run_tool.hpp"
+#include "statistics.hpp"
+
+namespace cotan::cost {
+namespace {
+
+StageCode named(std::vector<std::pair<std::string, double>> numbers)
+{
+    StageCode code;
+    code.all = std::move(numbers);
+    nameStatistics(code);
+    return code;
+}
+
+TEST(CostStatistics, everyDriversInstructionsAreFound)
+{
+    for (const char* const name : {"Instructions", "Instruction Count", "Instruction count"})
+        EXPECT_EQ(named({{"Code size", 656}, {name, 41}}).instructions, 41) << name;
+    EXPECT_FALSE(named({{"No such number", 41}}).instructions);
+}
+
+TEST(CostStatistics, noOperationsOfTurnipAreNotArithmetic)
+{
+    const StageCode code = named({{"Instruction Count", 44},
+                                  {"NOPs Count", 5},
+                                  {"cat2 instructions", 20},
+                                  {"cat3 instructions", 17},
+                                  {"cat4 instructions", 1}});
+    EXPECT_EQ(code.instructions, 44);
+    EXPECT_EQ(code.arithmetic, 38);
+    EXPECT_FALSE(named({{"cat2 instructions", 20}, {"cat3 instructions", 17}}).arithmetic); // no half sums
+}
+
+TEST(CostStatistics, theBoundOfMaliAndAppleIsItsSlowestUnit)
+{
+    EXPECT_EQ(named({{"Cycles", 1.125}, {"FMA", 0.47}, {"Varying", 1.125}}).inverseThroughput, 1.125);
+    EXPECT_EQ(named({{"ALU", 29}, {"FSCIB", 31}, {"IC", 8}}).inverseThroughput, 31);
+    EXPECT_EQ(named({{"Inverse Throughput", 100}}).inverseThroughput, 100);
+}
+
+TEST(CostStatistics, cyclesOfNvkAreALatencyAndNoBound)
+{
+    const StageCode code = named({{"Instruction count", 62}, {"Static cycle count", 220}, {"Number of GPRs", 24}});
+    EXPECT_EQ(code.latency, 220);
+    EXPECT_EQ(code.registers, 24);
+    EXPECT_FALSE(code.inverseThroughput);
+}
+
+DeviceCode sample()
+{
+    DeviceCode card;
+    card.name = "Card, the \"first\"";
+    card.maker = "AMD";
+    card.driver = "radv, Mesa 26.2";
+    card.family = "NAVI21";
+    card.date = "2026-11-24";
+    StageCode code;
+    code.instructions = 49;
+    code.inverseThroughput = 1.125;
+    card.rows.push_back({"floor", code});
+    code = {};
+    code.failure = "the driver crashed (signal 11)";
+    card.rows.push_back({"mikktspace", code});
+    return card;
+}
+
+TEST(CostCards, whatIsWrittenIsReadAgain)
+{
+    DeviceCode silent;
+    silent.name = "Other";
+    silent.silence = "has no graphics queue";
+    const std::string text = cardsToCsv({sample(), silent});
+    const auto cards = cardsFromCsv(text + cardsToCsv({sample()})); // one file behind the other
+    ASSERT_TRUE(cards) << cards.error().message;
+    ASSERT_EQ(cards->size(), 3u);
+    const DeviceCode& card = cards->front();
+    EXPECT_EQ(card.name, "Card, the \"first\"");
+    EXPECT_EQ(card.driver, "radv, Mesa 26.2");
+    EXPECT_EQ(fragmentCode(card, "floor").instructions, 49);
+    EXPECT_EQ(fragmentCode(card, "floor").inverseThroughput, 1.125);
+    EXPECT_FALSE(fragmentCode(card, "floor").registers);
+    EXPECT_EQ(fragmentCode(card, "mikktspace").failure, "the driver crashed (signal 11)");
+    EXPECT_FALSE(fragmentCode(card, "smooth").instructions); // missing in the file
+    EXPECT_EQ((*cards)[1].silence, "has no graphics queue");
+    EXPECT_EQ((*cards)[2].date, "2026-11-24");
+}
+
+TEST(CostCards, aWrongLineIsNamed)
+{
+    const std::string good = cardsToCsv({sample()});
+    const auto error = [](const std::string& text) {
+        const auto cards = cardsFromCsv(text);
+        return cards ? std::string("none") : cards.error().message;
+    };
+    EXPECT_EQ(error("nonsense\n").rfind("line 1: expected 'maker,card,", 0), 0u);
+    EXPECT_EQ(error(good + "AMD,NAVI21\n"), "line 4: expected 14 cells, found 2");
+    for (const char* const number : {"x", "-1", "1e30", "nan", "12 "})
+        EXPECT_EQ(error(good + "AMD,B,B,radv,,fragment,floor," + number + ",,,,,,\n"),
+                  std::string("line 4: expected a number, found '") + number + "'");
+}
+
+TEST(CostCards, theCommandMakesTablesOfThem)
+{
+    const test::TemporaryFolder folder;
+    std::ofstream(folder / "cards.csv") << cardsToCsv({sample()});
+    const test::ToolRun run =
+        test::runTool({"cost", "--cards", "cards.csv", "-o", "cost.md", "--write-cards", "again.csv"}, folder.path());
+    EXPECT_EQ(run.code, 0) << run.err;
+    const std::string text = test::readWhole(folder / "cost.md");
+    EXPECT_NE(text.find(" AMD | 2006 |"), std::string::npos); // the maker over the card
+    EXPECT_NE(text.find("fragment mikktspace: not compiled: the driver crashed (signal 11)."), std::string::npos);
+    const auto again = cardsFromCsv(test::readWhole(folder / "again.csv"));
+    ASSERT_TRUE(again);
+    EXPECT_EQ(fragmentCode(again->front(), "floor").instructions, 49);
+}
+
+TEST(CostCards, theCommandNamesTheWrongLineOfTheFile)
+{
+    const test::TemporaryFolder folder;
+    std::ofstream(folder / "cards.csv") << cardsToCsv({sample()}) << "AMD,NAVI21\n";
+    const test::ToolRun run = test::runTool({"cost", "--cards", "cards.csv", "-o", "cost.md"}, folder.path());
+    EXPECT_EQ(run.code, 2);
+    EXPECT_NE(run.err.find("line 4: expected 14 cells, found 2"), std::string::npos) << run.err;
+    EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1) << run.err;
+    EXPECT_FALSE(std::filesystem::exists(folder / "cost.md"));
+}
+
+TEST(CostChild, whatWasWrittenBeforeACrashArrives)
+{
+    std::vector<std::string> lines;
+    const auto keep = [&](std::string_view line) { lines.emplace_back(line); };
+    const std::string end = inChild(
+        60,
+        [](const LineWriter& write) {
+            write("first\nof two");
+            ::signal(SIGSEGV, SIG_DFL); // sanitizers have their own
+            ::raise(SIGSEGV);
+        },
+        keep);
+    EXPECT_EQ(end, "crashed (signal 11)");
+    EXPECT_EQ(lines, std::vector<std::string>{"first of two"});
+    EXPECT_EQ(inChild(
+                  60, [](const LineWriter& write) { write("well"); }, keep),
+              "");
+    EXPECT_EQ(lines.back(), "well");
+    EXPECT_EQ(inChild(
+                  60, [](const LineWriter&) { throw 1; }, keep),
+              "ended with 1");
+}
+
+TEST(CostChild, oneThatHangsIsEnded)
+{
+    const std::string end = inChild(
+        1, [](const LineWriter&) { std::this_thread::sleep_for(std::chrono::hours(1)); }, [](std::string_view) {});
+    EXPECT_EQ(end, "took more than 1 s");
+}
+
+} // namespace
+} // namespace cotan::cost
