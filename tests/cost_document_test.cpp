@@ -1,4 +1,5 @@
-// The committed docs/explanation/cost.md, its chart and docs/explanation/cost.csv: the bars, and that what the page says follows from the file.
+// The committed docs/explanation/cost.md, its chart and cost.csv beside it: the bars, and that what the page says
+// follows from the file.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -212,13 +213,15 @@ TEST(CostDocument, theBarsHoldInTheFile)
 
 TEST(CostDocument, theTablesAndTheChartAreThoseOfTheFile)
 {
-    const std::string page = documentText("docs/explanation/cost.md"), compiler = "SPIR-V: " + std::string(spirvCompiler()) + ".";
+    const std::string page = documentText("docs/explanation/cost.md"),
+                      compiler = "SPIR-V: " + std::string(spirvCompiler()) + ".";
     if (page.find(compiler) == std::string::npos)
         GTEST_SKIP() << "the page was made with another compiler than " << spirvCompiler();
     const test::TemporaryFolder folder;
     std::ofstream(folder / "cost.md") << page;
     const test::ToolRun run = test::runTool(
-        {"cost", "--cards", COTAN_SOURCE_DIR "/docs/explanation/cost.csv", "-o", "cost.md", "--overwrite"}, folder.path());
+        {"cost", "--cards", COTAN_SOURCE_DIR "/docs/explanation/cost.csv", "-o", "cost.md", "--overwrite"},
+        folder.path());
     EXPECT_EQ(run.code, 0) << run.err;
     EXPECT_TRUE(test::readWhole(folder / "cost.md") == page) << "run bench/cards, or cotan cost --cards";
     EXPECT_TRUE(test::readWhole(folder / "cost.svg") == documentText("docs/explanation/cost.svg"));
@@ -226,7 +229,8 @@ TEST(CostDocument, theTablesAndTheChartAreThoseOfTheFile)
 
 TEST(CostDocument, whatPaysByPixelsATriangleFollowsFromTheTablesBesides)
 {
-    const std::string page = documentText("docs/explanation/cost.md"), chart = documentText("docs/explanation/cost.svg");
+    const std::string page = documentText("docs/explanation/cost.md"),
+                      chart = documentText("docs/explanation/cost.svg");
     const std::string heading = "### Pixels a triangle where it costs less";
     const std::size_t begin = page.find(heading);
     ASSERT_NE(begin, std::string::npos);

@@ -9,8 +9,6 @@ namespace cotan::gltf_edit {
 
 namespace {
 
-constexpr const char* kDraco = "KHR_draco_mesh_compression";
-
 Json& primitiveOf(Json& root, const GltfPacked::Primitive& packed)
 {
     return root["meshes"][packed.mesh]["primitives"][packed.primitive];
@@ -94,22 +92,23 @@ void restoreDraco(GltfDocument& document)
         ++uses.packed[std::size_t(p.indices)];
         ++restored;
         withMore += left.size() < p.draco["attributes"].size();
-        Json& extension = primitive["extensions"][kDraco] = p.draco;
+        Json& extension = primitive["extensions"][kDracoExtension] = p.draco;
         extension["attributes"] = std::move(left);
     }
     if (restored > 0) {
         restoreAccessors(document, uses);
-        addExtension(root, packed, kDraco);
+        addExtension(root, packed, kDracoExtension);
     }
     if (withMore > 0)
         document.notes.push_back(
             fmt::format("{}: {} of {} streams are kept as they are, with the tangents inside, which "
                         "nothing reads now; \"gltf-transform draco\" packs them without",
-                        kDraco, withMore, packed.primitives.size()));
+                        kDracoExtension, withMore, packed.primitives.size()));
     if (restored < packed.primitives.size())
         document.notes.push_back(fmt::format("{}: {} of {} primitives have other vertices now and are written plain; "
                                              "\"gltf-transform draco\" packs them again",
-                                             kDraco, packed.primitives.size() - restored, packed.primitives.size()));
+                                             kDracoExtension, packed.primitives.size() - restored,
+                                             packed.primitives.size()));
 }
 
 const Json* packedView(const GltfDocument& document, std::size_t view)

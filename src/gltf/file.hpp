@@ -23,6 +23,8 @@ struct GltfResource {
     std::vector<std::byte> bytes;
 };
 
+inline constexpr const char* kDracoExtension = "KHR_draco_mesh_compression";
+
 // Compressed geometry as the file has it, for who writes the file again: nobody has to compress what nobody changed.
 struct GltfPacked {
     struct Primitive {

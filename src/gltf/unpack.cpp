@@ -17,7 +17,6 @@ using gltf::Json;
 
 namespace {
 
-constexpr const char* kDraco = "KHR_draco_mesh_compression";
 constexpr const char* kMeshopt[] = {"EXT_meshopt_compression", "KHR_meshopt_compression"};
 
 void takeOut(Json& object, const std::string& name)
@@ -51,7 +50,7 @@ public:
             unpackViews(name);
         readDracoJobs();
         unpackPrimitives();
-        for (const char* const name : {kMeshopt[0], kMeshopt[1], kDraco}) {
+        for (const char* const name : {kMeshopt[0], kMeshopt[1], kDracoExtension}) {
             if (requiresExtension(name))
                 file_.packed.required.emplace_back(name);
             takeOffExtension(file_.json, name);
@@ -138,7 +137,7 @@ private:
     // The stream of a primitive as it is wanted; nothing where all of it is there as plain numbers.
     std::optional<DracoJob> jobOf(const Json& primitive, const Json& draco, const std::string& field)
     {
-        DracoJob job{field + ".extensions." + kDraco, {}, 0, 0, 0, {}};
+        DracoJob job{field + ".extensions." + kDracoExtension, {}, 0, 0, 0, {}};
         if (gltf::valueOr(primitive, "mode", gltf::kTriangles) != gltf::kTriangles)
             failGltf("{}: expected mode 4, triangles, found {}", job.field, primitive["mode"].get<int>());
         std::vector<int>& targets = targets_.emplace_back();
@@ -192,14 +191,14 @@ private:
         for (std::size_t m = 0; meshes != file_.json.end() && m < meshes->size(); ++m)
             for (std::size_t p = 0; p < (*meshes)[m]["primitives"].size(); ++p) {
                 Json& primitive = (*meshes)[m]["primitives"][p];
-                const Json* const draco = gltf::extension(primitive, kDraco);
+                const Json* const draco = gltf::extension(primitive, kDracoExtension);
                 if (!draco)
                     continue;
                 auto job = jobOf(primitive, *draco, fmt::format("meshes[{}].primitives[{}]", m, p));
                 if (job)
                     file_.packed.primitives.push_back(
                         {m, p, *draco, primitive["indices"].get<int>(), primitive["attributes"]});
-                takeOut(primitive, kDraco);
+                takeOut(primitive, kDracoExtension);
                 // Primitives may share a stream and its accessors.
                 if (job && made_.emplace(targets_.back(), jobs_.size()).second)
                     jobs_.push_back(std::move(*job));

@@ -1,8 +1,11 @@
 // How much work the pixels of a picture are, before it is drawn.
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
+#include <cstdint>
 #include <string>
+#include <vector>
 
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
@@ -117,8 +120,11 @@ std::size_t placesOf(const Scene& scene)
 {
     std::size_t places = 0;
     for (const Mesh& mesh : scene.meshes) {
-        std::vector<std::array<float, 3>> own(mesh.positions.size());
-        std::ranges::transform(mesh.positions, own.begin(), [](glm::vec3 p) { return std::array{p.x, p.y, p.z}; });
+        std::vector<std::array<std::uint32_t, 3>> own(mesh.positions.size()); // their bits, which have an order
+        std::ranges::transform(mesh.positions, own.begin(), [](glm::vec3 p) {
+            return std::array{std::bit_cast<std::uint32_t>(p.x), std::bit_cast<std::uint32_t>(p.y),
+                              std::bit_cast<std::uint32_t>(p.z)};
+        });
         std::ranges::sort(own);
         places += std::size_t(std::ranges::unique(own).begin() - own.begin());
     }
