@@ -1,6 +1,7 @@
 // Figures of cards: what drivers' names mean, the file that carries them, and drivers that crash.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <csignal>
 #include <thread>
 

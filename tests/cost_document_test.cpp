@@ -235,7 +235,7 @@ TEST(CostDocument, whatPaysByPixelsATriangleFollowsFromTheTablesBesides)
     const std::size_t begin = page.find(heading);
     ASSERT_NE(begin, std::string::npos);
     const std::string table = page.substr(begin, page.find("\n#", begin + 1) - begin);
-    const DeviceCode& d = card("NAVI21");
+    const DeviceCode d = card("NAVI21");
     const auto stored = trianglePrice(d, choices().front());
     for (std::size_t i = 1; i < choices().size(); ++i) {
         const Choice& choice = choices()[i];

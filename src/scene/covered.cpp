@@ -126,7 +126,7 @@ std::size_t placesOf(const Scene& scene)
                               std::bit_cast<std::uint32_t>(p.z)};
         });
         std::ranges::sort(own);
-        places += std::size_t(std::ranges::unique(own).begin() - own.begin());
+        places += std::size_t(std::unique(own.begin(), own.end()) - own.begin());
     }
     return places;
 }
