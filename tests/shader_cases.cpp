@@ -306,6 +306,33 @@ std::vector<Sample> samples()
     return all;
 }
 
+// The forms of `cotangent` that have no frame of their own; Godot has none of them.
+Case cotangentCase(Form form)
+{
+    Case c;
+    const bool seen = form == Form::seen;
+    c.name = "cotangent, " + std::string(name(form));
+    c.text = [form](Language l) {
+        Choice choice;
+        choice.language = l;
+        choice.form = form;
+        choice.callerDifferences = true;
+        const auto text = makeShaderText(choice);
+        if (!text)
+            throw std::runtime_error(text.error().message);
+        return text->text;
+    };
+    c.last = Kind::degenerate;
+    c.call = std::string("cotan_perturb_normal(n, dpdx, dpdy, duvdx, duvdy, m") + (seen ? ", 1.0)" : ")");
+    c.expected = [seen](const Vectors& v) {
+        const glm::dvec3 n(v.n), x(v.dpdx), y(v.dpdy), m = decoded(v);
+        const glm::dvec2 u(v.duvdx), w(v.duvdy);
+        return seen ? f64::cotan_perturb_cotangent_seen(n, x, y, u, w, m, 1.0)
+                    : f64::cotan_perturb_cotangent_area(n, x, y, u, w, m);
+    };
+    return c;
+}
+
 std::vector<Case> frameCases(bool drawn)
 {
     std::vector<Case> all;
@@ -324,15 +351,6 @@ std::vector<Case> frameCases(bool drawn)
     return all;
 }
 
-std::vector<Case> godotCases()
-{
-    std::vector<Case> some;
-    for (Case& c : cases())
-        if (c.text(Language::godot).find("uint") == std::string::npos)
-            some.push_back(std::move(c));
-    return some;
-}
-
 std::vector<Case> drawnCases()
 {
     std::vector<Case> all = frameCases(true);
@@ -340,7 +358,7 @@ std::vector<Case> drawnCases()
     return all;
 }
 
-std::vector<Case> cases()
+std::vector<Case> casesOfAllLanguages()
 {
     std::vector<Case> all = frameCases(false);
     for (Channels channels : {Channels::orthographic, Channels::stereographic, Channels::slope}) {
@@ -357,6 +375,23 @@ std::vector<Case> cases()
     addLines(all);
     for (Case& lit : litCases())
         all.push_back(std::move(lit));
+    return all;
+}
+
+std::vector<Case> godotCases()
+{
+    std::vector<Case> some;
+    for (Case& c : casesOfAllLanguages())
+        if (c.text(Language::godot).find("uint") == std::string::npos)
+            some.push_back(std::move(c));
+    return some;
+}
+
+std::vector<Case> cases()
+{
+    std::vector<Case> all = casesOfAllLanguages();
+    for (const Form form : {Form::seen, Form::area})
+        all.push_back(cotangentCase(form));
     return all;
 }
 

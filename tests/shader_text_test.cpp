@@ -24,6 +24,56 @@ std::string textOf(const Choice& choice)
     return text ? text->text : "";
 }
 
+// ---- forms of cotangent -----------------------------------------------------------------------
+
+TEST(ShaderForms, seenAsksForTheSideAndSaysWhichItIs)
+{
+    for (const Language language : kLanguages) {
+        Choice choice;
+        choice.language = language;
+        choice.form = Form::seen;
+        const auto made = makeShaderText(choice);
+        ASSERT_EQ(bool(made), language != Language::godot) << name(language);
+        if (!made)
+            continue;
+        EXPECT_EQ(std::ranges::count(made->functions, "cotan_perturb_cotangent_seen"), 1) << name(language);
+        EXPECT_TRUE(has(made->text, ", side)")) << name(language);
+        EXPECT_TRUE(has(made->text, "-1 where rows of pixels run down (Vulkan, Direct3D, Metal, WebGPU)"));
+        EXPECT_FALSE(has(made->text, "no uniform and no front-face flag"));
+    }
+}
+
+TEST(ShaderForms, areaHasTheArgumentsOfTheFrame)
+{
+    Choice choice;
+    choice.form = Form::area;
+    EXPECT_TRUE(has(textOf(choice), "cotan_perturb_cotangent_area(normal, dpdx, dpdy, duvdx, duvdy, m)"));
+    EXPECT_FALSE(has(textOf(choice), "side)"));
+}
+
+TEST(ShaderForms, seenAndAreaAreOfCotangentOverOneUvSet)
+{
+    for (const Form form : {Form::seen, Form::area})
+        for (const auto& [frame, sets] : {std::pair{Frame::gradient, 1}, {Frame::triangle, 1}, {Frame::cotangent, 2}}) {
+            Choice choice;
+            choice.frame = frame;
+            choice.uvSets = sets;
+            choice.form = form;
+            const auto made = makeShaderText(choice);
+            ASSERT_FALSE(made);
+            EXPECT_TRUE(has(made.error().message, "the form " + std::string(name(form)))) << made.error().message;
+        }
+}
+
+TEST(ShaderForms, theErrorOfASphereIsSaidOfTheFrameThatHasIt)
+{
+    Choice choice;
+    EXPECT_TRUE(has(textOf(choice), "1.1 degrees in the mean"));
+    choice.frame = Frame::gradient;
+    EXPECT_FALSE(has(textOf(choice), "1.1 degrees"));
+    EXPECT_TRUE(has(textOf(choice), "it steps at"));
+}
+
 // ---- the preprocessor -----------------------------------------------------------------------
 
 TEST(PreprocessedText, oneBranchOfAChainIsRead)

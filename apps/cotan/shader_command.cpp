@@ -63,7 +63,11 @@ Status chooseText(const ShaderCommandOptions& o, Choice& choice)
     if (Status ok = choose(choice.language, "--lang", o.language, languages); !ok)
         return ok;
     if (Status ok = choose(choice.form, "--form", o.form,
-                           {{"fused", Form::fused}, {"total", Form::total}, {"readable", Form::total}});
+                           {{"fused", Form::fused},
+                            {"total", Form::total},
+                            {"readable", Form::total},
+                            {"seen", Form::seen},
+                            {"area", Form::area}});
         !ok)
         return ok;
     Words<shader_text::Stage> stages;
@@ -81,7 +85,14 @@ Result<Choice> choiceOf(const ShaderCommandOptions& o)
         return ok.error();
     // In Godot the text is a model's material, and maps of models are for MikkTSpace; elsewhere it is a function.
     const std::string usual(name(o.language == "godot" ? Frame::orthonormal : Frame::cotangent));
-    const Result<Frame> frame = parseFrame(o.frame.empty() ? usual : o.frame);
+    std::string wanted = o.frame.empty() ? usual : o.frame;
+    // As tables of cost name them: forms of `cotangent`, not frames.
+    for (const Form form : {Form::seen, Form::area})
+        if (wanted == "cotangent-" + std::string(name(form)) && (!choice.form || choice.form == form)) {
+            choice.form = form;
+            wanted = name(Frame::cotangent);
+        }
+    const Result<Frame> frame = parseFrame(wanted);
     if (!frame)
         return usageError(frame.error().message);
     choice.frame = *frame;
@@ -132,7 +143,7 @@ Status run(const ShaderCommandOptions& o)
     Json report = {{"command", "shader"}};
     report["language"] = name(choice->language);
     report["frame"] = name(choice->frame);
-    report["form"] = text->form == Form::fused ? "fused" : "total";
+    report["form"] = name(text->form);
     report["normal_map"] = describe(choice->convention);
     report["green_along_v"] = greenAlongV(choice->convention);
     report["uv_sets"] = choice->uvSets;
@@ -158,10 +169,13 @@ void declare(Arguments& a, ShaderCommandOptions& o)
     a.option(
          "--form", o.form,
          "fused: frame and texel in one step (cotangent, gradient, orthonormal, smooth, triangle); total: the frame as "
-         "three covectors, for any input; readable: another word for total. Default: fused where there is one, but for "
-         "smooth")
+         "three covectors, for any input; readable: another word for total; of cotangent also seen (the cheapest: "
+         "normal on "
+         "the side that is seen, a constant says how the picture lies) and area (for square texels). Default: fused "
+         "where "
+         "there is one, but for smooth")
         .in("NAME")
-        .offers({"fused", "total", "readable"});
+        .offers({"fused", "total", "readable", "seen", "area"});
     a.option("--stage", o.stage,
              "of the frame triangle: fragment, the pixel's part; vertex or mesh, what makes its two vectors there; "
              "compute, both in one. Default: all")

@@ -65,6 +65,15 @@ const char* const kTrianglePixel =
     "    cotan_vec3 v = cotan_unpack_triangle_v(words);\n"
     "    return cotan_perturb_triangle(normal, u, v, m);\n}\n";
 
+// What the form `seen` asks for beside the others.
+const char* const kSideParameter = ", cotan_real side";
+const char* const kSide =
+    "// normal also: on the side that is seen, so turned on back faces.\n"
+    "// side: +1 or -1, one constant for all that is drawn: whether cross(dpdx, dpdy) of what is seen points towards\n"
+    "// the viewer. In right-handed spaces -1 where rows of pixels run down (Vulkan, Direct3D, Metal, WebGPU), +1 "
+    "where\n"
+    "// they run up (OpenGL, WebGL). In left-handed spaces, and where the picture is flipped, the other one.\n";
+
 std::string fromDifferences(Frame frame, Form form)
 {
     const bool edges = info(frame).source == FrameSource::triangle;
@@ -75,19 +84,24 @@ std::string fromDifferences(Frame frame, Form form)
         : "// normal: interpolated.\n"
           "// dpdx, dpdy: differences of position along any two directions, in normal's space.\n"
           "// duvdx, duvdy: differences of uv along the same two.\n";
+    const bool seen = form == Form::seen;
     const std::string head = fill("// The perturbed normal, unit.\n{}"
                                   "// texel: the normal map as sampled.\n"
                                   "COTAN_FUNCTION cotan_vec3 {}(cotan_vec3 normal, cotan_vec3 dpdx, cotan_vec3 dpdy, "
-                                  "cotan_vec2 duvdx, cotan_vec2 duvdy, cotan_vec3 texel)\n{{\n"
+                                  "cotan_vec2 duvdx, cotan_vec2 duvdy, cotan_vec3 texel{})\n{{\n"
                                   "    cotan_vec3 m = cotan_decode(texel);\n",
-                                  what, entryOf(frame));
+                                  what + (seen ? kSide : ""), entryOf(frame), seen ? kSideParameter : "");
     if (form == Form::fused && edges)
         return head
             + "    cotan_triangle vectors = cotan_triangle_of_sound_edges(dpdx, dpdy, duvdx, duvdy, normal);\n"
               "    return cotan_perturb_triangle(normal, vectors.u, vectors.v, m);\n}\n";
-    if (form == Form::fused)
-        return fill("{}    return cotan_perturb_{}(normal, dpdx, dpdy, duvdx, duvdy, m);\n}}\n", head,
-                    functionWord(frame));
+    if (form != Form::total)
+        return fill("{}    return cotan_perturb_{}{}(normal, dpdx, dpdy, duvdx, duvdy, m{});\n}}\n", head,
+                    functionWord(frame),
+                    seen                     ? "_seen"
+                        : form == Form::area ? "_area"
+                                             : "",
+                    seen ? ", side" : "");
     return fill("{}    cotan_frame frame = cotan_frame_{}({}, dpdx, dpdy, duvdx, duvdy);\n"
                 "    return cotan_apply(frame, m);\n}}\n",
                 head, functionWord(frame), normalFor(frame));
@@ -152,18 +166,20 @@ std::string fromSeveralSets(Frame frame, int sets)
     return text + fill("    return cotan_resolve_gradient(frame0.n, {});\n}}\n", sum);
 }
 
-std::string fromScreen(int sets)
+std::string fromScreen(int sets, Form form)
 {
-    const bool one = sets == 1;
-    return fill(
-        "\n// The same, taking the screen derivatives itself: call it in uniform control flow, before any\n"
-        "// branch or discard that differs within a 2x2 quad.\n"
-        "// position: camera-relative, interpolated, not normalised.\n"
-        "COTAN_FUNCTION cotan_vec3 {}(cotan_vec3 normal, cotan_vec3 position{})\n{{\n"
-        "    return {}(normal, cotan_ddx(position), cotan_ddy(position){});\n}}\n",
-        kScreenEntry,
-        one ? ", cotan_vec2 uv, cotan_vec3 texel" : perSet(sets, ", cotan_vec2 uv{0}, cotan_vec3 texel{0}"), kEntry,
-        one ? ", cotan_ddx(uv), cotan_ddy(uv), texel" : perSet(sets, ", cotan_ddx(uv{0}), cotan_ddy(uv{0}), texel{0}"));
+    const bool one = sets == 1, seen = form == Form::seen;
+    return fill("\n// The same, taking the screen derivatives itself: call it in uniform control flow, before any\n"
+                "// branch or discard that differs within a 2x2 quad.\n"
+                "// position: camera-relative, interpolated, not normalised.\n"
+                "COTAN_FUNCTION cotan_vec3 {}(cotan_vec3 normal, cotan_vec3 position{}{})\n{{\n"
+                "    return {}(normal, cotan_ddx(position), cotan_ddy(position){}{});\n}}\n",
+                kScreenEntry,
+                one ? ", cotan_vec2 uv, cotan_vec3 texel" : perSet(sets, ", cotan_vec2 uv{0}, cotan_vec3 texel{0}"),
+                seen ? kSideParameter : "", kEntry,
+                one ? ", cotan_ddx(uv), cotan_ddy(uv), texel"
+                    : perSet(sets, ", cotan_ddx(uv{0}), cotan_ddy(uv{0}), texel{0}"),
+                seen ? ", side" : "");
 }
 
 // What Godot's ANISOTROPY asks for.
@@ -223,7 +239,7 @@ std::string entryText(const Choice& choice, Form form)
     std::string text =
         choice.uvSets == 1 ? fromDifferences(choice.frame, form) : fromSeveralSets(choice.frame, choice.uvSets);
     if (hasScreenEntry(choice))
-        text += fromScreen(choice.uvSets);
+        text += fromScreen(choice.uvSets, form);
     if (hasScreenEntry(choice) && choice.language == Language::godot)
         text += kDirectionOfU;
     return text;

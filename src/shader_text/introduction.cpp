@@ -97,6 +97,8 @@ std::string call(const Choice& choice, Form form)
         arguments += screen ? ", uv" + set : ", duv" + set + "dx, duv" + set + "dy";
         arguments += choice.uvSets == 1 ? ", " + std::string(sample(l)) : ", texel" + set;
     }
+    if (form == Form::seen)
+        arguments += ", side";
     return declared(l, scope + (screen ? kScreenEntry : kEntry) + "(" + arguments + ")");
 }
 
@@ -163,6 +165,25 @@ std::string_view languageNote(Language language)
     return "";
 }
 
+std::string_view formText(Form form)
+{
+    switch (form) {
+    case Form::fused: return "fused";
+    case Form::total: return "total form";
+    case Form::seen: return "fused, normal on the side that is seen";
+    case Form::area: return "fused, for square texels";
+    }
+    return {};
+}
+
+std::string_view sidesOf(Frame frame)
+{
+    if (frame != Frame::cotangent && frame != Frame::gradient && frame != Frame::orthonormal)
+        return "";
+    return "//   Right for y-up and y-down targets, both handednesses, mirrored uv and transforms, and back\n"
+           "//   faces, with no uniform and no front-face flag.\n";
+}
+
 std::string limits(const Choice& choice, Form form)
 {
     std::string text = "// Limits:\n";
@@ -178,6 +199,16 @@ std::string limits(const Choice& choice, Form form)
     else if (form == Form::fused && readsVertices(choice.frame))
         text += "//   No NaN for empty texels or covectors of zero: the result is then the interpolated normal.\n"
                 "//   Undefined for non-finite input and normals shorter than 0.01.\n";
+    else if (form == Form::seen)
+        text +=
+            "//   The frame to 0.01 degrees, with the scale of `triangle`: slopes are those of `cotangent` times a\n"
+            "//   factor between cos(a) and 1, where the normal leans by a from the surface. No NaN for constant uv,\n"
+            "//   zero differences or empty texels. Undefined for non-finite input and normals shorter than 0.01.\n"
+            "//   Right for mirrored uv and transforms. The caller turns the normal on back faces, and says `side`.\n";
+    else if (form == Form::area)
+        text += "//   As `cotangent` where texels are square on the surface. On uv stretched a:1 slopes are sqrt(a)\n"
+                "//   times as steep, where they are sheared by s 1/cos(s) times. Undefined for non-finite input and\n"
+                "//   normals shorter than 0.01.\n";
     else if (form == Form::fused)
         text += "//   No NaN for constant uv, zero differences, footprints without area or empty texels: the\n"
                 "//   result is then the interpolated normal, or as the function says. Undefined for\n"
@@ -191,13 +222,14 @@ std::string limits(const Choice& choice, Form form)
                 "//   differences) the result is the unit interpolated normal.\n";
     else
         text += "//   Not total: degenerate input can give NaN, see the function.\n";
-    if (choice.frame == Frame::cotangent || choice.frame == Frame::gradient || choice.frame == Frame::orthonormal)
-        text += "//   Right for y-up and y-down targets, both handednesses, mirrored uv and transforms, and back\n"
-                "//   faces, with no uniform and no front-face flag.\n";
+    if (form != Form::seen)
+        text += sidesOf(choice.frame);
     if (info(choice.frame).source == FrameSource::differences)
         text += "//   In float, footprints of 1e-3 of the distance to the eye keep 0.002 degrees, of 1e-5 0.12.\n"
                 "//   On flat-shaded uv the frame is constant per triangle: on coarse curved meshes it steps at\n"
-                "//   edges (a sphere of 32 segments: 1.1 degrees in the mean).\n";
+                "//   edges"
+            + std::string(choice.frame == Frame::cotangent ? " (a sphere of 32 segments: 1.1 degrees in the mean).\n"
+                                                           : ".\n");
     return text + std::string(languageNote(choice.language));
 }
 
@@ -251,7 +283,7 @@ std::string introduction(const Choice& choice, Form form)
                 "//\n"
                 "// Normal map: {}, {}, green {} increasing v.\n"
                 "//\n{}//\n// Call:\n//   {}\n// It returns {}.\n//\n{}//\n{}{}\n",
-                name(choice.frame), form == Form::fused ? "fused" : "total form",
+                name(choice.frame), formText(form),
                 halfs && choice.language == Language::glsl ? "GLSL 4.20 and later" : title(choice.language),
                 channelsText(c.channels), expansionText(c.expansion), greenAlongV(c) ? "along" : "against",
                 needs(choice), call(choice, form),

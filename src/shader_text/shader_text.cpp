@@ -93,6 +93,11 @@ Result<Form> formOf(const Choice& choice)
     if (several && info(choice.frame).source != FrameSource::differences)
         return usageError(
             fill("several uv sets: expected a frame made from differences; found '{}'", name(choice.frame)));
+    if ((choice.form == Form::seen || choice.form == Form::area)
+        && (several || choice.frame != Frame::cotangent || choice.language == Language::godot))
+        return usageError(fill("the form {}: expected the frame cotangent over one uv set in another language than "
+                               "Godot's; found the frame {}, {} uv sets, {}",
+                               name(*choice.form), name(choice.frame), choice.uvSets, name(choice.language)));
     if (choice.form == Form::fused && (several || !hasFusedForm(choice.frame)))
         return usageError(
             several ? std::string("the fused form has one uv set; for several, the form is total")
@@ -112,6 +117,12 @@ std::string_view name(Set set)
 {
     constexpr std::string_view kSetNames[] = {"gradient", "blend", "light", "environment", "tone", "shadow"};
     return kSetNames[int(set)];
+}
+
+std::string_view name(Form form)
+{
+    constexpr std::string_view kFormNames[] = {"fused", "total", "seen", "area"};
+    return kFormNames[int(form)];
 }
 
 bool hasSet(Language language, Set set)

@@ -30,7 +30,11 @@ std::optional<Language> languageFromName(std::string_view name);
 enum class Form {
     fused, // frame and texel in one step (fused.h), of the frames that have it
     total, // the frame as three covectors, then applied (frame.h)
+    seen,  // of `cotangent`: fused, with the normal on the side that is seen and the caller's word for its sign;
+           // cheapest
+    area,  // of `cotangent`: fused, the same on square texels; stretched uv make slopes steeper
 };
+std::string_view name(Form form);
 
 // For which stage the fused text of `triangle` is: its pixels', or the one that makes U and V before.
 enum class Stage {
