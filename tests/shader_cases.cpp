@@ -323,7 +323,9 @@ Case cotangentCase(Form form)
         return text->text;
     };
     c.last = Kind::degenerate;
-    c.call = std::string("cotan_perturb_normal(n, dpdx, dpdy, duvdx, duvdy, m") + (seen ? ", 1.0)" : ")");
+    Choice usual;
+    usual.form = form;
+    c.call = makeShaderText(usual)->entry + "(n, dpdx, dpdy, duvdx, duvdy, m" + (seen ? ", 1.0)" : ")");
     c.expected = [seen](const Vectors& v) {
         const glm::dvec3 n(v.n), x(v.dpdx), y(v.dpdy), m = decoded(v);
         const glm::dvec2 u(v.duvdx), w(v.duvdy);

@@ -45,7 +45,7 @@ for (const [name, title] of Object.entries(documents)) {
       cpSync(join(root, 'docs/explanation', path), join(out, 'pictures', file));
       return `src="pictures/${file}"`;
     })
-    .replaceAll('<table>', '<div class="scroll" tabindex="0"><table>').replaceAll('</table>', '</table></div>');
+    .replaceAll('<pre>', '<pre tabindex="0">').replaceAll('<table>', '<div class="scroll" tabindex="0"><table>').replaceAll('</table>', '</table></div>');
   writeFileSync(join(out, `${name}.html`), `<!doctype html><html lang="en"><head><meta charset="utf-8">${policy}<meta name="viewport" content="width=device-width, initial-scale=1">
 <meta name="color-scheme" content="light dark"><link rel="icon" href="data:,"><title>Cotan: ${title.toLowerCase()}</title><link rel="stylesheet" href="style.css"></head>
 <body><header><a class="name" href="index.html">Cotan</a><nav>${Object.entries(documents).map(([page, words]) => `<a href="${page}.html"${page === name ? ' aria-current="page"' : ''}>${words}</a>`).join('')}</nav></header><main class="document">${text}</main></body></html>\n`);

@@ -228,7 +228,7 @@ orthonormal: `// Normal mapping, frame \`orthonormal\` (total form), for GLSL ES
 //   faces, with no uniform and no front-face flag.
 //   In float, footprints of 1e-3 of the distance to the eye keep 0.002 degrees, of 1e-5 0.12.
 //   On flat-shaded uv the frame is constant per triangle: on coarse curved meshes it steps at
-//   edges (a sphere of 32 segments: 1.1 degrees in the mean).
+//   edges.
 //   The shader must say: precision highp float; precision highp int;
 //
 // After:
@@ -1000,7 +1000,7 @@ orthonormal: `// Normal mapping, frame \`orthonormal\` (total form), for WGSL.
 //   faces, with no uniform and no front-face flag.
 //   In float, footprints of 1e-3 of the distance to the eye keep 0.002 degrees, of 1e-5 0.12.
 //   On flat-shaded uv the frame is constant per triangle: on coarse curved meshes it steps at
-//   edges (a sphere of 32 segments: 1.1 degrees in the mean).
+//   edges.
 //   WGSL lets an implementation assume that no number is NaN or infinite: the guards against
 //   non-finite input are then not sure to hold. Those against zeros and empty areas do.
 //
