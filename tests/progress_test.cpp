@@ -173,7 +173,8 @@ TEST(ProgressLine, isShownByEveryLongCommandOnATerminalOnly)
         const std::string all = ::testing::PrintToString(words);
         ASSERT_GE(lines.size(), 2u) << all;
         for (const std::string& line : lines)
-            EXPECT_LT(columnsOf(line.substr(0, line.find("cotan: warning"))), 80u) << all << line;
+            EXPECT_LT(columnsOf(line.substr(0, std::min(line.find("cotan: warning"), line.find("cotan: error")))), 80u)
+                << all << line;
         EXPECT_EQ(runTool(words, folder.path()).err.find('\033'), std::string::npos) << all;
     }
 }

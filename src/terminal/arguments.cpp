@@ -227,9 +227,18 @@ Arguments Arguments::command(const std::string& name, const std::string& summary
     return command;
 }
 
+// Values are looked at, and answers given, before anyone says that another option is missing: CLI11 does so up to 2.4,
+// and later where it is asked to.
+static void beforeRequirements(auto& option)
+{
+    if constexpr (requires { option.get_callback_priority(); })
+        option.callback_priority(decltype(option.get_callback_priority())::PreRequirementsCheckPreHelp);
+}
+
 template<class Value> Argument Arguments::option(const std::string& names, Value& value, const std::string& help)
 {
     CLI::Option* option = app_->add_option(names, value, help);
+    beforeRequirements(*option);
     bool empty = false;
     if constexpr (requires { value.empty(); })
         empty = value.empty();
@@ -250,6 +259,7 @@ template Argument Arguments::option(const std::string&, std::vector<std::string>
 Argument Arguments::flag(const std::string& name, bool& value, const std::string& help)
 {
     CLI::Option* option = app_->add_flag(name, value, help);
+    beforeRequirements(*option);
     Argument::Facts& facts = tool_->facts[option];
     facts.group = tool_->words[app_].group;
     return Argument(*option, facts);
@@ -260,6 +270,7 @@ void Arguments::answers(const std::string& name, const std::string& help, std::f
     // As --version does it.
     CLI::Option* option = app_->add_flag_callback(
         name, [text = std::move(text)] { throw CLI::CallForVersion(text(), 0); }, help);
+    beforeRequirements(*option);
     tool_->facts[option].group = tool_->words[app_].group;
 }
 

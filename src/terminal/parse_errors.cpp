@@ -94,13 +94,13 @@ std::string missing(const CLI::App& command, const std::string& message)
     return wordsOf(command) + " needs a command: " + eitherOf(names);
 }
 
-// CLI11: "--up: 1 required NAME missing", "--up: At Most 1 required but received 2".
+// CLI11: "--up: 1 required NAME missing", "--up: At Most 1 required but received 2", since 2.5 "At most".
 std::string wrongNumber(const CLI::App& command, const std::string& message)
 {
     const std::string name = nameIn(message, ":");
     if (message.ends_with(" missing"))
         return name + " needs a value: " + withValue(command, name);
-    constexpr std::string_view kMost = "At Most 1 required but received ";
+    constexpr std::string_view kMost = "ost 1 required but received ";
     if (const std::size_t at = message.find(kMost); at != std::string::npos)
         return name + " is given " + message.substr(at + kMost.size()) + " times; expected once";
     return message; // one of the command's own
