@@ -76,11 +76,16 @@ std::string meshoptName(const Json& view)
 void restoreDraco(GltfDocument& document)
 {
     const GltfPacked& packed = document.source->file.packed;
+    if (packed.primitives.empty())
+        return;
     Json& root = rootOf(document);
     Uses uses;
     uses.all.resize(countOf(root, "accessors"));
     uses.packed.resize(uses.all.size());
-    forEachReference(root, Collection::accessors, [&](Json& index) { ++uses.all[index.get<std::size_t>()]; });
+    forEachReference(root, Collection::accessors, [&](Json& index) {
+        if (const auto i = index.get<std::size_t>(); i < uses.all.size()) // extensions may say anything
+            ++uses.all[i];
+    });
     std::size_t restored = 0, withMore = 0;
     for (const GltfPacked::Primitive& p : packed.primitives) {
         Json left = attributesLeft(document, p);
