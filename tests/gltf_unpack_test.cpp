@@ -194,6 +194,31 @@ TEST_P(DracoGeometryIs, writtenAsItCameWithoutTheNameOfADroppedAttribute)
         << written->notes[0];
 }
 
+// A morph target has no stream of its own: what it reads has to have bytes.
+TEST_P(DracoGeometryIs, plainTooWhereSomethingElseReadsItsNumbers)
+{
+    const TemporaryFolder folder;
+    const Sheet s = sheet(4);
+    Gltf g = dracoModel(s, dracoStream(s, GetParam()));
+    const json positions = primitive(g)["attributes"]["POSITION"];
+    primitive(g)["targets"] = {{{"POSITION", positions}}};
+    auto document = openGltfDocument(folder.write("in.gltf", g.text()));
+    ASSERT_TRUE(document) << document.error().message;
+    const auto written = writeGltf(*document, folder.path / "out.glb");
+    ASSERT_TRUE(written) << written.error().message;
+    const ReadBack out = readBack(folder.path / "out.glb");
+    const json& after = out.root["meshes"][0]["primitives"][0];
+    EXPECT_TRUE(after["extensions"].contains("KHR_draco_mesh_compression"));
+    const auto accessor = [&](const char* name) {
+        return out.root["accessors"][after["attributes"][name].get<std::size_t>()];
+    };
+    EXPECT_TRUE(accessor("POSITION").contains("bufferView"));
+    EXPECT_FALSE(accessor("TEXCOORD_0").contains("bufferView"));
+    const auto scene = loadGltf(folder.path / "out.glb");
+    ASSERT_TRUE(scene) << scene.error().message;
+    EXPECT_EQ(scene->meshes[0].positions, g.load()->meshes[0].positions);
+}
+
 TEST_P(DracoGeometryIs, plainInADocumentWhoseVerticesChanged)
 {
     const TemporaryFolder folder;

@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "cotan/terminal/command_words.hpp"
+
 namespace cotan::app {
 
 std::vector<std::string> presetWords()
@@ -23,10 +25,7 @@ std::vector<std::string> splitAtCommas(const std::string& text)
 
 Error unknownWord(const std::string& option, const std::vector<std::string_view>& known, const std::string& word)
 {
-    std::string list;
-    for (std::size_t i = 0; i < known.size(); ++i)
-        list += (i == 0 ? "" : i + 1 == known.size() ? " or " : ", ") + std::string(known[i]);
-    return usageError(fmt::format("{}: expected {}; found '{}'", option, list, word));
+    return usageError(fmt::format("{}: expected {}; found '{}'", option, eitherOf({known.begin(), known.end()}), word));
 }
 
 Error notOneOf(const std::string& option, const std::vector<std::string_view>& known, const std::string& word)

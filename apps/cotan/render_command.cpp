@@ -71,6 +71,9 @@ Result<Picture> loadFramed(const RenderCommandOptions& o, FrameChoice frame, con
     return picture;
 }
 
+// For an image: errors are drawn beside what they are measured against.
+std::size_t drawsOf(const RenderCommandOptions& o) { return o.picture.show == "error" ? 2 : 1; }
+
 Status writeNext(const RenderCommandOptions& o, const Image& image, Sequence& sequence)
 {
     return sequence.animation ? sequence.animation->add(image) : writeImage(o.output, image);
@@ -92,7 +95,7 @@ Status renderOne(const RenderCommandOptions& o, FrameChoice frame, Sequence& seq
     shared = picture->view;
     const double openSeconds = watch.lap() - (*painter)->uploadSeconds();
     Json report = {{"command", "render"}};
-    const auto image = withProgress(o, o.picture.show == "error" ? 2 : 1, "drawing", [&](Progress progress) {
+    const auto image = withProgress(o, drawsOf(o), "drawing", [&](Progress progress) {
         (*painter)->progress = std::move(progress);
         return drawPicture(**painter, *picture, o, report);
     });
@@ -202,7 +205,7 @@ Status renderTurn(const RenderCommandOptions& o, FrameChoice frame, const std::v
     const Turntable table(picture->scene);
     one.quiet = true; // not a line for each
     Json none;
-    const std::size_t draws = numbers.size() * (o.picture.show == "error" ? 2 : 1);
+    const std::size_t draws = numbers.size() * drawsOf(o);
     const auto drawAll = [&](Progress progress) -> Status {
         (*painter)->progress = std::move(progress);
         for (const int number : numbers) {

@@ -62,13 +62,13 @@ Status chooseText(const ShaderCommandOptions& o, Choice& choice)
         languages.push_back({name(l), l});
     if (Status ok = choose(choice.language, "--lang", o.language, languages); !ok)
         return ok;
-    if (Status ok = choose(choice.form, "--form", o.form,
-                           {{"fused", Form::fused},
-                            {"total", Form::total},
-                            {"readable", Form::total},
-                            {"seen", Form::seen},
-                            {"area", Form::area}});
-        !ok)
+    Words<std::optional<Form>> forms;
+    for (const Form f : shader_text::kForms) {
+        forms.push_back({name(f), f});
+        if (f == Form::total)
+            forms.push_back({"readable", f});
+    }
+    if (Status ok = choose(choice.form, "--form", o.form, forms); !ok)
         return ok;
     Words<shader_text::Stage> stages;
     for (shader_text::Stage s : shader_text::kStages)

@@ -208,22 +208,20 @@ private:
     // Puts all corners into lanes, or none where they do not fit.
     bool gathered(std::uint32_t first)
     {
+        return chains_.cornersAreVertices() ? gatheredAs<true>(first) : gatheredAs<false>(first);
+    }
+
+    template<bool kIsVertex> bool gatheredAs(std::uint32_t first)
+    {
         const Shared at(mesh_, first);
         std::size_t lane = lanes_->count;
-        if (chains_.cornersAreVertices()) {
-            for (std::uint32_t v = first; v != kNone; v = chains_.equalVertex[v]) {
+        for (std::uint32_t v = first; v != kNone; v = chains_.equalVertex[v])
+            for (std::uint32_t c = kIsVertex ? v : chains_.firstCorner(v); c != kNone;
+                 c = kIsVertex ? kNone : chains_.nextCorner(c)) {
                 if (lane == CornerLanes::kLanes)
                     return false;
-                lanes_->put(lane++, edgesIn<true>(mesh_, v, at));
+                lanes_->put(lane++, edgesIn<kIsVertex>(mesh_, c, at));
             }
-        } else {
-            for (std::uint32_t v = first; v != kNone; v = chains_.equalVertex[v])
-                for (std::uint32_t c = chains_.firstCorner(v); c != kNone; c = chains_.nextCorner(c)) {
-                    if (lane == CornerLanes::kLanes)
-                        return false;
-                    lanes_->put(lane++, edgesIn<false>(mesh_, c, at));
-                }
-        }
         lanes_->count = lane;
         return true;
     }

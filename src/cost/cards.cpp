@@ -57,16 +57,12 @@ bool readNumber(const std::string& cell, std::optional<double>& number)
 
 StageCode* placeOf(DeviceCode& card, std::string_view stage, std::string_view row)
 {
-    for (RowCode& r : card.rows)
-        if (stage == "fragment" && row == r.row)
-            return &r.fragment;
-    for (VertexCode& v : card.vertices)
-        if (stage == "vertex" && row == vertexStage(v.stored).name)
-            return &v.vertex;
-    for (OtherCode& o : card.others)
-        if (stage == kindName(o.stage->kind) && row == o.stage->name)
-            return &o.code;
-    return nullptr;
+    StageCode* found = nullptr;
+    eachStage(card, [&](std::string_view kind, std::string_view name, StageCode& code) {
+        if (!found && stage == kind && row == name)
+            found = &code;
+    });
+    return found;
 }
 
 } // namespace
@@ -93,12 +89,7 @@ std::string cardsToCsv(const std::vector<DeviceCode>& cards)
             line("silence", "", none);
             continue;
         }
-        for (const RowCode& r : card.rows)
-            line("fragment", r.row, r.fragment);
-        for (const VertexCode& v : card.vertices)
-            line("vertex", vertexStage(v.stored).name, v.vertex);
-        for (const OtherCode& o : card.others)
-            line(kindName(o.stage->kind), o.stage->name, o.code);
+        eachStage(card, line);
     }
     return text;
 }

@@ -9,11 +9,6 @@ namespace cotan::gltf_edit {
 
 namespace {
 
-Json& primitiveOf(Json& root, const GltfPacked::Primitive& packed)
-{
-    return root["meshes"][packed.mesh]["primitives"][packed.primitive];
-}
-
 bool isAsRead(const GltfDocument& document, const char* collection, std::size_t index)
 {
     const Json& now = rootOf(document)[collection];
@@ -22,9 +17,8 @@ bool isAsRead(const GltfDocument& document, const char* collection, std::size_t 
 
 // What of a stream the primitive still has, as the extension names it: ids by attribute. Empty where the positions or
 // the triangles are others than in the file.
-Json attributesLeft(const GltfDocument& document, const GltfPacked::Primitive& packed)
+Json attributesLeft(const GltfDocument& document, const Json& primitive, const GltfPacked::Primitive& packed)
 {
-    const Json& primitive = rootOf(document)["meshes"][packed.mesh]["primitives"][packed.primitive];
     const auto isSame = [&](int accessor) { return isAsRead(document, "accessors", std::size_t(accessor)); };
     if (gltf::valueOr(primitive, "indices", -1) != packed.indices || !isSame(packed.indices)
         || gltf::valueOr(primitive, "mode", gltf::kTriangles) != gltf::kTriangles)
@@ -88,10 +82,10 @@ void restoreDraco(GltfDocument& document)
     });
     std::size_t restored = 0, withMore = 0;
     for (const GltfPacked::Primitive& p : packed.primitives) {
-        Json left = attributesLeft(document, p);
+        Json& primitive = root["meshes"][p.mesh]["primitives"][p.primitive];
+        Json left = attributesLeft(document, primitive, p);
         if (left.empty())
             continue;
-        Json& primitive = primitiveOf(root, p);
         for (const auto& [name, id] : left.items())
             ++uses.packed[primitive["attributes"][name].get<std::size_t>()];
         ++uses.packed[std::size_t(p.indices)];

@@ -107,9 +107,7 @@ Result<ToHeightFile> heightFromNormalsFile(const std::filesystem::path& file, co
     const auto bits = bitsOfHeights(o.bits, map->type, out);
     if (!bits)
         return bits.error();
-    // Heights that do not repeat take a third of the memory, and as long: both are held to the same size.
-    const std::size_t work = heightWorkBytes(map->width, map->height, Boundary::periodic),
-                      most = workBudget(file, files.limits);
+    const std::size_t work = heightWorkBytes(map->width, map->height), most = workBudget(file, files.limits);
     if (work > most)
         return inputError(
             fmt::format("{}: the solver takes {} MiB for {} x {}, the limit is {} MiB for a file of this size",

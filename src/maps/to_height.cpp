@@ -371,9 +371,6 @@ Heights heightFromNormals(const Image& map, const ToHeightSettings& settings)
     return result;
 }
 
-std::size_t heightWorkBytes(int width, int height, Boundary boundary)
-{
-    return std::size_t(width) * std::size_t(height) * (boundary == Boundary::periodic ? 12 : 4);
-}
+std::size_t heightWorkBytes(int width, int height) { return std::size_t(width) * std::size_t(height) * 12; }
 
 } // namespace cotan::maps

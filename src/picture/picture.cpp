@@ -75,18 +75,6 @@ std::vector<std::string> sizePresetWords()
     return words;
 }
 
-std::string sizePresetNames()
-{
-    std::string names;
-    for (const SizePreset& preset : kSizePresets)
-        names += fmt::format("{}{} ({}x{})",
-                             names.empty()                         ? ""
-                                 : &preset == &kSizePresets.back() ? " or "
-                                                                   : ", ",
-                             preset.name, preset.width, preset.height);
-    return names;
-}
-
 Result<std::pair<int, int>> parsePictureSize(const std::string& text)
 {
     for (const SizePreset& preset : kSizePresets)

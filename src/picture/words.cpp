@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include "cotan/convention_words.hpp"
+#include "cotan/terminal/command_words.hpp"
 
 namespace cotan {
 
@@ -24,6 +25,16 @@ std::string usefulFrameNames()
         if (f.total)
             names += (names.empty() ? "" : ", ") + std::string(f.name);
     return names;
+}
+
+// "thumbnail (320x180), 720p (1280x720), ... or square (1024x1024)"
+std::string sizePresetNames()
+{
+    std::vector<std::string> names = sizePresetWords();
+    for (std::string& name : names)
+        if (const auto size = parsePictureSize(name))
+            name += fmt::format(" ({}x{})", size->first, size->second);
+    return eitherOf(names);
 }
 
 std::string listOfFrames()

@@ -255,16 +255,10 @@ std::string askedOf(const DeviceCode& d)
     const std::string date = d.date.empty() ? "" : ", asked on " + d.date;
     std::string text = d.silence.empty() ? fmt::format("- {}: {}, {}{}.\n", title(d), d.name, d.driver, date)
                                          : fmt::format("- {}: no machine code: {}.\n", title(d), d.silence);
-    const auto failed = [&](std::string_view kind, std::string_view name, const StageCode& code) {
+    eachStage(d, [&](std::string_view kind, std::string_view name, const StageCode& code) {
         if (d.silence.empty() && !code.failure.empty())
             text += fmt::format("  - {} {}: not compiled: {}.\n", kind, name, code.failure);
-    };
-    for (const RowCode& r : d.rows)
-        failed("fragment", r.row, r.fragment);
-    for (const VertexCode& v : d.vertices)
-        failed("vertex", vertexStage(v.stored).name, v.vertex);
-    for (const OtherCode& o : d.others)
-        failed(kindName(o.stage->kind), o.stage->name, o.code);
+    });
     return text;
 }
 
@@ -315,12 +309,9 @@ Json toJson(const CostReport& report)
     for (const DeviceCode& d : report.code) {
         Json device = {{"name", d.name},     {"maker", d.maker},     {"driver", d.driver},
                        {"family", d.family}, {"silence", d.silence}, {"date", d.date}};
-        for (const RowCode& r : d.rows)
-            device["fragment"][std::string(r.row)] = stageJson(r.fragment);
-        for (const VertexCode& v : d.vertices)
-            device["vertex"][std::string(vertexStage(v.stored).name)] = stageJson(v.vertex);
-        for (const OtherCode& o : d.others)
-            device[kindName(o.stage->kind)][std::string(o.stage->name)] = stageJson(o.code);
+        eachStage(d, [&](std::string_view kind, std::string_view name, const StageCode& code) {
+            device[std::string(kind)][std::string(name)] = stageJson(code);
+        });
         json["devices"].push_back(std::move(device));
     }
     json["timing"] = Json::array();
@@ -353,17 +344,12 @@ std::string toCsv(const CostReport& report)
         text += fmt::format("{},SPIR-V {},,{},instructions,{}\n", quoted(s.name), kindName(s.kind),
                             quoted(spirvCompiler()), spirvInstructions(s.words));
     for (const DeviceCode& d : report.code) {
-        const auto lines = [&](const std::string& name, std::string_view source, const StageCode& code) {
+        eachStage(d, [&](std::string_view kind, std::string_view name, const StageCode& code) {
+            const std::string cell = kind == "fragment" ? std::string(name) : quoted(name);
             for (const auto& [measure, value] : code.all)
-                text += fmt::format("{},{},{},{},{},{:.0f}\n", name, source, quoted(title(d)), quoted(d.driver),
+                text += fmt::format("{},{},{},{},{},{:.0f}\n", cell, kind, quoted(title(d)), quoted(d.driver),
                                     quoted(measure), value);
-        };
-        for (const RowCode& r : d.rows)
-            lines(std::string(r.row), "fragment", r.fragment);
-        for (const VertexCode& v : d.vertices)
-            lines(quoted(vertexStage(v.stored).name), "vertex", v.vertex);
-        for (const OtherCode& o : d.others)
-            lines(quoted(o.stage->name), kindName(o.stage->kind), o.code);
+        });
     }
     for (const DeviceTiming& d : report.timing)
         for (const TimedRow& r : d.rows)

@@ -65,12 +65,15 @@ void centre(const Scene& scene, const Stand& stand, double distance, double& x, 
     }
 }
 
-// From where `back` points to, with that direction up.
-Camera filledFrom(const Scene& scene, const Bounds& box, const dvec3& back, const glm::vec3& upward, int width,
-                  int height)
+// From where `back` points to, with that direction up. A scene without finite points: where a camera stands by itself.
+Camera filledFrom(const char* name, const Scene& scene, const Bounds& box, const dvec3& back, const glm::vec3& upward,
+                  int width, int height)
 {
     Camera camera;
+    camera.name = name;
     camera.verticalFieldOfView = float(kFieldOfView);
+    if (box.empty())
+        return camera;
     camera.up = upward;
     const CameraAxes axes = axesAlong(-back, dvec3(upward));
     const dvec3 right = axes.right, up = axes.up;
@@ -121,33 +124,18 @@ double sineOf(double degrees)
 Camera frontCamera(const Scene& scene, int width, int height)
 {
     const Bounds box = framedBounds(scene);
-    Camera camera;
-    if (box.empty()) {
-        camera.verticalFieldOfView = float(kFieldOfView);
-    } else {
-        const glm::vec3 size = box.high - box.low;
-        const bool flat = size.z < kFlat * std::max(size.x, size.y);
-        const dvec3 back = flat ? dvec3(0, 0, 1) : glm::normalize(dvec3(0.36, 0.24, 1));
-        camera = filledFrom(scene, box, back, {0, 1, 0}, width, height);
-    }
-    camera.name = "front";
-    return camera;
+    const glm::vec3 size = box.high - box.low;
+    const bool flat = size.z < kFlat * std::max(size.x, size.y);
+    const dvec3 back = flat ? dvec3(0, 0, 1) : glm::normalize(dvec3(0.36, 0.24, 1));
+    return filledFrom("front", scene, box, back, {0, 1, 0}, width, height);
 }
 
 Camera orbitCamera(const Scene& scene, double azimuth, double elevation, int width, int height)
 {
     const double sinA = sineOf(azimuth), cosA = sineOf(azimuth + 90);
     const double sinE = sineOf(elevation), cosE = sineOf(elevation + 90);
-    const Bounds box = framedBounds(scene);
-    Camera camera;
-    if (box.empty()) {
-        camera.verticalFieldOfView = float(kFieldOfView);
-    } else {
-        const glm::vec3 up = cosE == 0 ? glm::vec3(dvec3(-sinA, 0, -cosA) * sinE) : glm::vec3(0, 1, 0);
-        camera = filledFrom(scene, box, {sinA * cosE, sinE, cosA * cosE}, up, width, height);
-    }
-    camera.name = "orbit";
-    return camera;
+    const glm::vec3 up = cosE == 0 ? glm::vec3(dvec3(-sinA, 0, -cosA) * sinE) : glm::vec3(0, 1, 0);
+    return filledFrom("orbit", scene, framedBounds(scene), {sinA * cosE, sinE, cosA * cosE}, up, width, height);
 }
 
 } // namespace cotan

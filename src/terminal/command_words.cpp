@@ -64,6 +64,14 @@ Status checkCommandWords(const CommandNames& tool, std::span<const std::string> 
     return Done{};
 }
 
+std::string eitherOf(const std::vector<std::string>& words)
+{
+    std::string text;
+    for (std::size_t i = 0; i < words.size(); ++i)
+        text += (i == 0 ? "" : i + 1 == words.size() ? " or " : ", ") + words[i];
+    return text;
+}
+
 std::vector<std::string> withoutEquals(std::vector<std::string> words)
 {
     for (std::size_t i = 0; i < words.size() && words[i] != "--"; ++i)

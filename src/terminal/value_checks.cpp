@@ -5,6 +5,8 @@
 #include <sstream>
 #include <utility>
 
+#include "cotan/terminal/command_words.hpp"
+
 namespace cotan {
 
 namespace {
@@ -37,14 +39,6 @@ ValueCheck wholeNumber(const std::string& what, std::function<bool(long long)> i
 }
 
 } // namespace
-
-std::string eitherOf(const std::vector<std::string>& words)
-{
-    std::string text;
-    for (std::size_t i = 0; i < words.size(); ++i)
-        text += (i == 0 ? "" : i + 1 == words.size() ? " or " : ", ") + words[i];
-    return text;
-}
 
 ValueCheck numberAbove0() { return aboveZero; }
 

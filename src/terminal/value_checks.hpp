@@ -17,7 +17,4 @@ ValueCheck wholeNumberWithin(long long least, long long most);
 ValueCheck wholeNumberOf(const std::vector<long long>& numbers);
 ValueCheck wordOf(const std::vector<std::string>& words);
 
-// "a", "a or b", "a, b or c".
-std::string eitherOf(const std::vector<std::string>& words);
-
 } // namespace cotan

@@ -69,4 +69,16 @@ const StageCode& fragmentCode(const DeviceCode& device, std::string_view row);
 const StageCode& vertexCode(const DeviceCode& device, Stored stored);
 const StageCode& otherCode(const DeviceCode& device, const Stage& stage);
 
+// Calls use(kind, name, code) for each of a device's stages, which it may change where the device is no constant:
+// "fragment" by the row, "vertex" by what vertices have, then otherStages() by their kinds.
+template<class Device, class Use> void eachStage(Device& device, const Use& use)
+{
+    for (auto& r : device.rows)
+        use(std::string_view("fragment"), r.row, r.fragment);
+    for (auto& v : device.vertices)
+        use(std::string_view("vertex"), vertexStage(v.stored).name, v.vertex);
+    for (auto& o : device.others)
+        use(kindName(o.stage->kind), o.stage->name, o.code);
+}
+
 } // namespace cotan::cost

@@ -63,7 +63,8 @@ struct Heights {
 // boundaries.
 Heights heightFromNormals(const Image& map, const ToHeightSettings& settings);
 
-// Bytes that heightFromNormals takes beside the map, for a check before it is called.
-std::size_t heightWorkBytes(int width, int height, Boundary boundary);
+// Bytes that heightFromNormals takes beside the map, for a check before it is called: of periodic heights. Free ones
+// take a third of the memory, and as long.
+std::size_t heightWorkBytes(int width, int height);
 
 } // namespace cotan::maps

@@ -30,7 +30,6 @@ Result<std::pair<int, int>> parseSize(const std::string& text);
 // The same of a picture, which may also have the size of a preset: "1080p", "square" and others.
 Result<std::pair<int, int>> parsePictureSize(const std::string& text);
 std::vector<std::string> sizePresetWords();
-std::string sizePresetNames(); // "thumbnail (320x180), 720p, ... or square (1024x1024)"
 
 // Pictures of one's own on a model: --normal-map, and for models that come without --base-color, --metallic-roughness
 // and --occlusion.

@@ -34,6 +34,7 @@ enum class Form {
            // cheapest
     area,  // of `cotangent`: fused, the same on square texels; stretched uv make slopes steeper
 };
+inline constexpr Form kForms[] = {Form::fused, Form::total, Form::seen, Form::area};
 std::string_view name(Form form);
 
 // For which stage the fused text of `triangle` is: its pixels', or the one that makes U and V before.
