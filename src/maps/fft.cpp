@@ -17,9 +17,9 @@ Fft::Fft(std::size_t size) : size_(size)
 {
     const bool plain = std::has_single_bit(size);
     padded_ = plain ? size : std::bit_ceil(2 * size - 1);
-    twiddle_.resize(padded_ / 2);
-    for (std::size_t k = 0; k < twiddle_.size(); ++k)
-        twiddle_[k] = turn(-double(k) / double(padded_));
+    for (std::size_t half = 1; half < padded_; half *= 2)
+        for (std::size_t k = 0; k < half; ++k)
+            twiddle_.push_back(turn(-double(k) / double(2 * half)));
     if (plain)
         return;
     chirp_.resize(size);
@@ -43,11 +43,11 @@ void Fft::radix2(Complex* x) const
         if (i < j)
             std::swap(x[i], x[j]);
     }
-    for (std::size_t length = 2; length <= padded_; length *= 2) {
-        const std::size_t half = length / 2, stride = padded_ / length;
-        for (std::size_t start = 0; start < padded_; start += length)
+    for (std::size_t half = 1; half < padded_; half *= 2) {
+        const Complex* const twiddle = twiddle_.data() + (half - 1);
+        for (std::size_t start = 0; start < padded_; start += 2 * half)
             for (std::size_t k = 0; k < half; ++k) {
-                const Complex a = x[start + k], b = x[start + k + half], w = twiddle_[k * stride];
+                const Complex a = x[start + k], b = x[start + k + half], w = twiddle[k];
                 // Written out: operator* of std::complex checks for infinities.
                 const Complex t(b.real() * w.real() - b.imag() * w.imag(), b.real() * w.imag() + b.imag() * w.real());
                 x[start + k] = a + t;

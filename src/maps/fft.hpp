@@ -21,9 +21,10 @@ public:
     void inverse(std::span<Complex> x) const;
 
 private:
-    void radix2(Complex* x) const;  // of padded_ entries
-    std::size_t size_, padded_;     // padded_: a power of two; size_ itself where that is one
-    std::vector<Complex> twiddle_;  // exp(-2 pi i k / padded_)
+    void radix2(Complex* x) const; // of padded_ entries
+    std::size_t size_, padded_;    // padded_: a power of two; size_ itself where that is one
+    std::vector<Complex>
+        twiddle_; // stage after stage in the order they are read: exp(-2 pi i k / 2h), k < h = 1, 2, 4 ...
     std::vector<Complex> chirp_;    // exp(-pi i n^2 / size_); empty for powers of two
     std::vector<Complex> response_; // transform of the conjugate chirp
 };

@@ -1,6 +1,7 @@
 #include "cotan/scene/objects.hpp"
 
-#include <algorithm>
+#include <string_view>
+#include <unordered_set>
 #include <utility>
 
 namespace cotan {
@@ -33,8 +34,9 @@ const std::string& objectName(const Scene& scene, const Instance& instance)
 std::vector<std::string> objectNames(const Scene& scene)
 {
     std::vector<std::string> names;
+    std::unordered_set<std::string_view> known;
     for (const Instance& instance : scene.instances)
-        if (const std::string& name = objectName(scene, instance); std::ranges::find(names, name) == names.end())
+        if (const std::string& name = objectName(scene, instance); known.insert(name).second)
             names.push_back(name);
     return names;
 }
