@@ -3,8 +3,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <map>
+#include <string>
+#include <string_view>
 #include <tuple>
+#include <unordered_map>
 #include <unordered_set>
 #include <utility>
 
@@ -52,8 +56,44 @@ void append(Mesh& whole, const Mesh& part, const glm::mat4& toWorld)
             whole.indices.push_back(base + part.indices[i + k]);
 }
 
+bool sameArrays(const Mesh& a, const Mesh& b)
+{
+    return a.material == b.material && a.positions == b.positions && a.indices == b.indices && a.normals == b.normals
+        && a.tangents == b.tangents && a.texcoords == b.texcoords && a.colors == b.colors
+        && a.cotangentsU == b.cotangentsU && a.cotangentsV == b.cotangentsV;
+}
+
+template<class T> std::size_t hashOf(const std::vector<T>& array)
+{
+    const auto* const bytes = reinterpret_cast<const char*>(array.data());
+    return std::hash<std::string_view>()({bytes, array.size() * sizeof(T)});
+}
+
+// For each mesh the first that is the same.
+std::vector<int> firstSame(const std::vector<Mesh>& meshes)
+{
+    std::vector<int> first(meshes.size());
+    std::unordered_multimap<std::size_t, int> known;
+    for (int n = 0; n < int(meshes.size()); ++n) {
+        const Mesh& mesh = meshes[std::size_t(n)];
+        std::size_t hash = std::size_t(mesh.material);
+        for (const std::size_t one : {hashOf(mesh.positions), hashOf(mesh.indices), hashOf(mesh.normals),
+                                      hashOf(mesh.texcoords[0]), hashOf(mesh.texcoords[1]), hashOf(mesh.colors)})
+            hash = hash * 31 + one;
+        const auto [begin, end] = known.equal_range(hash);
+        const auto found = std::find_if(
+            begin, end, [&](const auto& other) { return sameArrays(meshes[std::size_t(other.second)], mesh); });
+        first[std::size_t(n)] = found != end ? found->second : n;
+        if (found == end)
+            known.emplace(hash, n);
+    }
+    return first;
+}
+
 void joinSmall(Scene& scene)
 {
+    const std::vector<int> first = firstSame(scene.meshes);
+    std::unordered_set<std::string> placed; // opaque meshes with their matrices: a second one would not be seen
     std::map<decltype(keyOf(Mesh{})), Mesh> joined;
     std::vector<Instance> kept;
     std::size_t triangles = 0;
@@ -65,6 +105,13 @@ void joinSmall(Scene& scene)
         if (count > kSmall || triangles + count > kMostJoined || !mesh.cotangentsU.empty()) {
             kept.push_back(std::move(instance));
             continue;
+        }
+        if (const Material& m = scene.materials[std::size_t(mesh.material)];
+            m.alphaMode == AlphaMode::opaque && !m.translucent()) {
+            std::string place(reinterpret_cast<const char*>(&instance.toWorld), sizeof instance.toWorld);
+            place += std::to_string(first[std::size_t(instance.mesh)]);
+            if (!placed.insert(std::move(place)).second)
+                continue;
         }
         triangles += count;
         Mesh& whole = joined[keyOf(mesh)];
