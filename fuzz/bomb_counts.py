@@ -55,9 +55,11 @@ def many_nodes(r, folder):
 
 
 def gpu_instances(r, folder):
-    """EXT_mesh_gpu_instancing: each place of a long list shows each primitive."""
+    """EXT_mesh_gpu_instancing: each place of a long list shows each primitive, of which each may be another one."""
     g = Gltf()
-    mesh = g.add("meshes", {"primitives": [{"attributes": g.triangle()}] * r.choice([1, 10, 60])})
+    count, others = r.choice([1, 10, 60]), r.random() < 0.5
+    shown = [g.triangle(points=[r.random() for _ in range(9)]) for _ in range(count if others else 1)]
+    mesh = g.add("meshes", {"primitives": [{"attributes": shown[k % len(shown)]} for k in range(count)]})
     places = g.floats([r.random() * r.choice([0, 100]) for _ in range(3 * r.randint(5000, 15_000))], 3)
     g.add("nodes", {"mesh": mesh, "extensions": {"EXT_mesh_gpu_instancing": {"attributes": {"TRANSLATION": places}}}})
     g.root["scenes"][0]["nodes"], g.root["extensionsUsed"] = [0], ["EXT_mesh_gpu_instancing"]

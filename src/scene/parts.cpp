@@ -5,7 +5,6 @@
 #include <cmath>
 #include <functional>
 #include <map>
-#include <string>
 #include <string_view>
 #include <tuple>
 #include <unordered_map>
@@ -90,10 +89,26 @@ std::vector<int> firstSame(const std::vector<Mesh>& meshes)
     return first;
 }
 
+struct Placed {
+    glm::mat4 toWorld;
+    int mesh;
+
+    bool operator==(const Placed&) const = default;
+};
+
+struct PlacedHash {
+    std::size_t operator()(const Placed& placed) const
+    {
+        const auto* const bytes = reinterpret_cast<const char*>(&placed.toWorld);
+        return std::hash<std::string_view>()({bytes, sizeof placed.toWorld}) * 31 + std::size_t(placed.mesh);
+    }
+};
+
 void joinSmall(Scene& scene)
 {
     const std::vector<int> first = firstSame(scene.meshes);
-    std::unordered_set<std::string> placed; // opaque meshes with their matrices: a second one would not be seen
+    std::unordered_set<Placed, PlacedHash> placed; // opaque ones: a second in the place of the first is not seen
+    placed.reserve(std::min(scene.instances.size(), kMostJoined));
     std::map<decltype(keyOf(Mesh{})), Mesh> joined;
     std::vector<Instance> kept;
     std::size_t triangles = 0;
@@ -106,13 +121,9 @@ void joinSmall(Scene& scene)
             kept.push_back(std::move(instance));
             continue;
         }
-        if (const Material& m = scene.materials[std::size_t(mesh.material)];
-            m.alphaMode == AlphaMode::opaque && !m.translucent()) {
-            std::string place(reinterpret_cast<const char*>(&instance.toWorld), sizeof instance.toWorld);
-            place += std::to_string(first[std::size_t(instance.mesh)]);
-            if (!placed.insert(std::move(place)).second)
-                continue;
-        }
+        if (const Material& m = scene.materials[std::size_t(mesh.material)]; m.alphaMode == AlphaMode::opaque
+            && !m.translucent() && !placed.insert({instance.toWorld, first[std::size_t(instance.mesh)]}).second)
+            continue;
         triangles += count;
         Mesh& whole = joined[keyOf(mesh)];
         whole.material = mesh.material;
