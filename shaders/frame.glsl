@@ -78,13 +78,13 @@ cotan_frame frameOf(vec3 n, Differences d, CotanTextureUse use, bool base)
     bool hasCotangents = (draw.flags & COTAN_DRAW_HAS_COTANGENTS) != 0u;
     // A glTF tangent's w makes cross(n, t) * w point along the green of a map, which is against
     // increasing v, as v runs down the image. Our b points along increasing v: hence -w.
-    float handedness = -inTangent.w;
+    float alongV = -inTangent.w;
 #define COTAN_FROM_differences(word) return cotan_frame_##word(n, d.dpdx, d.dpdy, d.duvdx, d.duvdy);
 #define COTAN_FROM_cotangents(word) \
     if (!base) return cotan_frame_cotangent(n, d.dpdx, d.dpdy, d.duvdx, d.duvdy); \
     if (hasCotangents) return cotan_frame_##word(n, inCotangentU, inCotangentV); break;
 #define COTAN_FROM_tangents(word) \
-    if (hasTangents) return cotan_frame_##word(inNormal, inTangent.xyz, handedness); break;
+    if (hasTangents) return cotan_frame_##word(inNormal, inTangent.xyz, alongV); break;
 #define COTAN_FRAME_ROW(number, enumerator, word, source, total, dependsOnView, fused, name, summary) \
     case number: COTAN_FROM_##source(word)
     switch (COTAN_FRAME) {

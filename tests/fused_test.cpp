@@ -101,6 +101,33 @@ TEST_P(FusedIsPlain, toRoundingOnSoundInputOfEveryHandedness)
         }
 }
 
+TEST_P(FusedIsPlain, overTwoUvSetsItIsTheSumOfTheirGradients)
+{
+    constexpr double kStated = 0.01; // degrees, as fused.h says
+    Random random(19);
+    for (int k = 0; k < 4000; ++k) {
+        const Input i = soundInput(random, k & 1, k & 2, GetParam());
+        Input other = soundInput(random, k & 4, k & 2, GetParam());
+        other.duvdx *= 16; // a detail map, its texel in its own sense
+        other.duvdy *= 16;
+        const auto gradientOf = [&](const Input& set) {
+            const f64::cotan_frame f = f64::cotan_frame_cotangent(i.n, i.dpdx, i.dpdy, set.duvdx, set.duvdy);
+            return f64::cotan_gradient_of_slope(f, f64::cotan_slope_of_texel(set.m));
+        };
+        const glm::dvec3 expected =
+            f64::cotan_resolve_gradient(glm::normalize(glm::dvec3(i.n)), gradientOf(i) + gradientOf(other));
+        const f32::cotan_footprint f = f32::cotan_footprint_of(i.n, i.dpdx, i.dpdy);
+        const glm::vec3 found =
+            f32::cotan_perturb_footprint(f,
+                                         f32::cotan_footprint_slope(f, i.duvdx, i.duvdy, i.m)
+                                             + f32::cotan_footprint_slope(f, other.duvdx, other.duvdy, other.m));
+        ASSERT_LT(degreesBetween(expected, found), kStated) << k;
+        ASSERT_NEAR(glm::length(found), 1, 1e-6);
+        const glm::vec3 flat = f32::cotan_perturb_footprint(f, f32::cotan_footprint_slope(f, i.duvdx, i.duvdy, {}));
+        ASSERT_LT(degreesBetween(glm::normalize(glm::dvec3(i.n)), flat), 1e-4) << "an empty texel";
+    }
+}
+
 // Footprints of ten metres, a millimetre, and close to the least area that `gradient` is stated
 // for.
 INSTANTIATE_TEST_SUITE_P(FromLargeToSmall, FusedIsPlain, testing::Values(10.0, 1e-3, 1e-4));

@@ -88,7 +88,7 @@ Case frameCase(const std::string& label, Choice choice, bool drawn = false)
         };
         return c;
     }
-    c.call = made->entry + (readsCotangents(frame) ? "(n, dpdx, dpdy, m)" : "(n, dpdx, 1.0, m)");
+    c.call = made->entry + (readsCotangents(frame) ? "(n, dpdx, dpdy, m)" : "(n, dpdx, -1.0, m)");
     c.expected = [=](const Vectors& v) {
         const glm::dvec3 n(v.n), x(v.dpdx), y(v.dpdy);
         if (fused) // another formula, not the frame to rounding
@@ -100,26 +100,28 @@ Case frameCase(const std::string& label, Choice choice, bool drawn = false)
     return c;
 }
 
-glm::dvec3 ofTwoSets(const Vectors& v, glm::dvec2 otherDx, glm::dvec2 otherDy)
+glm::dvec3 ofTwoSets(Frame frame, const Vectors& v, glm::dvec2 otherDx, glm::dvec2 otherDy)
 {
-    const auto a = f64::cotan_frame_gradient(v.n, v.dpdx, v.dpdy, v.duvdx, v.duvdy);
-    const auto b = f64::cotan_frame_gradient(v.n, v.dpdx, v.dpdy, otherDx, otherDy);
+    const glm::dvec3 n(v.n), dpdx(v.dpdx), dpdy(v.dpdy);
+    const auto a = evaluate(frame, n, dpdx, dpdy, glm::dvec2(v.duvdx), glm::dvec2(v.duvdy));
+    const auto b = evaluate(frame, n, dpdx, dpdy, otherDx, otherDy);
     const glm::dvec2 slope = f64::cotan_slope_of_texel(decoded(v));
     return f64::cotan_resolve_gradient(a.n,
                                        f64::cotan_gradient_of_slope(a, slope) + f64::cotan_gradient_of_slope(b, slope));
 }
 
-Case uvSetsCase(bool drawn = false)
+// `gradient` in its total form, `cotangent` in its fused one.
+Case uvSetsCase(Frame frame, bool drawn = false)
 {
     Choice choice;
-    choice.frame = Frame::gradient;
+    choice.frame = frame;
     choice.uvSets = 2;
-    Case c = frameCase("gradient, two uv sets", choice, drawn);
+    Case c = frameCase(std::string(name(frame)) + ", two uv sets", choice, drawn);
     c.call = drawn ? "cotan_perturb_normal(n, p, uv, m, uv * 3.0, m)"
                    : "cotan_perturb_normal_from_differences(n, dpdx, dpdy, duvdx, duvdy, m, duvdy, duvdx, m)";
-    c.expected = [drawn](const Vectors& v) {
-        return drawn ? ofTwoSets(v, glm::dvec2(v.duvdx) * 3.0, glm::dvec2(v.duvdy) * 3.0)
-                     : ofTwoSets(v, v.duvdy, v.duvdx);
+    c.expected = [frame, drawn](const Vectors& v) {
+        return drawn ? ofTwoSets(frame, v, glm::dvec2(v.duvdx) * 3.0, glm::dvec2(v.duvdy) * 3.0)
+                     : ofTwoSets(frame, v, v.duvdy, v.duvdx);
     };
     return c;
 }
@@ -356,7 +358,8 @@ std::vector<Case> frameCases(bool drawn)
 std::vector<Case> drawnCases()
 {
     std::vector<Case> all = frameCases(true);
-    all.push_back(uvSetsCase(true));
+    for (const Frame frame : {Frame::gradient, Frame::cotangent})
+        all.push_back(uvSetsCase(frame, true));
     return all;
 }
 
@@ -373,7 +376,8 @@ std::vector<Case> casesOfAllLanguages()
                                                                    : "stereographic, 2c - 1",
                                 choice));
     }
-    all.push_back(uvSetsCase());
+    for (const Frame frame : {Frame::gradient, Frame::cotangent})
+        all.push_back(uvSetsCase(frame));
     addLines(all);
     for (Case& lit : litCases())
         all.push_back(std::move(lit));

@@ -276,6 +276,14 @@ TEST(ChosenText, severalUvSetsAreAddedAndCounted)
         EXPECT_EQ(makeShaderText(choice).error().kind, ErrorKind::usage);
     }
     choice.uvSets = 2;
+    choice.form = Form::fused;
+    EXPECT_FALSE(makeShaderText(choice)) << "gradient has no fused form over several";
+    choice.frame = Frame::cotangent;
+    choice.form = {};
+    EXPECT_TRUE(has(textOf(choice), "return cotan_perturb_footprint(footprint, slope0 + slope1);"));
+    choice.form = Form::total;
+    EXPECT_TRUE(has(textOf(choice), "(frame0.n, gradient0 + gradient1);"));
+    choice.form = {};
     for (const Frame from : {Frame::exact, Frame::smooth, Frame::vertex, Frame::mikktspace}) {
         choice.frame = from;
         EXPECT_FALSE(makeShaderText(choice)) << name(from);

@@ -67,7 +67,7 @@ function instructions({ lang, frame }) {
     cotangent: 'Call cotan_perturb_normal once in the pixel stage, before any branch.', orthonormal: 'Call cotan_perturb_normal once in the pixel stage, before any branch.',
     triangle: 'Make the two vectors of a triangle where triangles are at hand (load, vertex, mesh or compute stage), hand them on without interpolation, and call cotan_perturb_normal_on_triangle.',
     smooth: 'Make cotangents at the vertices once (npm cotan, or cotan tangents), interpolate them, and call cotan_perturb_normal_from_vertices.',
-    mikktspace: 'Interpolate normal and tangent as they are, without normalising, and call cotan_perturb_normal_from_vertices.',
+    mikktspace: 'Interpolate normal and tangent as they are, without normalising, and call cotan_perturb_normal_from_gltf_tangent.',
   };
   const space = {
     essl: 'Say "precision highp float; precision highp int;" first.', wgsl: 'Derivatives want uniform control flow: call it before any return or discard.',

@@ -76,8 +76,8 @@ f32::cotan_frame evaluateCotangents(Frame frame, f32::cotan_vec3 n, f32::cotan_v
 f64::cotan_frame evaluateCotangents(Frame frame, f64::cotan_vec3 n, f64::cotan_vec3 u, f64::cotan_vec3 v);
 
 // Evaluates a frame whose source is `tangents`, from an interpolated tangent t; others as above.
-// handedness: handedness * cross(n, t) points along increasing v. For a glTF TANGENT it is -w.
-f32::cotan_frame evaluateTangents(Frame frame, f32::cotan_vec3 n, f32::cotan_vec3 t, float handedness);
-f64::cotan_frame evaluateTangents(Frame frame, f64::cotan_vec3 n, f64::cotan_vec3 t, double handedness);
+// alongV: alongV * cross(n, t) points along increasing v. For a glTF TANGENT it is -w.
+f32::cotan_frame evaluateTangents(Frame frame, f32::cotan_vec3 n, f32::cotan_vec3 t, float alongV);
+f64::cotan_frame evaluateTangents(Frame frame, f64::cotan_vec3 n, f64::cotan_vec3 t, double alongV);
 
 } // namespace cotan

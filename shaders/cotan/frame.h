@@ -283,33 +283,33 @@ COTAN_FUNCTION cotan_frame cotan_frame_smooth(cotan_vec3 n, cotan_vec3 t, cotan_
 }
 
 // `vertex`: the classic way. Per-vertex tangent and normal, interpolated, made orthonormal again per
-// pixel; the bitangent is handedness * n x t. Total; n need not be unit, f.n is.
-//   t            interpolated tangent, any length
-//   handedness   +1 or -1, such that handedness * n x t points along +v. glTF's TANGENT.w is the
-//                negative of it: there w * n x t points up the image, and v runs down
+// pixel; the bitangent is alongV * n x t. Total; n need not be unit, f.n is.
+//   t        interpolated tangent, any length
+//   alongV   +1 or -1, such that alongV * n x t points along +v. For a glTF TANGENT pass -w: there
+//            w * n x t points up the image, and v runs down
 // Degenerate input: a tangent that vanishes or is parallel to n gives t = b = 0.
-COTAN_FUNCTION cotan_frame cotan_frame_vertex(cotan_vec3 n, cotan_vec3 t, cotan_real handedness)
+COTAN_FUNCTION cotan_frame cotan_frame_vertex(cotan_vec3 n, cotan_vec3 t, cotan_real alongV)
 {
     cotan_vec3 zero = cotan_vec3(cotan_real(0.0), cotan_real(0.0), cotan_real(0.0));
     cotan_frame f;
     f.n = cotan_safe_normal(n, zero, zero);
     t = cotan_normalize_or(t, zero);
     f.t = cotan_normalize_or(t - f.n * dot(t, f.n), zero);
-    f.b = cross(f.n, f.t) * handedness;
+    f.b = cross(f.n, f.t) * alongV;
     return f;
 }
 
 // `mikktspace`: as MikkTSpace wants its tangents used: interpolated n and t not renormalised, the
-// bitangent handedness * n x t per pixel. cotan_apply normalises the result.
-//   n, t   interpolated, not normalised
+// bitangent alongV * n x t per pixel. cotan_apply normalises the result.
+//   n, t     interpolated, not normalised
+//   alongV   as of cotan_frame_vertex: for a glTF TANGENT it is -w
 // Degenerate input: zero in, zero out; cotan_apply then returns n as given.
 // Source: M. Mikkelsen, mikktspace.h.
-COTAN_FUNCTION cotan_frame cotan_frame_mikktspace(
-    cotan_vec3 n, cotan_vec3 t, cotan_real handedness)
+COTAN_FUNCTION cotan_frame cotan_frame_mikktspace(cotan_vec3 n, cotan_vec3 t, cotan_real alongV)
 {
     cotan_frame f;
     f.t = t;
-    f.b = cross(n, t) * handedness;
+    f.b = cross(n, t) * alongV;
     f.n = n;
     return f;
 }

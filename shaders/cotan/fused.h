@@ -137,6 +137,62 @@ COTAN_FUNCTION cotan_vec3 cotan_perturb_orthonormal(
     return v * cotan_inversesqrt(dot(v, v));
 }
 
+// ---- over several uv sets -----------------------------------------------------------------------
+//
+// `cotangent` with maps over several uv sets: their bumps add as surface gradients. Equal to cotan_resolve_gradient
+// of the sum of cotan_gradient_of_slope (gradient.h) to rounding, for input as above:
+//     cotan_footprint f = cotan_footprint_of(n, dpdx, dpdy);
+//     cotan_vec2 slopes = cotan_footprint_slope(f, duv0dx, duv0dy, m0) + cotan_footprint_slope(f, duv1dx, duv1dy, m1);
+//     cotan_vec3 r = cotan_perturb_footprint(f, slopes);
+// How: t = along_x duvdx.u + along_y duvdy.u, and b with v. Only their lengths differ between the sets, and these
+// follow from three products of the two vectors, which are worked out once.
+
+struct cotan_footprint {
+    cotan_vec3 n;
+    cotan_vec3 along_x;
+    cotan_vec3 along_y;
+    cotan_real xx; // dot(along_x, along_x)
+    cotan_real xy; // twice dot(along_x, along_y)
+    cotan_real yy; // dot(along_y, along_y)
+    cotan_real scale; // the length of n, with the sign of n . (dpdx x dpdy)
+};
+
+// What all uv sets share.
+//   n            interpolated normal, any length
+//   dpdx, dpdy   differences of position, in the space of n
+COTAN_FUNCTION cotan_footprint cotan_footprint_of(cotan_vec3 n, cotan_vec3 dpdx, cotan_vec3 dpdy)
+{
+    cotan_footprint f;
+    f.n = n;
+    f.along_x = cross(dpdy, n);
+    f.along_y = cross(n, dpdx);
+    f.xx = dot(f.along_x, f.along_x);
+    f.xy = cotan_real(2.0) * dot(f.along_x, f.along_y);
+    f.yy = dot(f.along_y, f.along_y);
+    f.scale = cotan_copy_sign(sqrt(dot(n, n)), dot(dpdx, f.along_x));
+    return f;
+}
+
+// The slope of one map along the two vectors of the footprint; slopes of several maps add. Held at 128 as by
+// cotan_slope_of_texel.
+//   duvdx, duvdy   differences of this uv set
+//   m              decoded texel of its map, any length; m = 0 gives 0
+COTAN_FUNCTION cotan_vec2 cotan_footprint_slope(cotan_footprint f, cotan_vec2 duvdx, cotan_vec2 duvdy, cotan_vec3 m)
+{
+    cotan_real t2 = duvdx.x * (f.xx * duvdx.x + f.xy * duvdy.x) + f.yy * duvdy.x * duvdy.x;
+    cotan_real b2 = duvdx.y * (f.xx * duvdx.y + f.xy * duvdy.y) + f.yy * duvdy.y * duvdy.y;
+    cotan_real z = max(m.z, max(abs(m.x), abs(m.y)) * cotan_real(1.0 / 128.0));
+    cotan_real scale = cotan_inversesqrt(max(max(t2, b2) * (z * z), cotan_real(1e-33)));
+    return cotan_vec2(duvdx.x * m.x + duvdx.y * m.y, duvdy.x * m.x + duvdy.y * m.y) * scale;
+}
+
+// The perturbed normal, unit, of the sum of the slopes.
+COTAN_FUNCTION cotan_vec3 cotan_perturb_footprint(cotan_footprint f, cotan_vec2 slopes)
+{
+    cotan_vec3 v = f.n + (f.along_x * slopes.x + f.along_y * slopes.y) * f.scale;
+    return v * cotan_inversesqrt(dot(v, v));
+}
+
 // ---- from vectors that a triangle or its vertices hold ---------------------------------------
 //
 // No differences: U and V come from another stage, so only the pixel's part is priced here. Sound for n

@@ -81,12 +81,12 @@ template<class Vec3> auto fromCotangents(Frame frame, Vec3 n, Vec3 u, Vec3 v)
     return plain(n);
 }
 
-template<class Vec3, class Real> auto fromTangents(Frame frame, Vec3 n, Vec3 t, Real handedness)
+template<class Vec3, class Real> auto fromTangents(Frame frame, Vec3 n, Vec3 t, Real alongV)
 {
     COTAN_BOTH_PRECISIONS;
     switch (frame) {
 #define COTAN_FROM_cotangents(word) break
-#define COTAN_FROM_tangents(word) return cotan_frame_##word(n, t, handedness)
+#define COTAN_FROM_tangents(word) return cotan_frame_##word(n, t, alongV)
 #define COTAN_FRAME_ROW COTAN_FRAME_CASE
 #include "cotan/frames.inc"
     }
@@ -136,14 +136,14 @@ f64::cotan_frame evaluateCotangents(Frame frame, f64::cotan_vec3 n, f64::cotan_v
     return fromCotangents(frame, n, u, v);
 }
 
-f32::cotan_frame evaluateTangents(Frame frame, f32::cotan_vec3 n, f32::cotan_vec3 t, float handedness)
+f32::cotan_frame evaluateTangents(Frame frame, f32::cotan_vec3 n, f32::cotan_vec3 t, float alongV)
 {
-    return fromTangents(frame, n, t, handedness);
+    return fromTangents(frame, n, t, alongV);
 }
 
-f64::cotan_frame evaluateTangents(Frame frame, f64::cotan_vec3 n, f64::cotan_vec3 t, double handedness)
+f64::cotan_frame evaluateTangents(Frame frame, f64::cotan_vec3 n, f64::cotan_vec3 t, double alongV)
 {
-    return fromTangents(frame, n, t, handedness);
+    return fromTangents(frame, n, t, alongV);
 }
 
 } // namespace cotan

@@ -18,22 +18,22 @@ std::string fromVertices(Frame frame, Form form)
 {
     const bool covectors = readsCotangents(frame);
     const std::string arguments =
-        covectors ? "cotan_vec3 cotangent, cotan_vec3 cobitangent" : "cotan_vec3 tangent, cotan_real handedness";
+        covectors ? "cotan_vec3 cotangent, cotan_vec3 cobitangent" : "cotan_vec3 tangent, cotan_real w";
     const std::string what = covectors
         ? std::string(
               "// cotangent, cobitangent: covectors averaged at the vertices, interpolated, in normal's space.\n")
             + (form == Form::fused
                    ? "// At the vertices the normal has length 1, and so has the longer of the two covectors.\n"
                    : "")
-        : "// tangent: interpolated, in normal's space. handedness: +1 or -1, such that\n"
-          "// handedness * cross(normal, tangent) points along +v (for glTF: -TANGENT.w).\n";
+        : "// tangent, w: glTF's TANGENT; its xyz interpolated, in normal's space. w, +1 or -1, is what glTF stores:\n"
+          "// w * cross(normal, tangent) points against +v. Where yours points along +v, pass its negative.\n";
     const std::string head = fill("// The perturbed normal, unit.\n"
                                   "// normal: interpolated.\n{}"
                                   "// texel: the normal map as sampled.\n"
                                   "COTAN_FUNCTION cotan_vec3 {}(cotan_vec3 normal, {}, cotan_vec3 texel)\n{{\n"
                                   "    cotan_vec3 m = cotan_decode(texel);\n",
-                                  what, kVertexEntry, arguments);
-    const std::string attributes = covectors ? "cotangent, cobitangent" : "tangent, handedness";
+                                  what, entryOf(frame), arguments);
+    const std::string attributes = covectors ? "cotangent, cobitangent" : "tangent, -w";
     if (form == Form::fused)
         return fill("{}    return cotan_perturb_{}(normal, {}, m);\n}}\n", head, functionWord(frame), attributes);
     return fill("{}    cotan_frame frame = cotan_frame_{}(normal, {});\n"
@@ -142,7 +142,15 @@ std::string perSet(int sets, std::string_view pattern)
     return text;
 }
 
-std::string fromSeveralSets(Frame frame, int sets)
+std::string sumOfSets(int sets, std::string_view word)
+{
+    std::string sum = fill("{}0", word);
+    for (int k = 1; k < sets; ++k)
+        sum += fill(" + {}{}", word, k);
+    return sum;
+}
+
+std::string fromSeveralSets(Frame frame, Form form, int sets)
 {
     std::string text =
         fill("// The perturbed normal, unit: the bumps of {} normal maps, each over a uv set of its own,\n"
@@ -151,19 +159,22 @@ std::string fromSeveralSets(Frame frame, int sets)
              "// dpdx, dpdy: differences of position along any two directions, in normal's space.\n"
              "// duvKdx, duvKdy: differences of uv set K along the same two.\n"
              "// texelK: its normal map as sampled.\n"
-             "COTAN_FUNCTION cotan_vec3 {}(cotan_vec3 normal, cotan_vec3 dpdx, cotan_vec3 dpdy{})\n{{\n"
-             "    cotan_vec3 n = {};\n",
-             sets, kEntry, perSet(sets, ", cotan_vec2 duv{0}dx, cotan_vec2 duv{0}dy, cotan_vec3 texel{0}"),
-             normalFor(frame));
+             "COTAN_FUNCTION cotan_vec3 {}(cotan_vec3 normal, cotan_vec3 dpdx, cotan_vec3 dpdy{})\n{{\n",
+             sets, kEntry, perSet(sets, ", cotan_vec2 duv{0}dx, cotan_vec2 duv{0}dy, cotan_vec3 texel{0}"));
+    if (form == Form::fused) {
+        text += "    cotan_footprint footprint = cotan_footprint_of(normal, dpdx, dpdy);\n";
+        text += perSet(sets,
+                       "    cotan_vec2 slope{0} = "
+                       "cotan_footprint_slope(footprint, duv{0}dx, duv{0}dy, cotan_decode(texel{0}));\n");
+        return text + fill("    return cotan_perturb_footprint(footprint, {});\n}}\n", sumOfSets(sets, "slope"));
+    }
+    text += fill("    cotan_vec3 n = {};\n", normalFor(frame));
     for (int k = 0; k < sets; ++k)
         text += fill("    cotan_frame frame{0} = cotan_frame_{1}(n, dpdx, dpdy, duv{0}dx, duv{0}dy);\n"
                      "    cotan_vec3 gradient{0} = cotan_gradient_of_slope(frame{0}, "
                      "cotan_slope_of_texel(cotan_decode(texel{0})));\n",
                      k, functionWord(frame));
-    std::string sum = "gradient0";
-    for (int k = 1; k < sets; ++k)
-        sum += fill(" + gradient{}", k);
-    return text + fill("    return cotan_resolve_gradient(frame0.n, {});\n}}\n", sum);
+    return text + fill("    return cotan_resolve_gradient(frame0.n, {});\n}}\n", sumOfSets(sets, "gradient"));
 }
 
 std::string fromScreen(int sets, Form form)
@@ -202,8 +213,8 @@ std::string functionWord(Frame frame) { return std::string(info(frame).word); }
 std::string entryOf(Frame frame)
 {
     switch (info(frame).source) {
-    case FrameSource::cotangents:
-    case FrameSource::tangents: return kVertexEntry;
+    case FrameSource::cotangents: return kVertexEntry;
+    case FrameSource::tangents: return kTangentEntry;
     case FrameSource::triangle: return kEdgeEntry;
     case FrameSource::differences: break;
     }
@@ -237,7 +248,7 @@ std::string entryText(const Choice& choice, Form form)
     if (choice.frame == Frame::triangle && form == Form::fused)
         return ofTriangle(choice);
     std::string text =
-        choice.uvSets == 1 ? fromDifferences(choice.frame, form) : fromSeveralSets(choice.frame, choice.uvSets);
+        choice.uvSets == 1 ? fromDifferences(choice.frame, form) : fromSeveralSets(choice.frame, form, choice.uvSets);
     if (hasScreenEntry(choice))
         text += fromScreen(choice.uvSets, form);
     if (hasScreenEntry(choice) && choice.language == Language::godot)

@@ -8,6 +8,7 @@ namespace cotan::shader_text {
 inline constexpr const char* kEntry = "cotan_perturb_normal_from_differences";
 inline constexpr const char* kEdgeEntry = "cotan_perturb_normal_from_edges";
 inline constexpr const char* kVertexEntry = "cotan_perturb_normal_from_vertices";
+inline constexpr const char* kTangentEntry = "cotan_perturb_normal_from_gltf_tangent";
 inline constexpr const char* kScreenEntry = "cotan_perturb_normal";
 
 // The entry's name for a frame.

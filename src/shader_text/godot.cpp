@@ -23,7 +23,7 @@ std::string perturbed(const Choice& choice, const std::string& normal)
     if (readsCotangents(choice.frame))
         return fill("{}({}, cotan_u, cotan_v, {})", kVertexEntry, normal, texel);
     if (readsVertices(choice.frame))
-        return fill("{}({}, TANGENT, handedness, {})", kVertexEntry, normal, texel);
+        return fill("{}({}, TANGENT, w, {})", kTangentEntry, normal, texel);
     if (choice.uvSets == 1)
         return fill("{}({}, VERTEX, UV, {})", kScreenEntry, normal, texel);
     return fill("{}({}, VERTEX, UV, {}, UV2,\n        texture(normal_map2, UV2).xyz)", kScreenEntry, normal, texel);
@@ -98,8 +98,8 @@ std::string fragment(const Choice& choice)
         text += "    // FRONT_FACING says the opposite where the transform mirrors.\n"
                 "    float side = FRONT_FACING ? cotan_side : -cotan_side;\n";
     if (readsTangents(choice.frame))
-        text += fill("    // BINORMAL points up the image, +v down.\n"
-                     "    float handedness = dot(cross({}, TANGENT), BINORMAL) < 0.0 ? 1.0 : -1.0;\n",
+        text += fill("    // BINORMAL points up the image, as glTF's bitangent does.\n"
+                     "    float w = dot(cross({}, TANGENT), BINORMAL) < 0.0 ? -1.0 : 1.0;\n",
                      normal);
     return fill("{}    NORMAL = {}{};\n}}\n", text, perturbed(choice, normal), choice.twoSided ? " * side" : "");
 }

@@ -73,9 +73,9 @@ std::string call(const Choice& choice, Form form)
     const std::string scope = l == Language::cpp ? "cotan_shader::" : "";
     if (readsVertices(choice.frame))
         return declared(l,
-                        scope + kVertexEntry
+                        scope + entryOf(choice.frame)
                             + (readsCotangents(choice.frame) ? "(normal, cotangent, cobitangent, "
-                                                             : "(normal, tangent, handedness, ")
+                                                             : "(normal, tangent.xyz, tangent.w, ")
                             + std::string(sample(l)) + ")");
     if (choice.frame == Frame::triangle && l == Language::godot && form == Form::fused)
         return declared(l, "cotan_perturb_normal_on_triangle(normal, u, v, " + std::string(sample(l)) + ")");

@@ -98,11 +98,12 @@ Result<Form> formOf(const Choice& choice)
         return usageError(fill("the form {}: expected the frame cotangent over one uv set in another language than "
                                "Godot's; found the frame {}, {} uv sets, {}",
                                name(*choice.form), name(choice.frame), choice.uvSets, name(choice.language)));
-    if (choice.form == Form::fused && (several || !hasFusedForm(choice.frame)))
+    const bool hasFused = several ? choice.frame == Frame::cotangent : hasFusedForm(choice.frame);
+    if (choice.form == Form::fused && !hasFused)
         return usageError(
-            several ? std::string("the fused form has one uv set; for several, the form is total")
+            several ? fill("the fused form over several uv sets: expected cotangent; found '{}'", name(choice.frame))
                     : fill("the fused form: expected {}; found '{}'", fusedFrameNames(" or "), name(choice.frame)));
-    const bool fusedByItself = !several && hasFusedForm(choice.frame) && !readsVertices(choice.frame);
+    const bool fusedByItself = hasFused && !readsVertices(choice.frame);
     const Form form = choice.form ? *choice.form : fusedByItself ? Form::fused : Form::total;
     if (choice.stage != Stage::all && (choice.frame != Frame::triangle || form != Form::fused))
         return usageError("a stage: expected the frame triangle in its fused form; found another");
