@@ -4,7 +4,8 @@
 // vertices are read, barycentrics and their change to the next pixels follow from the rays, and the map is
 // sampled with the gradients of uv. Then one row of rows.h (named by COST_ROW). The mesh is relative to the
 // camera. With COST_TANGENT a stored tangent is read from the three vertices, with COST_COTANGENTS two
-// cotangents; with COST_TRIANGLE U and V are made from the edges at hand, with COST_TRIANGLE_READ read.
+// cotangents; with COST_TRIANGLE U and V are made from the edges at hand, with COST_TRIANGLE_READ read; with
+// COST_EDGES the edges stand for the differences.
 #define COTAN_LANG_GLSL
 #include "cotan/lang.h"
 #include "cotan/normal.h"
@@ -56,10 +57,18 @@ void main()
     vec3 n2 = normalOf(v2);
     cost_inputs i;
     i.n = n0 * (1.0 - at.x - at.y) + n1 * at.x + n2 * at.y;
-    i.duvdx = d1 * atX.x + d2 * atX.y;
-    i.duvdy = d1 * atY.x + d2 * atY.y;
+    vec2 uvX = d1 * atX.x + d2 * atX.y;
+    vec2 uvY = d1 * atY.x + d2 * atY.y;
+    i.duvdx = uvX;
+    i.duvdy = uvY;
     i.dpdx = e1 * atX.x + e2 * atX.y;
     i.dpdy = e1 * atY.x + e2 * atY.y;
+#ifdef COST_EDGES
+    i.dpdx = e1;
+    i.dpdy = e2;
+    i.duvdx = d1;
+    i.duvdy = d2;
+#endif
 #ifdef COST_TANGENT
     i.tangent = tangentOf(v0) * (1.0 - at.x - at.y) + tangentOf(v1) * at.x + tangentOf(v2) * at.y;
 #endif
@@ -79,7 +88,7 @@ void main()
     i.triangle_u = cotan_unpack_triangle_u(packed);
     i.triangle_v = cotan_unpack_triangle_v(packed);
 #endif
-    i.m = textureGrad(normalMap, uv0 + d1 * at.x + d2 * at.y, i.duvdx, i.duvdy).xyz * 2.0 - 1.0;
+    i.m = textureGrad(normalMap, uv0 + d1 * at.x + d2 * at.y, uvX, uvY).xyz * 2.0 - 1.0;
     vec3 color = COST_ROW(i) * 0.5 + 0.5;
     pixels[pixel] = uvec2(packHalf2x16(color.xy), packHalf2x16(vec2(color.z, 1.0)));
 }

@@ -15,6 +15,7 @@
 #include "resolve_cotangent_fused.h"
 #include "resolve_floor.h"
 #include "resolve_mikktspace.h"
+#include "resolve_orthonormal_edges.h"
 #include "resolve_smooth_fused.h"
 #include "resolve_triangle_fused.h"
 #include "resolve_triangle_read.h"
@@ -48,6 +49,7 @@ const std::vector<Stage>& otherStages()
         {K::resolve, "triangle-read", 0, 0, kPixel + kHalfs, resolve_triangle_read, {}},
         {K::resolve, "triangle-fused", 0, 0, kPixel, resolve_triangle_fused, {}},
         {K::resolve, "cotangent-fused", 0, 0, kPixel, resolve_cotangent_fused, {}},
+        {K::resolve, "orthonormal-edges", 0, 0, kPixel, resolve_orthonormal_edges, {}},
     };
     return list;
 }
