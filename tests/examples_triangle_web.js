@@ -138,10 +138,11 @@ async function webgpu() {
   device.onuncapturederror = e => { throw new Error(e.error.message); };
   const usage = GPUTextureUsage.RENDER_ATTACHMENT | GPUTextureUsage.COPY_SRC;
   const target = device.createTexture({ size: [width, height], format: 'rgba32float', usage });
-  const found = await errorsOf(['provoking'], 'first', modelNames, oddCount, async () => {
-    draw(target, true, 'nearest');
+  const found = await errorsOf(ways(), 'first', modelNames, oddCount, async way => {
+    draw(target, true, 'nearest', way);
     return upwards(new Float32Array(await bytesOf(target, 16)));
   });
+  found.ways = ways();
   load(sheets('first'));
   loadMap(map, mapSize);
   found.canvas = await canvasErrors(usage);

@@ -74,10 +74,9 @@ void writeModel(const TemporaryFolder& folder, const std::string& name, Mesh mes
     write(folder / (name + ".normals"), rowsFromTheBottom(*normals));
 }
 
-// What the page reports, or why it does not.
-json reportOf(const std::string& page)
+// What tests/examples_triangle_web.js fetches; the names of the models.
+json writeModels(const TemporaryFolder& folder)
 {
-    TemporaryFolder folder;
     const Image map = makeReliefMap(Relief::domes, 128);
     write(folder / "map.bytes", std::string(reinterpret_cast<const char*>(map.data.data()), map.data.size()));
     json names = {"teapot"};
@@ -92,6 +91,14 @@ json reportOf(const std::string& page)
         writeOddModel(folder / ("odd" + std::to_string(k) + ".gltf"), oddModels()[k]);
         writeProvoking(folder, "odd" + std::to_string(k) + ".gltf");
     }
+    return names;
+}
+
+// What the page reports, or why it does not.
+json reportOf(const std::string& page)
+{
+    TemporaryFolder folder;
+    const json names = writeModels(folder);
     write(folder / "model.js", readWhole(kWeb + "/model.js"));
     write(folder / "page.html",
           readWhole(kWeb + "/" + page + ".html") + "<script>\nconst measuredPage = '" + page
@@ -143,6 +150,23 @@ void expectPage(const json& page, const std::vector<std::string>& ways)
     }
 }
 
+void expectCanvas(const json& page)
+{
+    // On the page's own canvas: halfs of U and V, and of the canvas, may turn a normal by 0.03 degrees each.
+    ASSERT_TRUE(page.contains("canvas")) << page;
+    for (const char* side : {"front", "back"}) {
+        const json& found = page["canvas"]["sheets"][side];
+        EXPECT_GT(found["count"].get<int>(), 2000);
+        ASSERT_TRUE(found["worst"].is_number());
+        EXPECT_LT(found["worst"].get<double>(), 0.06) << side;
+        ::testing::Test::RecordProperty(side, found["worst"].dump());
+    }
+    // What it shows, in steps of 8 bits: rounding is a half.
+    EXPECT_GT(page["canvas"]["picture"]["count"].get<int>(), 4000);
+    EXPECT_LT(page["canvas"]["picture"]["worst"].get<double>(), 1);
+    ::testing::Test::RecordProperty("steps", page["canvas"]["picture"]["worst"].dump());
+}
+
 TEST(ExampleTriangleWeb, thePastedTextIsWhatTheToolPrintsToday)
 {
     TemporaryFolder folder;
@@ -167,25 +191,33 @@ TEST(ExampleTriangleWeb, normalsInWebGl2AreRightFromFlatVaryingsAndFromDataTextu
     expectPage(page, {"provoking", "read"});
 }
 
-TEST(ExampleTriangleWeb, normalsInWebGpuAreRightFromTheProvokingVertex)
+TEST(ExampleTriangleWeb, normalsInWebGpuAreRightFromTheProvokingVertexAndFromAVisibilityBuffer)
 {
     const json page = reportOf("webgpu");
     if (page.contains("skipped"))
         GTEST_SKIP() << page["skipped"];
-    expectPage(page, {"provoking"});
-    // On the page's own canvas: halfs of U and V, and of the canvas, may turn a normal by 0.03 degrees each.
-    ASSERT_TRUE(page.contains("canvas")) << page;
-    for (const char* side : {"front", "back"}) {
-        const json& found = page["canvas"]["sheets"][side];
-        EXPECT_GT(found["count"].get<int>(), 2000);
-        ASSERT_TRUE(found["worst"].is_number());
-        EXPECT_LT(found["worst"].get<double>(), 0.06) << side;
-        ::testing::Test::RecordProperty(side, found["worst"].dump());
-    }
-    // What it shows, in steps of 8 bits: rounding is a half.
-    EXPECT_GT(page["canvas"]["picture"]["count"].get<int>(), 4000);
-    EXPECT_LT(page["canvas"]["picture"]["worst"].get<double>(), 1);
-    ::testing::Test::RecordProperty("steps", page["canvas"]["picture"]["worst"].dump());
+    const std::vector<std::string> ways = page.value("ways", std::vector<std::string>{});
+    EXPECT_GE(ways.size(), 2u); // and `read` where the browser has the number of the primitive
+    expectPage(page, ways);
+    expectCanvas(page);
+}
+
+// Dawn without a browser: on Mesa 24 and newer it has the number of the primitive, so nothing has to provoke.
+TEST(ExampleTriangleWeb, normalsInDawnAreRightFromTheNumberOfThePrimitive)
+{
+    TemporaryFolder folder;
+    write(folder / "names.json", json{{"modelNames", writeModels(folder)}, {"oddCount", oddModels().size()}}.dump());
+    const std::string command = "node '" COTAN_SOURCE_DIR "/tests/web/triangle_dawn.mjs' '" COTAN_NPM "/node_modules' '"
+        + folder.path().string() + "' > '" + (folder / "out").string() + "' 2> '" + (folder / "err").string() + "'";
+    const int status = std::system(command.c_str());
+    if (WEXITSTATUS(status) == 77)
+        GTEST_SKIP() << readWhole(folder / "out");
+    ASSERT_EQ(status, 0) << readWhole(folder / "err");
+    const json page = json::parse(readWhole(folder / "out"));
+    const auto ways = page.value("ways", std::vector<std::string>{});
+    ASSERT_EQ(ways, (std::vector<std::string>{"provoking", "visibility", "read"})) << page;
+    expectPage(page, ways);
+    expectCanvas(page);
 }
 
 } // namespace

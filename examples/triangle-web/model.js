@@ -21,8 +21,8 @@ function sheets(provoking) {
   return { positions, normals, texcoords, indices: new Uint32Array(indices) };
 }
 
-// The first primitive of a .glb that `cotan convert --provoking first|last` wrote, moved and scaled into view; nodes and
-// materials are not read.
+// The first primitive of a .glb, moved and scaled into view; nodes and materials are not read. provoking: 'first' or 'last'
+// where `cotan convert --provoking` has to have written it.
 function readGlb(buffer, provoking) {
   const view = new DataView(buffer);
   if (buffer.byteLength < 20 || view.getUint32(0, true) !== 0x46546C67) throw new Error('expected a .glb file');
@@ -43,7 +43,7 @@ function readGlb(buffer, provoking) {
     if (attributes[needed] === undefined) throw new Error('the model has no ' + needed);
   const mesh = { positions: read(attributes.POSITION), normals: read(attributes.NORMAL),
                  texcoords: read(attributes.TEXCOORD_0), indices: read(indices) };
-  for (let k = 0; k < mesh.indices.length / 3; ++k)
+  for (let k = 0; provoking && k < mesh.indices.length / 3; ++k)
     if (mesh.indices[3 * k + (provoking === 'last' ? 2 : 0)] !== k)
       throw new Error(`triangle ${k} does not own its ${provoking} vertex: write the model with cotan convert --provoking ${provoking}`);
   const p = mesh.positions, low = [Infinity, Infinity, Infinity], high = [-Infinity, -Infinity, -Infinity];
@@ -53,13 +53,13 @@ function readGlb(buffer, provoking) {
   return mesh;
 }
 
-// Draws the model that is chosen, or says what is wrong with it.
+// Draws the model that is chosen, or says what is wrong with it. provoking: a function that gives the corner, or nothing.
 function drawChosen(provoking, show) {
   document.getElementById('model').onchange = async e => {
     const said = document.getElementById('said');
     said.textContent = '';
     try {
-      load(readGlb(await e.target.files[0].arrayBuffer(), provoking));
+      load(readGlb(await e.target.files[0].arrayBuffer(), provoking()));
       show();
     } catch (problem) {
       said.textContent = problem.message;

@@ -1,5 +1,6 @@
 // The frame `triangle`, delivered in five ways, and `smooth` in three: triangle_example WAY picture.ppm [normals.pfm]
-// [sheets|teapot|MODEL] WAY: provoking, read, smooth, mesh, mesh-smooth, ring, visibility; derivatives for comparison.
+// [sheets|teapot|MODEL]
+// WAY: provoking, read, smooth, mesh, mesh-smooth, ring, visibility, visibility-read; derivatives for comparison.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -27,6 +28,7 @@
 #include "smooth.vert.h"
 #include "visibility.comp.h"
 #include "visibility.frag.h"
+#include "visibility_read.comp.h"
 
 namespace {
 
@@ -60,6 +62,7 @@ const std::vector<Way>& ways()
         {"mesh-smooth", {{S::eMeshEXT, meshlet_smooth_mesh}, {S::eFragment, smooth_frag}}, true, false, true},
         {"ring", {{S::eVertex, smooth_vert}, {S::eFragment, smooth_frag}}, false, false, true},
         {"visibility", {{S::eVertex, plain_vert}, {S::eFragment, visibility_frag}}, false, true},
+        {"visibility-read", {{S::eVertex, plain_vert}, {S::eFragment, visibility_frag}}, false, true},
         {"derivatives", {{S::eVertex, plain_vert}, {S::eFragment, derivatives_frag}}},
     };
     return list;
@@ -109,7 +112,7 @@ Prepared prepare(const Gpu& gpu, const Way& way, const Mesh& given)
         p.indices = makeBuffer(gpu, own.indices);
         std::printf("vertices: %zu, and %zu with a provoking one for each of %zu triangles\n", mesh.positions.size(),
                     own.sources.size(), mesh.indices.size() / 3);
-    } else if (name == "read") {
+    } else if (name == "read" || name == "visibility-read") {
         p.packed = makeBuffer(gpu, cotan::packTriangles(cotan::triangleVectors(view)));
     } else if (name == "smooth") {
         p.sources = makeBuffer(gpu, cotan::packSmooth8(mesh.normals, cotan::smoothCotangents(view)));
@@ -133,8 +136,11 @@ void draw(const Gpu& gpu, const Way& way, const Mesh& mesh, std::vector<float>& 
     const vk::raii::PipelineLayout layout(gpu.device, vk::PipelineLayoutCreateInfo({}, {}, range));
     const vk::raii::Pipeline pipeline = makePipeline(gpu, *layout, way.stages, format, kSize);
     vk::raii::Pipeline resolve{nullptr};
-    if (way.visibility)
-        resolve = makePipeline(gpu, *layout, std::array{Stage{S::eCompute, visibility_comp}}, format, kSize);
+    if (way.visibility) {
+        const bool reads = std::string(way.name) == "visibility-read";
+        const Stage stage{S::eCompute, reads ? std::span<const std::uint32_t>(visibility_read_comp) : visibility_comp};
+        resolve = makePipeline(gpu, *layout, std::array{stage}, format, kSize);
+    }
     vk::raii::Pipeline derive{nullptr};
     if (way.ring && !way.meshShader)
         derive = makePipeline(gpu, *layout, std::array{Stage{S::eCompute, ring_comp}}, format, kSize);
@@ -229,8 +235,8 @@ try {
     if (!way)
         return std::fprintf(
                    stderr,
-                   "usage: triangle_example provoking|read|smooth|mesh|mesh-smooth|ring|visibility|derivatives "
-                   "picture.ppm [normals.pfm] [sheets|teapot|MODEL]\n"),
+                   "usage: triangle_example provoking|read|smooth|mesh|mesh-smooth|ring|visibility|visibility-read|"
+                   "derivatives picture.ppm [normals.pfm] [sheets|teapot|MODEL]\n"),
                1;
     const std::string what = count > 4 ? words[4] : "sheets";
     const Mesh mesh = what == "sheets" ? sheets() : what == "teapot" ? teapot() : model(what);

@@ -2,6 +2,7 @@
 #extension GL_GOOGLE_include_directive : require
 // 4. Resolves the visibility buffer: the triangle is known, so nothing has to be differenced, and there
 // are no quads. Where the ray of the pixel meets the plane of the triangle gives the barycentrics.
+// U and V are made of the edges at hand; with READ, they are read: three words a triangle, made when the mesh was loaded.
 #include "common.glsl"
 layout(local_size_x = 8, local_size_y = 8) in;
 
@@ -29,8 +30,15 @@ void main()
         vec3 normal = n0 * (1.0 - b1 - b2) + n1 * b1 + n2 * b2;
         vec2 uv0 = texcoordOf(v0), d1 = texcoordOf(v1) - uv0, d2 = texcoordOf(v2) - uv0;
         vec2 uv = uv0 + d1 * b1 + d2 * b2;
+#ifdef READ
+        cotan_packed_triangle words =
+            cotan_packed_triangle(draw.packed.at[k], draw.packed.at[k + 1u], draw.packed.at[k + 2u]);
+        vec3 u = cotan_unpack_triangle_u(words), v = cotan_unpack_triangle_v(words);
+#else
         cotan_triangle t = cotan_triangle_of_sound_edges(e1, e2, d1, d2, n0 + n1 + n2);
-        value = seen(cotan_perturb_triangle(normal, t.u, t.v, domes(uv)), normal, ray);
+        vec3 u = t.u, v = t.v;
+#endif
+        value = seen(cotan_perturb_triangle(normal, u, v, domes(uv)), normal, ray);
     }
     for (uint c = 0u; c < 4u; ++c)
         draw.result.at[4u * pixel + c] = value[c];
