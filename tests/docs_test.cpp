@@ -26,11 +26,14 @@ const fs::path kSources = COTAN_SOURCE_DIR;
 
 std::vector<fs::path> documents()
 {
-    std::vector<fs::path> files = {kSources / "README.md", kSources / "CONTRIBUTING.md", kSources / "CHANGELOG.md"};
+    std::vector<fs::path> files = {kSources / "README.md", kSources / "CONTRIBUTING.md", kSources / "SECURITY.md",
+                                   kSources / "CHANGELOG.md"};
     for (const char* folder : {"docs", "examples"})
         for (const auto& entry : fs::recursive_directory_iterator(kSources / folder))
             if (entry.path().extension() == ".md")
                 files.push_back(entry.path());
+    for (const char* package : {"js", "python"})
+        files.push_back(kSources / "bindings" / package / "README.md");
     return files;
 }
 
@@ -113,8 +116,7 @@ TEST(Documents, noLineIsOverTheLimit)
     const std::set<std::string> generated = {"docs/explanation/cost.md", "docs/reference/javascript.md"};
     for (const fs::path& file : documents()) {
         const std::string name = shortName(file);
-        if (generated.contains(name)
-            || (!name.starts_with("docs/") && name != "README.md" && name != "CONTRIBUTING.md"))
+        if (generated.contains(name) || name == "CHANGELOG.md")
             continue;
         std::istringstream text(readWhole(file));
         for (std::string line; std::getline(text, line);)
@@ -124,36 +126,70 @@ TEST(Documents, noLineIsOverTheLimit)
     }
 }
 
-// Words that this project had to itself, outside of code and links: a reader of the field knows the others.
+// A page without its code and the targets of its links.
+std::string proseOf(const fs::path& file)
+{
+    const std::string text = std::regex_replace(readWhole(file), std::regex("```[^`]*```"), "");
+    return std::regex_replace(text, std::regex(R"(`[^`]*`|\]\([^)]*\))"), "");
+}
+
+// Pages that people write: not those made from comments and help texts or by `cotan cost`, nor the change log.
+std::vector<fs::path> writtenPages()
+{
+    const std::set<std::string> others = {"docs/explanation/cost.md",       "docs/reference/c.md",
+                                          "docs/reference/cpp.md",          "docs/reference/javascript.md",
+                                          "docs/reference/command-line.md", "CHANGELOG.md"};
+    std::vector<fs::path> pages = documents();
+    std::erase_if(pages, [&](const fs::path& file) { return others.contains(shortName(file)); });
+    return pages;
+}
+
+struct Wording {
+    const char *pattern, *better;
+};
+
+void expectNone(const fs::path& file, const std::vector<Wording>& wordings)
+{
+    const std::string text = folded(proseOf(file));
+    for (const auto& [pattern, better] : wordings) {
+        std::smatch found;
+        EXPECT_FALSE(std::regex_search(text, found, std::regex(pattern, std::regex::icase)))
+            << shortName(file) << ": '" << found.str() << "'; write " << better;
+    }
+}
+
+// Words that this project had to itself: a reader of the field knows the others.
 TEST(Documents, speakTheTermsOfTheField)
 {
-    const std::vector<std::pair<const char*, const char*>> words = {
-        {R"(\bsurroundings\b)", "environment"},
-        {R"(\b(mend|mends|mended)\b)", "fix"},
-        {R"(\bhot spots?\b)", "problem areas"},
-        {R"(\bturned normals?\b)", "perturbed normal"},
-        {R"(\bstretched highlights?\b)", "anisotropic highlight"},
-        {R"(\b(a|the|this) pictures?\b)", "image"},
-        {R"(\bpictures\b)", "images"},
-        {R"(\bover and over\b)", "loop"},
-        {R"(\bsome [0-9])", "about"},
-        {R"(\bthe house\b)", "architecture"}};
-    // Made from comments and help texts, or by `cotan cost`.
-    const std::set<std::string> elsewhere = {"docs/explanation/cost.md", "docs/reference/c.md", "docs/reference/cpp.md",
-                                             "docs/reference/javascript.md", "docs/reference/command-line.md"};
-    for (const fs::path& file : documents()) {
-        const std::string name = shortName(file);
-        if (elsewhere.contains(name)
-            || (!name.starts_with("docs/") && name != "README.md" && name != "CONTRIBUTING.md"))
-            continue;
-        std::string text = std::regex_replace(readWhole(file), std::regex("```[^`]*```"), "");
-        text = std::regex_replace(text, std::regex(R"(`[^`]*`|\]\([^)]*\))"), "");
-        for (const auto& [word, better] : words) {
-            std::smatch found;
-            EXPECT_FALSE(std::regex_search(text, found, std::regex(word, std::regex::icase)))
-                << name << ": '" << found.str() << "'; the field says '" << better << "'";
-        }
-    }
+    for (const fs::path& file : writtenPages())
+        expectNone(file,
+                   {{R"(\bsurroundings\b)", "environment"},
+                    {R"(\b(mend|mends|mended)\b)", "fix"},
+                    {R"(\bhot spots?\b)", "problem areas"},
+                    {R"(\bturned normals?\b)", "perturbed normal"},
+                    {R"(\bstretched highlights?\b)", "anisotropic highlight"},
+                    {R"(\b(a|the|this) pictures?\b)", "image"},
+                    {R"(\bpictures\b)", "images"},
+                    {R"(\bover and over\b)", "loop"},
+                    {R"(\bsome [0-9])", "about"},
+                    {R"(\bthe house\b)", "architecture"},
+                    {R"(\bnearness\b)", "reversed depth"},
+                    {R"(\b(a share of|shares? of the)\b)", "fraction, percent"},
+                    {R"(\bso (many|much)\b)", "the number"},
+                    {R"(\bthrows? (a|no|the) shadows?\b)", "casts"}});
+}
+
+// Phrases that leave a reader to guess what is meant.
+TEST(Documents, haveNoRiddles)
+{
+    for (const fs::path& file : writtenPages())
+        if (shortName(file) != "docs/project/architecture.md")
+            expectNone(file,
+                       {{R"(\bof which\b)", "a sentence of its own"},
+                        {R"(\bwhat (it|they) (was|were) (given|told)\b)", "the name of the input"},
+                        {R"(\bnobody (knows|would)\b)", "what is unknown"},
+                        {R"(\bshuts out\b)", "what is excluded, and by what"},
+                        {R"([.!?] Of the )", "the subject first"}});
 }
 
 TEST(Documents, everyPictureIsSmallAndShownSomewhere)
