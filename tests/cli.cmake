@@ -16,7 +16,7 @@ cotan_test(help_test
   LIBRARIES cotan_app cotan_shapes fmt::fmt)
 target_compile_definitions(help_test PRIVATE COTAN_TOOL="$<TARGET_FILE:cotan>")
 add_dependencies(help_test cotan)
-# A few commands under every fault; the whole table is in docs/project/testing.md.
+# A few commands under every fault; the whole table is in docs/project/robustness.md.
 add_test(NAME Faults.quick COMMAND ${PROJECT_SOURCE_DIR}/scripts/try-faults --quick $<TARGET_FILE:cotan>)
 set_tests_properties(Faults.quick PROPERTIES TIMEOUT 300)
 # What docs/reference/json.md says of reports, against the reports.

@@ -132,6 +132,15 @@ TEST(Tutorials, theWebPagesProgramIsTheOneThatThePackageShows)
     const auto blocks = blocksOf(page, "js");
     ASSERT_EQ(blocks.size(), 1u);
     EXPECT_NE(readme.find(blocks[0]), std::string::npos);
+    // And so are the lines that need npm, but for where the package lies.
+    std::size_t lines = 0;
+    for (const std::string& block : blocksOf(page, "console")) {
+        std::istringstream stream(
+            std::regex_replace(std::regex_replace(block, std::regex("/path/to/"), "./"), std::regex(" +#.*"), ""));
+        for (std::string line; std::getline(stream, line); ++lines)
+            EXPECT_NE(readme.find(line), std::string::npos) << line;
+    }
+    EXPECT_GE(lines, 5u);
 }
 
 TEST(Tutorials, theShaderOfThePageCompiles)

@@ -1,4 +1,4 @@
-// What is found of a normal map, and the mended file.
+// What is found of a normal map, and the fixed file.
 import { choice, degrees, download, el, percent, table } from './elements.js';
 import { cotan } from './library.js';
 import { divider } from './divider.js';
@@ -18,13 +18,13 @@ export async function showMap(result, name, picture) {
   const preview = mapView({ essl, wgsl }, { 'aria-label': 'The map as relief, lit from where the pointer is' });
   preview.put('before', picture);
   const words = greenWords(green, info), verdict = el('p', {}), advice = el('p', {});
-  const button = el('button', { type: 'button', class: 'main', onclick: save }, 'Download the mended map');
+  const button = el('button', { type: 'button', class: 'main', onclick: save }, 'Download the fixed map');
   const command = el('code', {});
   const inThree = el('p', { class: 'small', hidden: true }, 'Without a new file, in three.js: ', el('code', { 'data-paste': '' }, 'material.normalScale.y *= -1;'));
   const known = green.green !== 'unknown', isDown = green.green === 'down';
   let target = isDown ? 'gltf' : 'unreal', mended;
   const engine = choice('Your engine reads', kEngines, target, value => { target = value; mend(); });
-  const halves = divider(preview.element, share => preview.show(share), ['as it is', 'mended']);
+  const halves = divider(preview.element, share => preview.show(share), ['as it is', 'fixed']);
 
   const from = `${isDown ? 'directx' : 'opengl'}${info.zero === 127 ? ',biased' : ''}`;
   const newName = () => `${name.replace(/\.[^.]*$/, '')}_${target}.png`;
@@ -53,15 +53,15 @@ export async function showMap(result, name, picture) {
       table('What the numbers of the map say', rows(name, picture, green, info)),
       !known ? undefined : el('p', { class: 'small' }, 'On the command line: ', command), inThree),
     el('figure', { class: 'view' }, preview.element, halves.element,
-      el('figcaption', {}, 'Move the pointer over the picture to move the light. Left: the map as your engine reads it now.'))));
+      el('figcaption', {}, 'Move the pointer over the image to move the light. Left: the map as your engine reads it now.'))));
   await Promise.all([mend(), preview.ready]);
 }
 
 function greenWords({ green, confidence, swapped, reason }, info) {
-  if (green === 'unknown') return `Which way green points cannot be told from this picture${reason ? `: ${reason}` : ''}.`;
+  if (green === 'unknown') return `Nothing in this map shows which way green points${reason ? `: ${reason}` : ''}.`;
   const way = green === 'up' ? 'up (OpenGL, glTF, Unity, Blender, Godot)' : 'down (DirectX, Unreal, 3ds Max, Source)';
   return `Green points ${way}; ${confidence}.${swapped ? ' Red and green are exchanged.' : ''}${info.transfer !== 'linear'
-    ? ' The numbers look as if the map had been taken for a colour (sRGB) on its way: export it as data, or "non-colour".' : ''}`;
+    ? ' The numbers look as if a program had stored the map as a colour (sRGB): export it as data, or "non-colour".' : ''}`;
 }
 
 function rows(name, { width, height, bits, data }, { agreement, green }, info) {
@@ -69,8 +69,8 @@ function rows(name, { width, height, bits, data }, { agreement, green }, info) {
     ['file', `${name}, ${width} x ${height}, ${bits} bits`],
     ['what it is', info.content],
     ['agreement of green with its verdict', green !== 'unknown' ? Math.abs(agreement).toFixed(2) : undefined],
-    ['blue', hasBlue(data) ? 'three channels: z is stored' : 'two channels: z has to be found from x and y'],
-    ['what stands for zero', info.zero === 128 ? '128 of 255' : info.zero === 127 ? '127.5 of 255 (2c − 1)' : 'cannot be told'],
+    ['blue', hasBlue(data) ? 'three channels: z is stored' : 'two channels: z is computed from x and y'],
+    ['what stands for zero', info.zero === 128 ? '128 of 255' : info.zero === 127 ? '127.5 of 255 (2c − 1)' : 'unknown'],
     ['colour or data', info.transfer === 'srgb' ? 'stored as if it were a colour (sRGB)' : info.transfer === 'linearised' ? 'as if a reader had taken it for a colour' : 'data'],
     ['mean tilt from flat', degrees(info.meanTilt)],
     ['background', info.background > 0 ? percent(info.background) : undefined],

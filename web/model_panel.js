@@ -9,7 +9,7 @@ const kFrames = {
   tangents: 'stored tangents', auto: 'auto: as the maps were made', orthonormal: 'orthonormal (nothing stored)', cotangent: 'cotangent (nothing stored)',
   smooth: 'smooth (cotangents at the vertices)', triangle: 'triangle (two vectors a triangle)',
 };
-const kMapsAfter = { '': 'as they are where that is near enough', orthonormal: 'made anew for orthonormal', cotangent: 'made anew for cotangent', smooth: 'made anew for smooth' };
+const kMapsAfter = { '': 'as they are where that is near enough', orthonormal: 'made again for orthonormal', cotangent: 'made again for cotangent', smooth: 'made again for smooth' };
 const kScales = { 2: '0 to 2°', 10: '0 to 10°', 45: '0 to 45°' };
 let open; // the view on screen: there is one at a time
 
@@ -29,7 +29,7 @@ export async function showModel(result, files) {
   const mode = el('input', { type: 'checkbox', onchange: () => { view.angle = mode.checked; scale.hidden = !mode.checked; } });
   const scaleChoice = choice('Colours', kScales, '10', value => { view.most = Number(value); });
   const scale = el('div', { hidden: true }, el('div', { class: 'scale' }), scaleChoice.element);
-  const saved = el('p', { role: 'status' }), button = el('button', { type: 'button', class: 'main', onclick: convert }, wrongGreen(lint).length > 0 ? 'Mend green and download' : 'Convert and download');
+  const saved = el('p', { role: 'status' }), button = el('button', { type: 'button', class: 'main', onclick: convert }, wrongGreen(lint).length > 0 ? 'Fix green and download' : 'Convert and download');
   const to = choice('Its normal maps', kMapsAfter, '', () => {});
 
   result.replaceChildren(el('div', { class: 'result' },
@@ -104,7 +104,7 @@ function verdictOf(lint, name) {
     : green && reversed ? 'Green and the stored tangents are both reversed: together they are right, each alone is not.'
       : green ? 'Green of a normal map points the other way than the model says: bumps look like dents.'
         : distrusted ? `Its stored tangents contradict its texture coordinates${reversed ? ': without them green is read as they mean it' : ''}.`
-          : changes ? `Without stored tangents its maps are to be made anew for the frame ${lint.advice}.`
+          : changes ? `Without stored tangents its maps have to be made again for the frame ${lint.advice}.`
             : lint.advice ? `It needs no stored tangents: its maps are read as they are, with the frame ${lint.advice}.`
               : 'Of its normal maps nothing was judged as a whole.';
   const off = frame => {
@@ -145,7 +145,7 @@ function checkOf(lint, name, library) {
 function savedWords({ report, unpacked }) {
   const made = report.maps.filter(map => !map.kept), off = made.map(map => map.degrees_after_rounding?.mean).filter(mean => typeof mean === 'number');
   const { before, after } = report.bytes, mended = report.green_mended ?? [];
-  return `${mended.length > 0 ? `Green of ${mended.join(', ')} is turned; ` : ''}${made.length} ${made.length === 1 ? 'map' : 'maps'} made anew, ${report.maps.length - made.length} kept, `
+  return `${mended.length > 0 ? `Green of ${mended.join(', ')} is reversed; ` : ''}${made.length} ${made.length === 1 ? 'map' : 'maps'} made again, ${report.maps.length - made.length} kept, `
     + `${report.mode === 'keep' ? 'tangents kept' : `${size(report.tangents.bytes)} of tangents dropped`}; the file: ${size(before)} before, ${size(after)} after.${unpacked ? ' Its geometry is not compressed any more: glTF-Transform\u2019s untangent keeps that.' : ''}`
     + `${off.length > 0 ? ` With the new maps normals are off by ${degrees(Math.max(...off))}.` : ''}`
     + report.unread_maps.map(({ name, format, advice }) => ` ${name} is in ${format}, which is not read here, and stays with its tangents: ${advice}.`).join('')

@@ -11,31 +11,35 @@ namespace {
 
 constexpr char kHow[] = R"(# On a real GPU
 
-Instructions are not nanoseconds ([cost.md](cost.md)). On a machine with a Vulkan GPU and little else:
+Instructions ([Cost](cost.md)) are not nanoseconds. This page says how to measure a frame on a machine with a Vulkan GPU
+and little else:
 
 ```sh
-bench/on-gpu pack FOLDER    # where Cotan is built: what the measurement needs, some tens of MB
-FOLDER/run                  # there, under ten minutes: writes FOLDER/gpu.md, which is this page
-bench/on-gpu                # both, here: writes docs/explanation/gpu.md
+bench/on-gpu pack FOLDER    # where Cotan is built: what the measurement needs, tens of MB
+FOLDER/run                  # on the machine with the GPU, under ten minutes: writes FOLDER/gpu.md, which is this page
+bench/on-gpu                # both, on one machine: writes docs/explanation/gpu.md
 ```
 
-FOLDER carries programs, libraries and compiled shaders. The machine needs x86-64 Linux with glibc 2.35 or later
-(Debian 12, Ubuntu 22.04) and a driver for Vulkan 1.3; no display, compiler, network or Vulkan loader. `FOLDER/run`
-ends with 3 and one line where no driver is found, and with 5 where a test fails.
+FOLDER holds programs, libraries and compiled shaders. The machine needs x86-64 Linux with glibc 2.35 or later (Debian
+12, Ubuntu 22.04) and a driver for Vulkan 1.3. It needs no display, compiler, network or Vulkan loader. `FOLDER/run`
+ends with 3 and one line if it finds no driver, and with 5 if a test fails.
 
-**Rows** are those of [cost.md](cost.md): whole pipelines that fill a square of 2048 x 2048 pixels, 1024 x 1024 for
-the smallest triangles, with right-angled triangles of equal legs. A target of four half floats, no depth, no
-blending; meshes and target in the device's memory. Two timestamps around one draw. All rows are drawn in turn, 15
-times after a first that does not count. "4 samples" is a multisampled target, not resolved. "4 layers" draws every
-pixel four times over one another in one draw, nothing hidden; each counts. `triangle-read` reads vectors that were
-made at load; other rows of the triangle make them at provoking vertices, of which a mesh has almost twice as many, so
-their times include that.
+## What is measured
 
-**A cell** is the median in nanoseconds per million pixels; then the median, over repetitions, of the ratio to
+**Rows** are those of [Cost](cost.md). Whole pipelines fill a square of 2048 x 2048 pixels (1024 x 1024 for the smallest
+triangles) with right-angled triangles of equal legs. The target has four half floats, without depth or blending. Meshes
+and target are in the device's memory. Two timestamps enclose one draw. All rows are drawn in turn, 15 times, after a
+first time that does not count.
+
+"4 samples" is a multisampled target, not resolved. "4 layers" draws every pixel four times in one draw, nothing hidden;
+each counts. `triangle-read` reads vectors that were made at load. Other rows of the triangle make them at provoking
+vertices. A mesh has almost twice as many of these, and the times include that.
+
+**A cell** has the median in nanoseconds per million pixels. Then it has the median, over repetitions, of the ratio to
 `mikktspace` in the same repetition, and half the distance between that ratio's quartiles.
 
-**Passes** are those of [examples/deforming](../examples/deforming), over a tube of a million triangles, likewise by
-timestamps, each dispatch alone.
+**Passes** are those of [examples/deforming](../../examples/deforming), over a tube of a million triangles. Timestamps
+enclose each dispatch alone.
 
 **Tests** are the parity tests of the portable text and those of the examples, as `./run-tests` has them, on this
 device.
@@ -164,8 +168,8 @@ std::string page(const Figures& figures, bool tables)
     if (!tables)
         return text
             + fmt::format(
-                   "## No figures yet\n\n{} Small sizes were drawn on {} to check the way: their times would say "
-                   "nothing.\n",
+                   "## No figures yet\n\n{} Small sizes were drawn on {} to check that the programs work. Their times "
+                   "would say nothing.\n",
                    figures.rows.cpu ? "No GPU was met so far." : "Nothing was measured.", figures.rows.name);
     text += fmt::format("## {}\n\n{}. {}. Measured on {}.\n\n", figures.rows.name, figures.rows.driver, figures.machine,
                         figures.date);

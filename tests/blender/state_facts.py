@@ -126,7 +126,7 @@ def placesThatAreNoNumbers():
     select(high, low)
     low.data.vertices[2].co.x = float("nan")
     expect("'low': 1 of its vertices have no place (NaN, infinite or too far away), the first is number 2", bake)
-    expect("'low' has vertices without a place", export, filepath=OUT)
+    expect("'low' has vertices without a position", export, filepath=OUT)
     assert bpy.ops.object.cotan_check() == {"FINISHED"}
     assert bpy.context.window_manager.cotan_lines[0].kind == "PLACE" and low.data.total_face_sel == 1
     bpy.ops.object.mode_set(mode="OBJECT")

@@ -37,7 +37,7 @@ await fact('aModelIsDrawnTwiceAndTheAngleBetweenIsSaid', async () => {
 await fact('whatThePageAdvisesIsWhatItShowsAndSaysOnce', async () => {
   const page = await open(), wrong = [];
   const cat = join(data, 'models/SketchfabCat'), beside = folder => readdirSync(folder).map(name => join(folder, name)).filter(path => statSync(path).isFile());
-  const cases = [['the sample', null, /read as they are, with the frame orthonormal|made anew for the frame/, 0.5]];
+  const cases = [['the sample', null, /read as they are, with the frame orthonormal|made again for the frame/, 0.5]];
   if (hasData) cases.push(
     ['BoomBox', beside(join(data, 'models/BoomBox')), /read as they are, with the frame orthonormal/, 0.3],
     ['the cat', [...beside(cat), ...beside(join(cat, 'textures'))], /Green and the stored tangents are both reversed: together they are right/, 1],
@@ -92,20 +92,20 @@ await fact('theCheckIsTheCommandLinesWithItsReportAsAFile', async () => {
 }, needsData);
 
 // It was diagnosed and saved as it was.
-await fact('aModelWithGreenReversedIsMended', async () => {
+await fact('aModelWithReversedGreenIsFixed', async () => {
   const page = await open();
   await drop(page, [await domed('green_down.glb', false, [0.3, 0.5, 0.7])]);
   const words = await page.textContent('.verdict'), lines = await page.textContent('[data-paste]');
   if (!/points the other way than the model says/.test(words)) return `says: ${words} ${await problem(page)}`;
   if (!/untangle\(gltf, \{ convention: 'directx' \}\);[^]*material\.normalScale\.y \*= -1;/.test(lines)) return `is to be pasted: ${lines}`;
-  const { name, bytes } = await saved(page, () => page.click('text=Mend green and download'));
-  await page.waitForFunction(() => /Green of domes is turned/.test(document.querySelector('.result').textContent));
+  const { name, bytes } = await saved(page, () => page.click('text=Fix green and download'));
+  await page.waitForFunction(() => /Green of domes is reversed/.test(document.querySelector('.result').textContent));
   writeFileSync(join(scratch, name), bytes);
   await drop(page, [join(scratch, name)]);
   const again = await page.textContent('.verdict'), plain = await page.textContent('[data-paste]');
   await page.context().close();
-  if (/the other way/.test(again)) return `of the mended model: ${again}`;
-  return /^import .*\nuntangle\(gltf\);$/.test(plain) ? '' : `of the mended model is to be pasted: ${plain}`;
+  if (/the other way/.test(again)) return `of the fixed model: ${again}`;
+  return /^import .*\nuntangle\(gltf\);$/.test(plain) ? '' : `of the fixed model is to be pasted: ${plain}`;
 });
 
 // Pure white was 250 of 255 nearly everywhere.

@@ -1,5 +1,6 @@
 // What the package's README tells web developers to type, typed in an empty folder: node readme_test.mjs TARBALL NODE_MODULES
-// MODEL. MODEL: a GLB with a normal map.
+// MODEL [IMAGE]. MODEL: a GLB with a normal map. IMAGE: a PNG of the page at the end, such as
+// docs/pictures/tutorial-web-page.png of vase-lost-sign.glb.
 import assert from 'node:assert/strict';
 import { execFileSync } from 'node:child_process';
 import fs from 'node:fs';
@@ -9,7 +10,7 @@ import path from 'node:path';
 
 import { installed, parseGlb, skip } from './shared.mjs';
 
-const [tarball, modules, model] = process.argv.slice(2);
+const [tarball, modules, model, image] = process.argv.slice(2);
 if (!fs.existsSync(tarball)) skip('the package has not been built (emscripten, npm)');
 if (!fs.existsSync(path.join(modules, 'playwright-core'))) skip('playwright-core is not installed');
 if (!fs.existsSync(model)) skip(`${model} is not there`);
@@ -56,6 +57,7 @@ for (let tries = 0; tries < 60 && lit < 0.03; ++tries) {
   lit = 0;
   for (let k = 0; k < data.length; k += channels) if (data[k] > 60) lit += 1 / (width * height);
 }
+if (image) await shown.screenshot({ path: image });
 await browser.close();
 server.close();
 assert.deepEqual(errors, []);

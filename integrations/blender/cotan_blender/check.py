@@ -56,7 +56,7 @@ def questions(mesh, degrees):
         area = np.linalg.norm(np.cross(positions[:, 1] - positions[:, 0], positions[:, 2] - positions[:, 0]), axis=1)
     solid = placed & (area > 0)
     found = [
-        Question("PLACE", "have a corner without a place (NaN or infinite)", polygon[~placed]),
+        Question("PLACE", "have a corner without a position (NaN or infinite)", polygon[~placed]),
         Question("AREA", "have no area", _all_of(polygon, placed & ~solid)),
     ]
     if mesh.uv_layers.active is not None:

@@ -117,7 +117,7 @@ def _on_mesh(thing, mesh, apply_modifiers):
             "modifier before you bake and export"
         )
     if not np.isfinite(meshes.got(mesh.vertices, "co", 3)).all():
-        raise Refused(f"'{thing.name}' has vertices without a place (NaN or infinite)")
+        raise Refused(f"'{thing.name}' has vertices without a position (NaN or infinite)")
     if own.has_custom_normals and hasattr(own, "use_auto_smooth") and not own.use_auto_smooth:
         said.append(f"'{thing.name}' has custom normals, but its Auto Smooth is off, so they are not exported")
     elif own.has_custom_normals and not mesh.has_custom_normals:
