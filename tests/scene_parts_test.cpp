@@ -210,7 +210,9 @@ TEST(SceneParts, ofLongEdgesAreRefusedUnlessTheModelIsLarge)
     scene.instances.assign(600, {"", 0, glm::mat4(1)}); // each about 84 pixels more than 16
     EXPECT_NE(refusalOf(scene, view).find("the long edges of its triangles fill the picture 5 times over"),
               std::string::npos);
-    scene.instances.resize(300);
+    scene.instances.resize(310); // 2.6
+    EXPECT_NE(refusalOf(scene, view).find("picture 2.6 times over, expected at most 2.5:"), std::string::npos);
+    scene.instances.resize(290);
     EXPECT_EQ(refusalOf(scene, view), "");
     scene.instances.assign(600, {"", 0, glm::mat4(1)});
     scene.meshes[1].positions.resize(101'000); // in one place: a loader may copy a vertex for each triangle

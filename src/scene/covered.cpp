@@ -4,6 +4,8 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
+#include <iomanip>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -24,7 +26,7 @@ constexpr double kMostCovered = 96; // by what hides what is behind
 constexpr double kMostLayers = 16;  // by what is translucent: each is shaded, and put in order
 constexpr double kPlainLayer = 0.5; // of such a one without a coat and the like
 constexpr double kMostLights = 400; // times what is covered, at most once
-constexpr double kMostEdges = 3;    // by pixels along long edges, of which each is shaded and shows little
+constexpr double kMostEdges = 2.5;  // by pixels along long edges, of which each is shaded and shows little
 constexpr double kLongEdge = 16;    // pixels: shorter ones are what many small triangles have
 constexpr double kFewPoints =
     30'000; // models of n times as many vertices, each in its own place, may take n times as long
@@ -133,8 +135,10 @@ std::size_t placesOf(const Scene& scene)
 
 Error tooMuch(const Scene& scene, const std::string& what, double found, double most, const std::string& advice)
 {
-    return inputError(scene.name + ": " + what + " " + std::to_string(std::llround(found))
-                      + " times over, expected at most " + std::to_string(std::llround(most)) + ": " + advice);
+    std::ostringstream text;
+    text << scene.name << ": " << what << " " << std::setprecision(found < 10 ? 2 : 17)
+         << (found < 10 ? found : std::round(found)) << " times over, expected at most " << most << ": " << advice;
+    return inputError(text.str());
 }
 
 } // namespace
