@@ -79,6 +79,33 @@ void expectPictures(const Lesson& lesson, std::size_t least)
     EXPECT_GE(onPage, 1u);
 }
 
+// The sections of a page from "## 1." on.
+std::vector<std::string> stepsOf(const std::string& text)
+{
+    std::vector<std::string> steps;
+    for (std::size_t at = text.find("\n## 1."); at != std::string::npos;) {
+        const std::size_t next = text.find("\n## ", at + 1);
+        steps.push_back(text.substr(at, next == std::string::npos ? next : next - at));
+        at = next;
+    }
+    return steps;
+}
+
+TEST(Tutorials, everyStepThatDrawsShowsItsImage)
+{
+    const std::regex draws(R"( -o [A-Za-z0-9_/-]+\.png)");
+    std::size_t checked = 0;
+    for (const auto& entry : fs::directory_iterator(kDocs / "tutorials"))
+        if (entry.path().extension() == ".md")
+            for (const std::string& step : stepsOf(readWhole(entry.path())))
+                if (std::regex_search(step, draws)) {
+                    EXPECT_NE(step.find("](../pictures/"), std::string::npos)
+                        << entry.path() << ": " << step.substr(1, step.find('\n', 1) - 1);
+                    ++checked;
+                }
+    EXPECT_GE(checked, 10u);
+}
+
 bool hasPython() { return std::system("python3 -c '' >/dev/null 2>&1") == 0; }
 
 #define COTAN_NEEDS_PYTHON()                                                                                           \
