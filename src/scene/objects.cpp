@@ -1,4 +1,4 @@
-#include "cotan/scene/objects.hpp"
+#include "scene/objects.hpp"
 
 #include <algorithm>
 #include <utility>
