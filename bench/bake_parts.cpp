@@ -10,9 +10,9 @@
 #include <fmt/format.h>
 #include <sys/resource.h>
 
-#include "cotan/bake/bake.hpp"
-#include "cotan/image/file.hpp"
-#include "cotan/model/load.hpp"
+#include "bake/bake_surfaces.hpp"
+#include "cotan/image.hpp"
+#include "cotan/model.hpp"
 
 using namespace cotan;
 

@@ -11,9 +11,9 @@
 
 #include <glm/geometric.hpp>
 
-#include "cotan/bake/bake.hpp"
-#include "cotan/model/load.hpp"
-#include "cotan/surface/uv_raster.hpp"
+#include "bake/bake_surfaces.hpp"
+#include "bake/surface/uv_raster.hpp"
+#include "cotan/model.hpp"
 #include "embree.hpp"
 
 using namespace cotan;

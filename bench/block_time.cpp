@@ -17,10 +17,10 @@
 #include <nvtt/nvtt.h>
 #include <squish.h>
 
-#include "cotan/image/dds.hpp"
-#include "cotan/image/file.hpp"
-#include "cotan/maps/block.hpp"
-#include "cotan/parallel/loops.hpp"
+#include "core/loops.hpp"
+#include "cotan/image.hpp"
+#include "image/dds.hpp"
+#include "maps/block.hpp"
 
 namespace {
 

@@ -2,7 +2,7 @@
 // is started with, in the lines that `cotan cost --cards` reads. Usage: card_cost NAME
 #include <cstdio>
 
-#include "cotan/cost/cards.hpp"
+#include "cost/cards.hpp"
 
 int main(int count, char** words)
 {

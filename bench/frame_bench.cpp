@@ -4,9 +4,9 @@
 
 #include <benchmark/benchmark.h>
 
-#include "cotan/cotangent_frame.hpp"
-#include "cotan/truth/quad.hpp"
-#include "cotan/truth/random.hpp"
+#include "cotan/frame.hpp"
+#include "truth/quad.hpp"
+#include "truth/random.hpp"
 
 namespace cotan {
 namespace {

@@ -8,8 +8,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "cotan/model/load.hpp"
-#include "cotan/model/reader.hpp"
+#include "cotan/model.hpp"
 
 namespace {
 

@@ -1,5 +1,5 @@
-# cmake --install: every part of the house as a component, the portable text, the tool.
-#   find_package(cotan COMPONENTS lint bake)    gives cotan::lint and cotan::bake
+# cmake --install: every part as a component with its public headers, the portable text, the tool.
+#   find_package(cotan COMPONENTS maps bake)    gives cotan::maps and cotan::bake
 # and finds what they need and nothing else. Without COMPONENTS: core.
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
@@ -113,7 +113,7 @@ endforeach()
 
 install(FILES ${PROJECT_BINARY_DIR}/include/cotan/version.hpp DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/cotan)
 get_property(includes GLOBAL PROPERTY COTAN_INCLUDES)
-install(DIRECTORY include/cotan ${includes} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
+install(DIRECTORY ${includes} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
 install(DIRECTORY shaders/cotan DESTINATION share/cotan/shaders)
 install(FILES LICENSE DESTINATION share/doc/cotan COMPONENT license)
 install(EXPORT cotanTargets NAMESPACE cotan:: DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/cotan)

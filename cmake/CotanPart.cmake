@@ -1,8 +1,9 @@
 # cotan_part(NAME [SOURCES ...] [PUBLIC ...] [PRIVATE ...] [INSIDE ...])
-# One part of the house: a library with its own include folder (src/NAME/include), so that only
-# the parts it links can be included. Without SOURCES it is header-only. INSIDE: headers that only its own sources read,
-# so that who links it once installed need not have them. A part that links something which is not there
-# is left out: there is no target cotan_NAME then, and find_package(cotan) can say why.
+# One part: a library, and its public headers in src/NAME/include/cotan, which are what is installed. Everything else of
+# src/NAME is internal: our own code includes it by its path in src, "scene/bounds.hpp"; ArchitectureTest
+# (tests/architecture_test.py) holds that a part includes only those that it links. Without SOURCES it is header-only.
+# INSIDE: headers that only its own sources read, so that who links it once installed need not have them. A part that
+# links something which is not there is left out: there is no target cotan_NAME then, and find_package(cotan) can say why.
 add_library(cotan_warnings INTERFACE)
 target_compile_options(cotan_warnings INTERFACE
   -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion -ffp-contract=off
@@ -11,6 +12,8 @@ target_compile_options(cotan_warnings INTERFACE
 # GLM's vectors without unions (x, y, z only): compilers keep those in registers and take several at a time in loops. For
 # what is built here and nobody else: layouts are the same, but a program may want .rgb of its own vectors.
 target_compile_definitions(cotan_warnings INTERFACE GLM_FORCE_XYZW_ONLY)
+# Internal headers, by their paths in src: for what is built here and nobody else, too.
+target_include_directories(cotan_warnings INTERFACE ${PROJECT_SOURCE_DIR}/src)
 
 # Something that is not there, why, and what that costs, each without a semicolon: the end of the configuration says so, and
 # with COTAN_REQUIRE_ALL it fails.
@@ -25,7 +28,22 @@ function(cotan_unity target batch)
     if(COTAN_WHOLE)
       math(EXPR batch "3 * ${batch}")
     endif()
-    set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE ${batch})
+    set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
+    # Files of one folder only: names that are local to a file may occur again in another folder.
+    get_target_property(sources ${target} SOURCES)
+    foreach(source ${sources})
+      get_filename_component(folder ${source} DIRECTORY)
+      if(IS_ABSOLUTE "${source}")
+        set(folder elsewhere)
+      endif()
+      string(MAKE_C_IDENTIFIER "files_${folder}" group)
+      if(NOT DEFINED count_${group})
+        set(count_${group} 0)
+      endif()
+      math(EXPR part "${count_${group}} / ${batch}")
+      math(EXPR count_${group} "${count_${group}} + 1")
+      set_property(SOURCE ${source} PROPERTY UNITY_GROUP ${group}_${part})
+    endforeach()
     # Files that are included look like headers, whose types must not hold types of one file.
     target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
   endif()
@@ -136,5 +154,22 @@ function(cotan_part name)
     target_link_libraries(cotan_${name} INTERFACE ${PART_PUBLIC})
   endif()
   cotan_component(cotan_${name} ${name} ${PART_PUBLIC} ${PART_PRIVATE})
-  set_property(GLOBAL APPEND PROPERTY COTAN_INCLUDES ${CMAKE_CURRENT_SOURCE_DIR}/include/cotan)
+  if(IS_DIRECTORY ${CMAKE_CURRENT_SOURCE_DIR}/include)
+    set_property(GLOBAL APPEND PROPERTY COTAN_INCLUDES ${CMAKE_CURRENT_SOURCE_DIR}/include/cotan)
+  endif()
+endfunction()
+
+# cotan_app_library(NAME FOLDER [SOURCES ...] [PUBLIC ...] [PRIVATE ...]): what only programs link. Not installed. Left out
+# as a part is. FOLDER: where its includes begin.
+function(cotan_app_library name folder)
+  cmake_parse_arguments(PART "" "" "SOURCES;PUBLIC;PRIVATE" ${ARGN})
+  cotan_missing(missing ${PART_PUBLIC} ${PART_PRIVATE})
+  if(missing)
+    cotan_leave_out(${name} "${missing}")
+    return()
+  endif()
+  add_library(cotan_${name} STATIC ${PART_SOURCES})
+  target_include_directories(cotan_${name} PUBLIC ${folder})
+  target_link_libraries(cotan_${name} PUBLIC ${PART_PUBLIC} PRIVATE ${PART_PRIVATE} cotan_warnings)
+  cotan_unity(cotan_${name} 8)
 endfunction()

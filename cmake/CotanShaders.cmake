@@ -9,7 +9,7 @@ endif()
 file(GLOB COTAN_SHADER_INCLUDES CONFIGURE_DEPENDS
   ${PROJECT_SOURCE_DIR}/shaders/cotan/*.h ${PROJECT_SOURCE_DIR}/shaders/*.glsl ${PROJECT_SOURCE_DIR}/shaders/cost/*.h
   ${PROJECT_SOURCE_DIR}/shaders/cost/*.glsl ${PROJECT_SOURCE_DIR}/examples/deforming/*.glsl
-  ${PROJECT_SOURCE_DIR}/include/cotan/frames.inc)
+  ${PROJECT_SOURCE_DIR}/src/core/include/cotan/frames.inc)
 set(COTAN_SPIRV_HEADER ${CMAKE_CURRENT_LIST_DIR}/spirv_header.cmake)
 
 function(cotan_shader target source symbol)
@@ -22,7 +22,7 @@ function(cotan_shader target source symbol)
   endif()
   list(TRANSFORM ARGN PREPEND -D)
   add_custom_command(OUTPUT ${header}
-    COMMAND ${COTAN_GLSLANG} --quiet --target-env vulkan1.3 -I${PROJECT_SOURCE_DIR}/shaders -I${PROJECT_SOURCE_DIR}/include
+    COMMAND ${COTAN_GLSLANG} --quiet --target-env vulkan1.3 -I${PROJECT_SOURCE_DIR}/shaders -I${PROJECT_SOURCE_DIR}/src/core/include
       ${ARGN} -o ${spirv} ${input}
     ${optimise}
     COMMAND ${CMAKE_COMMAND} -DSPIRV=${spirv} -DHEADER=${header} -DSYMBOL=${symbol} -P ${COTAN_SPIRV_HEADER}

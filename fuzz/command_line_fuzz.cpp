@@ -6,9 +6,9 @@
 
 #include <fcntl.h>
 
-#include "cotan/files/account.hpp"
-#include "cotan/image/file.hpp"
-#include "cotan/shapes/shapes.hpp"
+#include "cotan/image.hpp"
+#include "cotan/scene.hpp"
+#include "files/account.hpp"
 #include "fuzz.hpp"
 
 // The tool's own main; see CMakeLists.txt.

@@ -3,9 +3,9 @@
 #include <bit>
 #include <vector>
 
-#include "cotan/gltf/edit.hpp"
-#include "cotan/gltf/lookup.hpp"
-#include "cotan/image/file.hpp"
+#include "cotan/gltf.hpp"
+#include "cotan/image.hpp"
+#include "gltf/json/lookup.hpp"
 #include "scene_checks.hpp"
 
 using namespace cotan;

@@ -2,7 +2,7 @@
 // again.
 #include <algorithm>
 
-#include "cotan/image/file.hpp"
+#include "cotan/image.hpp"
 #include "fuzz.hpp"
 #include "limits.hpp"
 

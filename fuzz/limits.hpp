@@ -1,7 +1,7 @@
 // How much of a file the harnesses of readers take.
 #pragma once
 
-#include "cotan/model/load.hpp"
+#include "cotan/model.hpp"
 
 namespace cotan::fuzz {
 

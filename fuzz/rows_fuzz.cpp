@@ -2,8 +2,7 @@
 // accepts is refused by the other for a stated limit.
 #include <algorithm>
 
-#include "cotan/image/file.hpp"
-#include "cotan/image/rows.hpp"
+#include "cotan/image.hpp"
 #include "fuzz.hpp"
 #include "limits.hpp"
 

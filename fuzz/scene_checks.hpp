@@ -3,11 +3,11 @@
 
 #include <algorithm>
 
-#include "cotan/scene/geometry.hpp"
-#include "cotan/scene/scene.hpp"
+#include "cotan/scene.hpp"
 #include "cotan/tangents.hpp"
 #include "fuzz.hpp"
 #include "limits.hpp"
+#include "scene/geometry.hpp"
 
 namespace cotan::fuzz {
 

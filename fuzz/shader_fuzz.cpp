@@ -1,7 +1,7 @@
 // Every choice of `cotan shader`: the same text twice, with its entry in it and its brackets closed.
 #include <algorithm>
 
-#include "cotan/shader_text/shader_text.hpp"
+#include "cotan/shader_text.hpp"
 #include "fuzz.hpp"
 
 using namespace cotan;

@@ -1,5 +1,5 @@
-// Specialisation constants. COTAN_FRAME holds the numbers of the table include/cotan/frames.inc,
-// OUTPUT and SHADING those of the enums in cotan/scene/view.hpp.
+// Specialisation constants. COTAN_FRAME holds the numbers of the table src/core/include/cotan/frames.inc,
+// OUTPUT and SHADING those of the enums in cotan/view.hpp.
 layout(constant_id = 0) const int COTAN_FRAME = 0;
 layout(constant_id = 1) const int OUTPUT = 0;
 layout(constant_id = 2) const int SHADING = 0;

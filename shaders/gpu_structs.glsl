@@ -1,5 +1,5 @@
 // What the CPU hands to the shaders. One text, valid GLSL and C++: the C++ side
-// (src/render/gpu_structs.hpp) names vec4, uvec2, ivec4 and uvec4 and includes this file.
+// (src/render/vulkan/gpu_structs.hpp) names vec4, uvec2, ivec4 and uvec4 and includes this file.
 // Every member starts on 16 bytes or fills a group of 16, so std140, std430 and C++ agree; a test
 // compares the offsets in the compiled shaders with C++.
 

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <tuple>
 
-#include "cotan/truth/measurement.hpp"
+#include "truth/measurement.hpp"
 
 namespace cotan {
 namespace {

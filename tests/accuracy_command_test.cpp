@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <fstream>
 
-#include "cotan/report/measurements.hpp"
+#include "report/measurements.hpp"
 #include "run_tool.hpp"
 
 namespace cotan::test {

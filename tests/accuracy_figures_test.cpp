@@ -1,7 +1,7 @@
 // The committed figures of docs/accuracy.csv may only improve.
 #include <gtest/gtest.h>
 
-#include "cotan/report/measurements.hpp"
+#include "report/measurements.hpp"
 #include "run_tool.hpp"
 
 namespace cotan {

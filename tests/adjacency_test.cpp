@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "cotan/adjacency.hpp"
+#include "cotan/gpu_meshes.hpp"
 #include "cotan/portable.hpp"
 #include "tangent_meshes.hpp"
 

@@ -4,8 +4,8 @@
 
 #include <limits>
 
-#include "cotan/terminal/arguments.hpp"
-#include "cotan/terminal/command_words.hpp"
+#include "terminal/arguments.hpp"
+#include "terminal/command_words.hpp"
 
 namespace cotan {
 namespace {

@@ -12,11 +12,11 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
-#include "cotan/image/file.hpp"
-#include "cotan/model/load.hpp"
+#include "cotan/image.hpp"
+#include "cotan/model.hpp"
 #include "cotan/portable.hpp"
-#include "cotan/scene/geometry.hpp"
 #include "expected_list.hpp"
+#include "scene/geometry.hpp"
 
 namespace cotan {
 namespace {

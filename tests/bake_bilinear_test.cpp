@@ -6,9 +6,9 @@
 #include <cmath>
 #include <map>
 
-#include "cotan/bake/bake.hpp"
-#include "cotan/bake/low_points.hpp"
-#include "cotan/surface/uv_raster.hpp"
+#include "bake/bake_surfaces.hpp"
+#include "bake/low_points.hpp"
+#include "bake/surface/uv_raster.hpp"
 #include "tessellation_scene.hpp"
 
 namespace cotan {

@@ -8,9 +8,9 @@
 
 #include <nlohmann/json.hpp>
 
-#include "cotan/image/file.hpp"
-#include "cotan/truth/quad.hpp"
+#include "cotan/image.hpp"
 #include "run_tool.hpp"
+#include "truth/quad.hpp"
 
 namespace cotan::test {
 namespace {

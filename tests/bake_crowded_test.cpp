@@ -1,9 +1,9 @@
 // Surfaces that lie on one another by the thousand: what a bake finds of them, and that it looks at few.
 #include <gtest/gtest.h>
 
+#include "bake/low_tree.hpp"
 #include "bake_cases.hpp"
-#include "cotan/bake/bake_model.hpp"
-#include "cotan/bake/low_tree.hpp"
+#include "cotan/bake.hpp"
 
 namespace cotan {
 namespace {

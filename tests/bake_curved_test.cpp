@@ -5,8 +5,8 @@
 
 #include <glm/geometric.hpp>
 
-#include "cotan/bake/high_surface.hpp"
-#include "cotan/truth/random.hpp"
+#include "bake/high_surface.hpp"
+#include "truth/random.hpp"
 
 namespace cotan {
 namespace {

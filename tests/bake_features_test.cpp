@@ -11,7 +11,7 @@
 #include <glm/vec3.hpp>
 #include <nlohmann/json.hpp>
 
-#include "cotan/image/file.hpp"
+#include "cotan/image.hpp"
 #include "run_tool.hpp"
 
 namespace cotan::test {

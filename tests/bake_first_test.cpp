@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <functional>
 
+#include "bake/bake_surfaces.hpp"
+#include "bake/surface/uv_raster.hpp"
 #include "bake_cases.hpp"
-#include "cotan/bake/bake.hpp"
-#include "cotan/surface/uv_raster.hpp"
 
 namespace cotan {
 namespace {

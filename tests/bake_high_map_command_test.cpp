@@ -5,10 +5,10 @@
 #include <cmath>
 #include <fstream>
 
-#include "cotan/model/load.hpp"
-#include "cotan/truth/quad.hpp"
+#include "cotan/model.hpp"
 #include "quad_model.hpp"
 #include "run_tool.hpp"
+#include "truth/quad.hpp"
 
 namespace cotan::test {
 namespace {

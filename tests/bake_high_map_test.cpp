@@ -9,8 +9,8 @@
 #include <glm/ext/matrix_transform.hpp>
 #include <glm/mat3x3.hpp>
 
-#include "cotan/bake/bake.hpp"
-#include "cotan/truth/quad.hpp"
+#include "bake/bake_surfaces.hpp"
+#include "truth/quad.hpp"
 
 namespace cotan {
 namespace {

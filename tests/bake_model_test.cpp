@@ -10,7 +10,7 @@
 #include <glm/geometric.hpp>
 
 #include "bake_scene.hpp"
-#include "cotan/bake/bake_model.hpp"
+#include "cotan/bake.hpp"
 #include "cotan/convention.hpp"
 
 namespace cotan {

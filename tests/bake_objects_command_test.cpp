@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "cotan/image/file.hpp"
+#include "cotan/image.hpp"
 #include "run_tool.hpp"
 
 namespace cotan::test {

@@ -8,8 +8,8 @@
 #include <map>
 #include <set>
 
-#include "cotan/surface/uv_raster.hpp"
-#include "cotan/truth/random.hpp"
+#include "bake/surface/uv_raster.hpp"
+#include "truth/random.hpp"
 
 namespace cotan {
 namespace {

@@ -7,9 +7,9 @@
 
 #include <glm/geometric.hpp>
 
+#include "bake/bake_surfaces.hpp"
 #include "bake_scene.hpp"
-#include "cotan/bake/bake.hpp"
-#include "cotan/truth/random.hpp"
+#include "truth/random.hpp"
 
 namespace cotan {
 namespace {

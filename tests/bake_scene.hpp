@@ -8,7 +8,7 @@
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
-#include "cotan/scene/scene.hpp"
+#include "cotan/scene.hpp"
 
 namespace cotan {
 

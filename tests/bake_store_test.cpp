@@ -7,8 +7,8 @@
 #include <numbers>
 #include <vector>
 
+#include "bake/bake_surfaces.hpp"
 #include "bake_scene.hpp"
-#include "cotan/bake/bake.hpp"
 
 namespace cotan {
 namespace {

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <utility>
 
-#include "cotan/bake/bake.hpp"
+#include "bake/bake_surfaces.hpp"
 #include "tessellation_scene.hpp"
 
 namespace cotan {

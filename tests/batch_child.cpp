@@ -11,10 +11,10 @@
 
 #include <unistd.h>
 
-#include "cotan/batch/child.hpp"
-#include "cotan/files/account.hpp"
-#include "cotan/files/interrupt.hpp"
-#include "cotan/files/output.hpp"
+#include "batch/child.hpp"
+#include "files/account.hpp"
+#include "files/interrupt.hpp"
+#include "files/output.hpp"
 
 namespace {
 

@@ -12,7 +12,7 @@
 #include <nlohmann/json.hpp>
 #include <sys/stat.h>
 
-#include "cotan/sandbox/confine.hpp"
+#include "files/sandbox/confine.hpp"
 #include "quad_model.hpp"
 #include "run_tool.hpp"
 

@@ -9,7 +9,7 @@
 
 #include <fmt/format.h>
 
-#include "cotan/batch/plan.hpp"
+#include "batch/plan.hpp"
 #include "run_tool.hpp"
 
 namespace cotan {

@@ -6,8 +6,8 @@
 
 #include <fmt/format.h>
 
-#include "cotan/batch/report.hpp"
-#include "cotan/batch/run.hpp"
+#include "batch/report.hpp"
+#include "batch/run.hpp"
 #include "run_tool.hpp"
 
 namespace cotan {

@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "cotan/batch/report.hpp"
+#include "batch/report.hpp"
 #include "run_tool.hpp"
 
 namespace cotan {

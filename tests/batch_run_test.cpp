@@ -11,9 +11,9 @@
 #include <fmt/format.h>
 #include <sys/stat.h>
 
-#include "cotan/batch/report.hpp"
-#include "cotan/batch/run.hpp"
-#include "cotan/sandbox/confine.hpp"
+#include "batch/report.hpp"
+#include "batch/run.hpp"
+#include "files/sandbox/confine.hpp"
 #include "run_tool.hpp"
 
 namespace cotan {

@@ -9,8 +9,8 @@
 
 #include <glm/geometric.hpp>
 
-#include "cotan/scene/bounds.hpp"
-#include "cotan/shapes/shapes.hpp"
+#include "cotan/scene.hpp"
+#include "scene/bounds.hpp"
 
 namespace cotan {
 namespace {

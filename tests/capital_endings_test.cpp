@@ -1,8 +1,8 @@
 // File names in capitals, as other systems write them, mean what their twins in small letters mean.
 #include <gtest/gtest.h>
 
-#include "cotan/image/file.hpp"
-#include "cotan/shapes/shapes.hpp"
+#include "cotan/image.hpp"
+#include "cotan/scene.hpp"
 #include "quad_model.hpp"
 #include "run_tool.hpp"
 

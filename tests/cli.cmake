@@ -2,18 +2,18 @@
 cotan_test(cli_test
   SOURCES cli_test.cpp cli_bad_input_test.cpp cli_packed_input_test.cpp capital_endings_test.cpp own_maps_test.cpp
     render_turntable_test.cpp
-  LIBRARIES cotan_model cotan_shapes cotan_report nlohmann_json::nlohmann_json fmt::fmt)
+  LIBRARIES cotan_model cotan_scene cotan_inspect nlohmann_json::nlohmann_json fmt::fmt)
 target_compile_definitions(cli_test PRIVATE COTAN_TOOL="$<TARGET_FILE:cotan>")
 add_dependencies(cli_test cotan)
 # What is read and what is written: by functions, and by every command.
 cotan_test(files_test
   SOURCES files_test.cpp overwrite_test.cpp
-  LIBRARIES cotan_files cotan_model cotan_shapes nlohmann_json::nlohmann_json fmt::fmt)
+  LIBRARIES cotan_files cotan_model cotan_scene nlohmann_json::nlohmann_json fmt::fmt)
 target_compile_definitions(files_test PRIVATE COTAN_TOOL="$<TARGET_FILE:cotan>")
 add_dependencies(files_test cotan)
 cotan_test(help_test
   SOURCES help_test.cpp progress_test.cpp
-  LIBRARIES cotan_app cotan_shapes fmt::fmt)
+  LIBRARIES cotan_app cotan_scene fmt::fmt)
 target_compile_definitions(help_test PRIVATE COTAN_TOOL="$<TARGET_FILE:cotan>")
 add_dependencies(help_test cotan)
 # A few commands under every fault; the whole table is in docs/project/robustness.md.
@@ -29,7 +29,7 @@ endif()
 # Words as values, without a process.
 cotan_test(words_test
   SOURCES arguments_test.cpp picture_options_test.cpp turntable_test.cpp
-  LIBRARIES cotan_app cotan_shapes fmt::fmt)
+  LIBRARIES cotan_app cotan_scene fmt::fmt)
 # The manual's pages, and completion by the shells themselves.
 foreach(part man words bash zsh fish)
   add_test(NAME HelpFiles.${part} COMMAND python3 ${CMAKE_CURRENT_SOURCE_DIR}/help_files_test.py $<TARGET_FILE:cotan> ${PROJECT_BINARY_DIR}/share ${part})

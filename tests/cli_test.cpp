@@ -9,7 +9,7 @@
 #include <nlohmann/json.hpp>
 #include <sys/stat.h>
 
-#include "cotan/image/file.hpp"
+#include "cotan/image.hpp"
 #include "run_tool.hpp"
 
 namespace cotan {

@@ -9,7 +9,7 @@ import sys
 DEFINED = re.compile(r"^(?:static )?(?:constexpr|const) [^=({;]*?\b(k[A-Z]\w*)\b(?:\[[^\]]*\])?\s*(?:=|\{)", re.M)
 
 sources = pathlib.Path(sys.argv[1])
-files = sorted([*sources.glob("src/*/*.cpp"), *sources.glob("apps/*/*.cpp")])
+files = sorted([*sources.glob("src/**/*.cpp"), *sources.glob("apps/**/*.cpp")])
 found, looked = False, 0
 for folder in sorted({file.parent for file in files}):
     places = collections.defaultdict(set)

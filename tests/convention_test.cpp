@@ -3,7 +3,6 @@
 #include <set>
 
 #include "cotan/convention.hpp"
-#include "cotan/convention_words.hpp"
 
 namespace cotan {
 namespace {

@@ -10,10 +10,10 @@
 #include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
-#include "cotan/gltf/edit.hpp"
-#include "cotan/gltf/lookup.hpp"
-#include "cotan/image/file.hpp"
-#include "cotan/model/load.hpp"
+#include "cotan/gltf.hpp"
+#include "cotan/image.hpp"
+#include "cotan/model.hpp"
+#include "gltf/json/lookup.hpp"
 #include "ktx2_maker.hpp"
 #include "quad_model.hpp"
 #include "run_tool.hpp"

@@ -4,11 +4,11 @@
 
 #include <glm/gtc/matrix_transform.hpp>
 
-#include "cotan/convert/map_jobs.hpp"
-#include "cotan/convert/put_map.hpp"
-#include "cotan/gltf/lookup.hpp"
-#include "cotan/image/file.hpp"
-#include "cotan/shapes/shapes.hpp"
+#include "bake/convert/map_jobs.hpp"
+#include "cotan/convert.hpp"
+#include "cotan/image.hpp"
+#include "cotan/scene.hpp"
+#include "gltf/json/lookup.hpp"
 
 namespace cotan {
 namespace {

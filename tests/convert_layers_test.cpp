@@ -5,8 +5,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include "cotan/image/file.hpp"
-#include "cotan/model/load.hpp"
+#include "cotan/image.hpp"
+#include "cotan/model.hpp"
 #include "quad_model.hpp"
 #include "run_tool.hpp"
 

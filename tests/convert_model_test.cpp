@@ -9,14 +9,14 @@
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 
+#include "bake/lint/texel.hpp"
 #include "cotan/convention.hpp"
-#include "cotan/convert/convert_model.hpp"
-#include "cotan/gltf/lookup.hpp"
-#include "cotan/gltf/tangents.hpp"
-#include "cotan/image/file.hpp"
-#include "cotan/lint/texel.hpp"
-#include "cotan/scene/normal_format.hpp"
-#include "cotan/shapes/shapes.hpp"
+#include "cotan/convert.hpp"
+#include "cotan/gltf.hpp"
+#include "cotan/image.hpp"
+#include "cotan/scene.hpp"
+#include "gltf/json/lookup.hpp"
+#include "scene/normal_format.hpp"
 
 namespace cotan {
 namespace {

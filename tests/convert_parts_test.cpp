@@ -6,11 +6,11 @@
 #include <functional>
 #include <span>
 
+#include "bake/convert/reencode.hpp"
+#include "bake/convert/solve_texel.hpp"
+#include "bake/lint/texel.hpp"
+#include "bake/surface/nearest_texels.hpp"
 #include "cotan/convention.hpp"
-#include "cotan/convert/reencode.hpp"
-#include "cotan/convert/solve_texel.hpp"
-#include "cotan/lint/texel.hpp"
-#include "cotan/surface/padding.hpp"
 #include "judgement_cases.hpp"
 #include "place_finder.hpp"
 #include "tally.hpp"

@@ -6,8 +6,8 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "cotan/provoking.hpp"
-#include "cotan/shapes/shapes.hpp"
+#include "cotan/gpu_meshes.hpp"
+#include "cotan/scene.hpp"
 #include "quad_model.hpp"
 #include "run_tool.hpp"
 

@@ -8,12 +8,12 @@
 #include <glm/matrix.hpp>
 #include <glm/trigonometric.hpp>
 
+#include "bake/convert/reencode.hpp"
+#include "bake/convert/solve_texel.hpp"
+#include "bake/lint/texel.hpp"
 #include "cotan/convention.hpp"
-#include "cotan/convert/reencode.hpp"
-#include "cotan/convert/solve_texel.hpp"
-#include "cotan/lint/texel.hpp"
-#include "cotan/scene/normal_format.hpp"
-#include "cotan/shapes/shapes.hpp"
+#include "cotan/scene.hpp"
+#include "scene/normal_format.hpp"
 
 namespace cotan {
 namespace {

@@ -21,7 +21,7 @@ endif()
 get_property(folders GLOBAL PROPERTY COTAN_INCLUDES)
 set(options "")
 set(text "")
-foreach(folder ${PROJECT_SOURCE_DIR}/include/cotan ${folders})
+foreach(folder ${folders})
   get_filename_component(above ${folder} DIRECTORY)
   list(APPEND options -I${above})
   file(GLOB_RECURSE headers RELATIVE ${above} ${folder}/*.hpp)
@@ -36,6 +36,21 @@ endforeach()
 add_test(NAME PublicHeaders.compileWhereThereIsNoJsonLibrary
   COMMAND ${CMAKE_CXX_COMPILER} -std=c++20 -fsyntax-only -Wall -Wextra -Werror -I${place} ${options}
     -I${PROJECT_BINARY_DIR}/include -I${PROJECT_SOURCE_DIR}/shaders ${place}/all.cpp)
+
+# The parts: how many, who includes whom, one header each.
+if(Python3_FOUND)
+  foreach(fact hasFewFolders hasFewLines hasFewArrows hasNoCircle partsIncludeWhatTheyLink eachPartHasOnePublicHeader
+      noTwoFilesHaveOneName judgesAreIndependent)
+    add_test(NAME Architecture.${fact}
+      COMMAND ${Python3_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/architecture_test.py ${PROJECT_SOURCE_DIR} ${fact})
+  endforeach()
+endif()
+
+if(Python3_FOUND)
+  add_test(NAME PublicHeaders.beginWithExamplesThatCompile
+    COMMAND ${Python3_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/header_examples.py ${PROJECT_SOURCE_DIR} ${place}/examples.cpp
+      ${CMAKE_CXX_COMPILER} ${options} -I${PROJECT_BINARY_DIR}/include -I${PROJECT_SOURCE_DIR}/shaders)
+endif()
 
 # The portable text compiles unchanged in every language: joined, behind a few lines that declare
 # the language and call every function.
@@ -54,7 +69,7 @@ endforeach()
 function(cotan_compile_test name definition will_fail)
   add_test(NAME Covector.${name}
     COMMAND ${CMAKE_CXX_COMPILER} -std=c++20 -fsyntax-only -D${definition}
-      -I${PROJECT_SOURCE_DIR}/include -I${PROJECT_SOURCE_DIR}/shaders
+      -I${PROJECT_SOURCE_DIR}/src/core/include -I${PROJECT_SOURCE_DIR}/shaders
       ${CMAKE_CURRENT_SOURCE_DIR}/covector_mixture.cpp)
   set_tests_properties(Covector.${name} PROPERTIES WILL_FAIL ${will_fail})
 endfunction()

@@ -36,9 +36,9 @@ function(compile what)
   execute_process(
     COMMAND ${CXX} -std=c++20 -O0 -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion
       -Wno-unknown-warning-option -Wno-subobject-linkage -Werror ${FLAGS}
-      -pthread -DGLM_FORCE_XYZW_ONLY -DCOTAN_VERSION="0.0.0" -I${SOURCE}/include -I${SOURCE}/shaders
+      -pthread -DGLM_FORCE_XYZW_ONLY -DCOTAN_VERSION="0.0.0" -I${SOURCE}/src -I${SOURCE}/src/core/include -I${SOURCE}/shaders
       -I${SOURCE}/src/c/include -I${SOURCE}/src/scene/include -I${SOURCE}/src/maps/include
-      -I${SOURCE}/src/parallel/include -I${SOURCE}/src/c ${ARGN}
+      -I${SOURCE}/src/c ${ARGN}
     RESULT_VARIABLE failed)
   if(failed)
     message(FATAL_ERROR "${what} does not compile for 32 bits")
@@ -56,5 +56,5 @@ endfunction()
 
 compile(src/core ${core} -c -o ${OUT}/core.o) # files of the core are one batch
 run_32bit(core_facts ${SOURCE}/tests/core_facts.cpp)
-run_32bit(c_facts ${maps} ${SOURCE}/src/c/geometry.cpp ${SOURCE}/src/c/library.cpp ${SOURCE}/src/c/maps.cpp
+run_32bit(c_facts ${maps} ${SOURCE}/src/c/geometry_api.cpp ${SOURCE}/src/c/library.cpp ${SOURCE}/src/c/maps_api.cpp
   ${SOURCE}/tests/c_facts.cpp)

@@ -5,7 +5,7 @@
 #include <cstdio>
 
 #include "../src/core/parallel.hpp"
-#include "cotan/cotangent_frame.hpp"
+#include "cotan/frame.hpp"
 #include "tangent_meshes.hpp"
 
 namespace {

@@ -5,7 +5,7 @@
 #include <csignal>
 #include <thread>
 
-#include "cotan/cost/cards.hpp"
+#include "cost/cards.hpp"
 #include "in_child.hpp"
 #include "run_tool.hpp"
 #include "statistics.hpp"

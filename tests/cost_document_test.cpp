@@ -9,8 +9,8 @@
 #include <set>
 #include <sstream>
 
-#include "cotan/cost/cards.hpp"
-#include "cotan/cost/choices.hpp"
+#include "cost/cards.hpp"
+#include "cost/choices.hpp"
 #include "run_tool.hpp"
 
 namespace cotan::cost {

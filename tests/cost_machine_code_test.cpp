@@ -6,9 +6,9 @@
 
 #include <nlohmann/json.hpp>
 
-#include "cotan/cost/machine_code.hpp"
-#include "cotan/cost/rows.hpp"
-#include "cotan/cost/timing.hpp"
+#include "cost/machine_code.hpp"
+#include "cost/rows.hpp"
+#include "cost/timing.hpp"
 #include "run_tool.hpp"
 
 namespace cotan::cost {

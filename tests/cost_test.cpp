@@ -4,12 +4,12 @@
 #include <array>
 #include <cmath>
 
-#include "cotan/cost/break_even.hpp"
-#include "cotan/cost/choices.hpp"
-#include "cotan/cost/rows.hpp"
-#include "cotan/cost/scalar_count.hpp"
-#include "cotan/cost/spirv_count.hpp"
-#include "cotan/cost/stages.hpp"
+#include "cost/break_even.hpp"
+#include "cost/choices.hpp"
+#include "cost/rows.hpp"
+#include "cost/scalar_count.hpp"
+#include "cost/spirv_count.hpp"
+#include "cost/stages.hpp"
 
 namespace cotan::cost {
 namespace {

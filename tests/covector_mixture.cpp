@@ -1,5 +1,5 @@
 // Compiled once per macro by tests/core.cmake: only COTAN_MIX_NOTHING may succeed.
-#include <cotan/cotangent_frame.hpp>
+#include <cotan/frame.hpp>
 
 using namespace cotan;
 

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "cotan/truth/patch.hpp"
+#include "truth/patch.hpp"
 
 namespace cotan {
 namespace {

@@ -14,11 +14,10 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "cotan/gltf/edit.hpp"
-#include "cotan/gltf/load.hpp"
-#include "cotan/gltf/lookup.hpp"
+#include "cotan/gltf.hpp"
 #include "cotan/portable.hpp"
 #include "cotan/triangle.hpp"
+#include "gltf/json/lookup.hpp"
 #include "gltf_maker.hpp"
 
 namespace cotan::test {

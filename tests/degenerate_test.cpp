@@ -9,7 +9,7 @@
 #include <limits>
 #include <vector>
 
-#include "cotan/truth/degenerate.hpp"
+#include "truth/degenerate.hpp"
 
 namespace cotan {
 namespace {

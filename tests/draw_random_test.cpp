@@ -9,10 +9,9 @@
 #include <glm/geometric.hpp>
 #include <glm/gtc/matrix_transform.hpp>
 
-#include "cotan/draw/draw.hpp"
-#include "cotan/draw/painter.hpp"
-#include "cotan/shapes/shapes.hpp"
-#include "cotan/surface/vertex_frames.hpp"
+#include "cotan/render.hpp"
+#include "cotan/scene.hpp"
+#include "cotan/view.hpp"
 
 namespace cotan {
 namespace {

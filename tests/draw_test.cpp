@@ -3,9 +3,8 @@
 
 #include <algorithm>
 
-#include "cotan/draw/draw.hpp"
-#include "cotan/draw/painter.hpp"
-#include "cotan/surface/vertex_frames.hpp"
+#include "cotan/render.hpp"
+#include "cotan/view.hpp"
 
 namespace cotan {
 namespace {

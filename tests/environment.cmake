@@ -2,4 +2,4 @@
 cotan_test(environment_test BATCH 4
   SOURCES tone_test.cpp environment_test.cpp specular_antialiasing_test.cpp facets_test.cpp front_camera_test.cpp ground_test.cpp soft_shadows_test.cpp
     exposure_test.cpp samples_test.cpp
-  LIBRARIES cotan_reference cotan_truth cotan_inspect cotan_surroundings cotan_ground cotan_draw cotan_shapes cotan_parallel)
+  LIBRARIES cotan_render cotan_truth cotan_inspect cotan_scene cotan_loops)

@@ -1,5 +1,5 @@
 // Light from surroundings: against integrals over all directions, and drawn by both renderers.
-#include "cotan/environment/environment.hpp"
+#include "cotan/view.hpp"
 
 #include <gtest/gtest.h>
 
@@ -11,10 +11,10 @@
 
 #include <glm/geometric.hpp>
 
-#include "cotan/draw/painter.hpp"
-#include "cotan/parallel/loops.hpp"
-#include "cotan/shapes/shapes.hpp"
-#include "cotan/surroundings/surroundings.hpp"
+#include "core/loops.hpp"
+#include "cotan/render.hpp"
+#include "cotan/scene.hpp"
+#include "scene/environment_map.hpp"
 
 namespace cotan {
 namespace {

@@ -1,7 +1,7 @@
 # The integration examples, run as they are shipped.
 cotan_test(examples_test FIXTURE npm
   SOURCES examples_browser_test.cpp browser_pages.cpp examples_triangle_web_test.cpp
-  LIBRARIES cotan_model cotan_shapes cotan_gltf_json)
+  LIBRARIES cotan_model cotan_scene cotan_gltf_json)
 target_compile_definitions(examples_test PRIVATE
   COTAN_TOOL="$<TARGET_FILE:cotan>" COTAN_NPM="${PROJECT_BINARY_DIR}/npm")
 add_dependencies(examples_test cotan)
@@ -9,21 +9,21 @@ add_dependencies(examples_test cotan)
 # The package for three.js, and repairs for other engines of the web.
 cotan_test(web_engines_test FIXTURE npm
   SOURCES three_package_test.cpp repairs_test.cpp browser_pages.cpp
-  LIBRARIES cotan_model cotan_shapes nlohmann_json::nlohmann_json)
+  LIBRARIES cotan_model cotan_scene nlohmann_json::nlohmann_json)
 target_compile_definitions(web_engines_test PRIVATE COTAN_TOOL="$<TARGET_FILE:cotan>" COTAN_NPM="${PROJECT_BINARY_DIR}/npm")
 add_dependencies(web_engines_test cotan)
 
 # Pictures of real models beside those of three.js.
 cotan_test(second_opinion_test FIXTURE npm
   SOURCES second_opinion_test.cpp browser_pages.cpp flip.cpp flip_test.cpp
-  LIBRARIES cotan_model cotan_draw cotan_environment cotan_surface cotan_report nlohmann_json::nlohmann_json)
+  LIBRARIES cotan_model cotan_render cotan_scene cotan_bake cotan_inspect nlohmann_json::nlohmann_json)
 target_compile_definitions(second_opinion_test PRIVATE COTAN_TOOL="$<TARGET_FILE:cotan>" COTAN_NPM="${PROJECT_BINARY_DIR}/npm"
   COTAN_PAIRS="${CMAKE_CURRENT_BINARY_DIR}/second_opinion")
 
 # What lint predicts, judged by three.js.
 cotan_test(three_judge_test FIXTURE npm
   SOURCES three_judge_test.cpp browser_pages.cpp
-  LIBRARIES cotan_model cotan_draw cotan_lint cotan_report nlohmann_json::nlohmann_json fmt::fmt)
+  LIBRARIES cotan_model cotan_render cotan_bake cotan_inspect nlohmann_json::nlohmann_json fmt::fmt)
 target_compile_definitions(three_judge_test PRIVATE COTAN_TOOL="$<TARGET_FILE:cotan>" COTAN_NPM="${PROJECT_BINARY_DIR}/npm")
 
 # As their own CMakeLists.txt build them, but within this build.

@@ -8,7 +8,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "cotan/scene/image.hpp"
+#include "cotan/scene.hpp"
 #include "run_tool.hpp"
 
 namespace cotan::test {

@@ -9,8 +9,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include "cotan/image/file.hpp"
-#include "cotan/shapes/shapes.hpp"
+#include "cotan/image.hpp"
+#include "cotan/scene.hpp"
 
 namespace cotan::test {
 

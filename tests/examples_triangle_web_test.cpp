@@ -6,13 +6,13 @@
 #include <array>
 #include <cmath>
 
-#include "cotan/gltf/edit.hpp"
-#include "cotan/gltf/lookup.hpp"
-#include "cotan/image/file.hpp"
-#include "cotan/model/load.hpp"
-#include "cotan/shapes/shapes.hpp"
+#include "cotan/gltf.hpp"
+#include "cotan/image.hpp"
+#include "cotan/model.hpp"
+#include "cotan/scene.hpp"
 #include "examples_browser.hpp"
 #include "examples_odd_models.hpp"
+#include "gltf/json/lookup.hpp"
 
 namespace cotan::test {
 namespace {

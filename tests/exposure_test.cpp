@@ -1,11 +1,11 @@
 // Automatic exposure, by the picture that it makes.
 #include <algorithm>
 
-#include "cotan/draw/exposure.hpp"
+#include "cotan/render.hpp"
 
 #include <gtest/gtest.h>
 
-#include "cotan/environment/environment.hpp"
+#include "cotan/view.hpp"
 #include "ground_scene.hpp"
 
 namespace cotan {

@@ -7,7 +7,7 @@
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 
-#include "cotan/environment/environment.hpp"
+#include "cotan/view.hpp"
 #include "reference_scene.hpp"
 
 namespace cotan {

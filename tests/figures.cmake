@@ -1,7 +1,7 @@
 cotan_test(figures_test
   SOURCES figures_test.cpp
-  LIBRARIES cotan_model cotan_shapes cotan_report nlohmann_json::nlohmann_json fmt::fmt)
+  LIBRARIES cotan_model cotan_scene cotan_inspect nlohmann_json::nlohmann_json fmt::fmt)
 target_compile_definitions(figures_test PRIVATE COTAN_TOOL="$<TARGET_FILE:cotan>")
 add_dependencies(figures_test cotan)
 
-cotan_test(lighting_test SOURCES lighting_test.cpp LIBRARIES cotan_reference cotan_surface)
+cotan_test(lighting_test SOURCES lighting_test.cpp LIBRARIES cotan_render cotan_bake)

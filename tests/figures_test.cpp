@@ -10,8 +10,8 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "cotan/image/file.hpp"
-#include "cotan/report/page.hpp"
+#include "cotan/image.hpp"
+#include "files/report/page.hpp"
 #include "run_tool.hpp"
 
 namespace cotan {

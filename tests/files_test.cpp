@@ -12,10 +12,10 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "cotan/files/account.hpp"
-#include "cotan/files/output.hpp"
-#include "cotan/files/plan.hpp"
-#include "cotan/image/file.hpp"
+#include "cotan/image.hpp"
+#include "files/account.hpp"
+#include "files/output.hpp"
+#include "files/plan.hpp"
 #include "run_tool.hpp"
 
 namespace cotan {

@@ -1,7 +1,7 @@
 // How different two pictures look to an eye that flips between them.
 #pragma once
 
-#include "cotan/scene/image.hpp"
+#include "cotan/scene.hpp"
 
 namespace cotan::test {
 

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "cotan/truth/degenerate.hpp"
+#include "truth/degenerate.hpp"
 
 namespace cotan {
 namespace {

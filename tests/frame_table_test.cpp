@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "cotan/shader_text/shader_text.hpp"
+#include "cotan/shader_text.hpp"
 #include "cotan/tangents.hpp"
 
 namespace cotan {
@@ -49,7 +49,8 @@ std::vector<Place> placesOf(const FrameInfo& f)
     std::vector<Place> places = {
         {text, " cotan_frame_" + word + "("},
         {"shaders/cost/rows.h", (f.frame == Frame::triangle ? "cotan_frame_of_" : "cotan_frame_") + word + "("},
-        {"src/cost/rows.cpp", "{\"" + name + "\","},
+        {"apps/lab/cost/rows.cpp", "{\"" + name + "\","},
+        {"apps/cotan/lab_options.cpp", "\"" + name + "\""},
         {"docs/explanation/cost.md", "| " + name + " "},
         {"docs/reference/conventions.md", rowOfDocs(f)},
         {"docs/accuracy.csv", "," + name + ","},

@@ -5,7 +5,7 @@
 #include <set>
 #include <string>
 
-#include "cotan/truth/signs.hpp"
+#include "truth/signs.hpp"
 
 namespace cotan {
 namespace {

@@ -1,5 +1,5 @@
 // A camera that fills the picture: every vertex projected on its own.
-#include "cotan/scene/front_camera.hpp"
+#include "cotan/view.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 
 #include <glm/geometric.hpp>
 
-#include "cotan/shapes/shapes.hpp"
+#include "cotan/scene.hpp"
 
 namespace cotan {
 namespace {

@@ -1,5 +1,5 @@
 // Small geometry: boxes, cameras that show everything, normals from triangles.
-#include "cotan/scene/geometry.hpp"
+#include "scene/geometry.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -12,7 +12,7 @@
 #include <glm/gtc/matrix_transform.hpp>
 #include <gtest/gtest.h>
 
-#include "cotan/shapes/shapes.hpp"
+#include "cotan/scene.hpp"
 
 namespace cotan {
 namespace {

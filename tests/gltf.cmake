@@ -1,11 +1,11 @@
 find_package(ZLIB REQUIRED)
 cotan_test(gltf_bad_test
   SOURCES gltf_bad_test.cpp gltf_hostile_test.cpp
-  LIBRARIES cotan_model cotan_shapes cotan_gltf_json ZLIB::ZLIB)
+  LIBRARIES cotan_model cotan_scene cotan_gltf_json ZLIB::ZLIB)
 cotan_test(gltf_test
   SOURCES gltf_test.cpp gltf_accessor_test.cpp gltf_mesh_test.cpp gltf_scene_test.cpp gltf_material_test.cpp gltf_unpack_test.cpp gltf_animation_test.cpp
           stored_green_test.cpp meant_frame_test.cpp
-  LIBRARIES cotan_model cotan_shapes cotan_gltf_json ZLIB::ZLIB draco::draco meshoptimizer::meshoptimizer)
+  LIBRARIES cotan_model cotan_scene cotan_gltf_json ZLIB::ZLIB draco::draco meshoptimizer::meshoptimizer)
 cotan_test(gltf_models_test
   SOURCES gltf_models_test.cpp deforming_models_test.cpp
-  LIBRARIES cotan_model cotan_shapes cotan_gltf_json ZLIB::ZLIB)
+  LIBRARIES cotan_model cotan_scene cotan_gltf_json ZLIB::ZLIB)

@@ -8,9 +8,9 @@
 
 #include <glm/gtc/matrix_transform.hpp>
 
-#include "cotan/gltf/views.hpp"
-#include "cotan/scene/texture_uv.hpp"
+#include "gltf/json/views.hpp"
 #include "gltf_edit_maker.hpp"
+#include "scene/texture_uv.hpp"
 
 using namespace cotan;
 using namespace cotan::test;

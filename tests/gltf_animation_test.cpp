@@ -4,7 +4,7 @@
 
 #include <glm/geometric.hpp>
 
-#include "cotan/gltf/animated.hpp"
+#include "cotan/gltf.hpp"
 #include "gltf_maker.hpp"
 
 namespace {

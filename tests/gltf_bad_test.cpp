@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include "cotan/model/load.hpp"
+#include "cotan/model.hpp"
 #include "expected_list.hpp"
 
 namespace fs = std::filesystem;

@@ -7,10 +7,10 @@ set_tests_properties(npm_packages PROPERTIES
 cotan_test(gltf_edit_test
   SOURCES gltf_edit_test.cpp gltf_edit_provoking_test.cpp gltf_edit_random_test.cpp
     gltf_edit_split_test.cpp gltf_edit_write_test.cpp gltf_from_scene_test.cpp
-  LIBRARIES cotan_model cotan_shapes cotan_gltf_json ZLIB::ZLIB)
+  LIBRARIES cotan_model cotan_scene cotan_gltf_json ZLIB::ZLIB)
 cotan_test(tangents_command_test BATCH 1 FIXTURE npm
   SOURCES tangents_command_test.cpp tangents_written_test.cpp tangents_three_test.cpp
-  LIBRARIES cotan_model cotan_shapes cotan_report cotan_gltf_json fmt::fmt)
+  LIBRARIES cotan_model cotan_scene cotan_inspect cotan_gltf_json fmt::fmt)
 target_compile_definitions(tangents_command_test PRIVATE
   COTAN_TOOL="$<TARGET_FILE:cotan>" COTAN_NPM="${PROJECT_BINARY_DIR}/npm")
 add_dependencies(tangents_command_test cotan)

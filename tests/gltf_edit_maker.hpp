@@ -1,8 +1,8 @@
 // Opening, writing and reading back small models in tests of the glTF editor.
 #pragma once
 
-#include "cotan/gltf/edit.hpp"
-#include "cotan/gltf/lookup.hpp"
+#include "cotan/gltf.hpp"
+#include "gltf/json/lookup.hpp"
 #include "gltf_maker.hpp"
 
 namespace cotan::test {

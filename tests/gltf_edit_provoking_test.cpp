@@ -5,7 +5,7 @@
 #include <numeric>
 #include <tuple>
 
-#include "cotan/provoking.hpp"
+#include "cotan/gpu_meshes.hpp"
 #include "gltf_edit_maker.hpp"
 
 namespace cotan::test {

@@ -4,7 +4,7 @@
 #include <glm/geometric.hpp>
 #include <glm/gtc/matrix_transform.hpp>
 
-#include "cotan/shapes/shapes.hpp"
+#include "cotan/scene.hpp"
 #include "gltf_edit_maker.hpp"
 
 namespace {

@@ -13,7 +13,7 @@
 #include <nlohmann/json.hpp>
 #include <unistd.h>
 
-#include "cotan/model/load.hpp"
+#include "cotan/model.hpp"
 #include "png_maker.hpp"
 
 namespace cotan::test {

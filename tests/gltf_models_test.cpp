@@ -10,7 +10,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "cotan/model/load.hpp"
+#include "cotan/model.hpp"
 
 using namespace cotan;
 using nlohmann::json;
@@ -70,7 +70,7 @@ bool warns(const Scene& scene, const std::string& word)
     return false;
 }
 
-// What every loaded scene promises (cotan/scene/scene.hpp).
+// What every loaded scene promises (cotan/scene.hpp).
 void expectSound(const Scene& scene)
 {
     for (const Mesh& mesh : scene.meshes) {

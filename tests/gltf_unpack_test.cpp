@@ -8,8 +8,8 @@
 #include <draco/mesh/mesh.h>
 #include <meshoptimizer.h>
 
-#include "cotan/gltf/edit.hpp"
-#include "cotan/shapes/shapes.hpp"
+#include "cotan/gltf.hpp"
+#include "cotan/scene.hpp"
 #include "gltf_edit_maker.hpp"
 #include "gltf_maker.hpp"
 

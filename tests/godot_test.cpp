@@ -5,11 +5,11 @@
 
 #include <fmt/format.h>
 
-#include "cotan/image/file.hpp"
-#include "cotan/truth/quad.hpp"
+#include "cotan/image.hpp"
 #include "godot_draw.hpp"
 #include "godot_parity.hpp"
 #include "godot_sheet.hpp"
+#include "truth/quad.hpp"
 
 namespace cotan::test {
 namespace {

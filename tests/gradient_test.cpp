@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "cotan/truth/patch.hpp"
+#include "truth/patch.hpp"
 
 namespace cotan {
 namespace {

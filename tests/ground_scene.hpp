@@ -8,8 +8,8 @@
 
 #include <glm/geometric.hpp>
 
-#include "cotan/draw/painter.hpp"
-#include "cotan/shapes/shapes.hpp"
+#include "cotan/render.hpp"
+#include "cotan/scene.hpp"
 
 namespace cotan::test {
 

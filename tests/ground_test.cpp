@@ -1,5 +1,5 @@
 // The ground against rays to an area light and to the sky.
-#include "cotan/ground/ground.hpp"
+#include "cotan/view.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,9 +8,10 @@
 #include <numbers>
 #include <optional>
 
-#include "cotan/parallel/loops.hpp"
-#include "cotan/scene/picture_text.hpp"
+#include "core/loops.hpp"
 #include "ground_scene.hpp"
+#include "scene/ground_map.hpp"
+#include "scene/picture_text.hpp"
 
 namespace cotan {
 namespace {

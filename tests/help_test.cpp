@@ -6,7 +6,7 @@
 #include <sstream>
 
 #include "cotan/frame.hpp"
-#include "cotan/image/file.hpp"
+#include "cotan/image.hpp"
 #include "quad_model.hpp"
 #include "run_tool.hpp"
 

@@ -1,6 +1,6 @@
 // Animated WebP and GIF, read back by libwebp's demuxer and by OpenImageIO, whose reader of GIF is another library than
 // its writer.
-#include "cotan/image/animation.hpp"
+#include "cotan/image.hpp"
 
 #include <gtest/gtest.h>
 
@@ -10,7 +10,6 @@
 #include <fmt/format.h>
 #include <webp/demux.h>
 
-#include "cotan/image/file.hpp"
 #include "gltf_maker.hpp"
 
 namespace cotan {

@@ -1,13 +1,12 @@
 // Pictures in the format of another file.
-#include "cotan/image/encode_like.hpp"
+#include "cotan/image.hpp"
 
 #include <cstdlib>
 
 #include <gtest/gtest.h>
 #include <webp/encode.h>
 
-#include "cotan/image/file.hpp"
-#include "cotan/shapes/shapes.hpp"
+#include "cotan/scene.hpp"
 #include "jpeg_maker.hpp"
 
 namespace cotan::test {

@@ -1,10 +1,10 @@
 // The table of image formats says what readers and writers do.
-#include "cotan/image/format_table.hpp"
+#include "image/format_table.hpp"
 
 #include <algorithm>
 #include <cctype>
 
-#include "cotan/image/animation.hpp"
+#include "cotan/image.hpp"
 #include "picture_file.hpp"
 
 namespace cotan::test {

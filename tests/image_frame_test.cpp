@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "cotan/image/convert.hpp"
+#include "image/component_types.hpp"
 #include "ktx2_maker.hpp"
 #include "picture_file.hpp"
 #include "png_maker.hpp"

@@ -1,5 +1,5 @@
 // KTX 2.0 files: formats, packings, keys; cut short and lying.
-#include "cotan/image/file.hpp"
+#include "cotan/image.hpp"
 
 #include <gtest/gtest.h>
 #include <zstd.h>

@@ -1,5 +1,5 @@
 // Image files: what is stored comes back, and what is broken is refused.
-#include "cotan/image/file.hpp"
+#include "cotan/image.hpp"
 
 #include <algorithm>
 #include <array>
@@ -14,8 +14,8 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
-#include "cotan/image/convert.hpp"
 #include "expected_list.hpp"
+#include "image/component_types.hpp"
 #include "png_maker.hpp"
 
 namespace cotan {

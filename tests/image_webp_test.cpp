@@ -1,5 +1,5 @@
 // WebP files, whole, cut short and lying.
-#include "cotan/image/file.hpp"
+#include "cotan/image.hpp"
 
 #include <gtest/gtest.h>
 

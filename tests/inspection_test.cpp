@@ -8,15 +8,12 @@
 #include <glm/ext/matrix_transform.hpp>
 #include <glm/geometric.hpp>
 
-#include "cotan/draw/draw.hpp"
-#include "cotan/inspect/edges.hpp"
-#include "cotan/inspect/hot_spots.hpp"
-#include "cotan/inspect/inspection.hpp"
-#include "cotan/inspect/pick.hpp"
-#include "cotan/inspect/probe.hpp"
-#include "cotan/lint/lint.hpp"
-#include "cotan/model/load.hpp"
-#include "cotan/shapes/shapes.hpp"
+#include "cotan/inspect.hpp"
+#include "cotan/lint.hpp"
+#include "cotan/model.hpp"
+#include "cotan/render.hpp"
+#include "cotan/scene.hpp"
+#include "inspect/probe.hpp"
 
 namespace cotan {
 namespace {

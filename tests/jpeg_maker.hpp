@@ -7,7 +7,7 @@
 
 #include <jpeglib.h>
 
-#include "cotan/scene/image.hpp"
+#include "cotan/scene.hpp"
 
 namespace cotan::test {
 

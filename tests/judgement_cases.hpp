@@ -8,7 +8,7 @@
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 
-#include "cotan/lint/map_fit.hpp"
+#include "bake/lint/map_fit.hpp"
 
 namespace cotan::test {
 

@@ -11,7 +11,7 @@
 #include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
-#include "cotan/model/load.hpp"
+#include "cotan/model.hpp"
 #include "ktx2_maker.hpp"
 #include "quad_model.hpp"
 #include "run_tool.hpp"

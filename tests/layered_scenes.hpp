@@ -8,7 +8,7 @@
 
 #include <gtest/gtest.h>
 
-#include "cotan/scene/view.hpp"
+#include "cotan/view.hpp"
 
 namespace cotan::layers {
 

@@ -7,8 +7,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "cotan/scene/picture_text.hpp"
-#include "cotan/truth/patch.hpp"
+#include "scene/picture_text.hpp"
+#include "truth/patch.hpp"
 
 namespace cotan {
 namespace {

@@ -5,7 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "cotan/truth/patch.hpp"
+#include "scene/picture_text.hpp"
+#include "truth/patch.hpp"
 
 namespace cotan {
 namespace {

@@ -3,7 +3,7 @@
 
 #include "reference_scene.hpp"
 
-#include "cotan/surface/vertex_frames.hpp"
+#include "cotan/view.hpp"
 
 namespace cotan {
 namespace {

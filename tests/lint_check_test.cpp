@@ -1,7 +1,7 @@
 // The verdict of a check: what fails it, on reports made by hand, each limit from both sides.
 #include <gtest/gtest.h>
 
-#include "cotan/lint/limits.hpp"
+#include "cotan/lint.hpp"
 
 namespace cotan {
 namespace {

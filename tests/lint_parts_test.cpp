@@ -4,9 +4,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "cotan/lint/texel.hpp"
+#include "bake/lint/spread.hpp"
+#include "bake/lint/texel.hpp"
 #include "judgement_cases.hpp"
-#include "parts.hpp"
+#include "lint_parts.hpp"
 
 namespace cotan {
 namespace {

@@ -1,9 +1,9 @@
 // What lint advises, on reports made by hand: each limit from both sides.
 #include <gtest/gtest.h>
 
-#include "cotan/lint/lint.hpp"
-#include "cotan/lint/map_fit.hpp"
-#include "parts.hpp"
+#include "bake/lint/map_fit.hpp"
+#include "cotan/lint.hpp"
+#include "lint_parts.hpp"
 
 namespace cotan {
 namespace {

@@ -7,9 +7,9 @@
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 
-#include "cotan/lint/lint.hpp"
-#include "cotan/shapes/shapes.hpp"
-#include "cotan/truth/tessellation.hpp"
+#include "cotan/lint.hpp"
+#include "cotan/scene.hpp"
+#include "truth/tessellation.hpp"
 
 namespace cotan {
 namespace {

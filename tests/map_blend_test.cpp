@@ -8,9 +8,8 @@
 #include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
 
-#include "cotan/maps/blend.hpp"
-#include "cotan/maps/compare.hpp"
-#include "cotan/maps/texels.hpp"
+#include "cotan/maps.hpp"
+#include "maps/texels.hpp"
 
 namespace cotan::maps {
 namespace {

@@ -1,5 +1,5 @@
 // BC5 and BC4, read back by the definition of their blocks.
-#include "cotan/maps/block.hpp"
+#include "maps/block.hpp"
 
 #include <algorithm>
 #include <array>
@@ -13,7 +13,7 @@
 #include <glm/vec3.hpp>
 #include <gtest/gtest.h>
 
-#include "cotan/parallel/loops.hpp"
+#include "core/loops.hpp"
 
 namespace cotan::maps {
 namespace {

@@ -10,8 +10,8 @@
 #include <glm/vec3.hpp>
 
 #include "cotan/convention.hpp"
-#include "cotan/maps/texels.hpp"
-#include "cotan/scene/image.hpp"
+#include "cotan/scene.hpp"
+#include "maps/texels.hpp"
 
 namespace cotan::maps::cases {
 

@@ -6,9 +6,9 @@
 #include <limits>
 #include <tuple>
 
-#include "cotan/maps/green.hpp"
-#include "cotan/maps/patches.hpp"
+#include "cotan/maps.hpp"
 #include "map_cases.hpp"
+#include "maps/patches.hpp"
 
 namespace cotan::maps {
 namespace {

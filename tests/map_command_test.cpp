@@ -11,8 +11,8 @@
 #include <glm/vec3.hpp>
 #include <nlohmann/json.hpp>
 
-#include "cotan/image/file.hpp"
-#include "cotan/shapes/shapes.hpp"
+#include "cotan/image.hpp"
+#include "cotan/scene.hpp"
 #include "run_tool.hpp"
 
 namespace cotan {

@@ -7,10 +7,9 @@
 
 #include <glm/geometric.hpp>
 
-#include "cotan/maps/green.hpp"
-#include "cotan/maps/normal_statistics.hpp"
-#include "cotan/maps/texels.hpp"
-#include "cotan/shapes/shapes.hpp"
+#include "cotan/maps.hpp"
+#include "cotan/scene.hpp"
+#include "maps/texels.hpp"
 
 namespace cotan::maps {
 namespace {

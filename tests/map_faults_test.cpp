@@ -9,10 +9,9 @@
 #include <glm/geometric.hpp>
 #include <nlohmann/json.hpp>
 
-#include "cotan/image/file.hpp"
-#include "cotan/maps/faults.hpp"
-#include "cotan/maps/stated.hpp"
-#include "cotan/maps/texels.hpp"
+#include "cotan/image.hpp"
+#include "cotan/maps.hpp"
+#include "maps/texels.hpp"
 #include "run_tool.hpp"
 
 namespace cotan::maps {

@@ -4,14 +4,14 @@
 #include <algorithm>
 #include <vector>
 
-#include "cotan/convention_words.hpp"
-#include "cotan/image/file.hpp"
-#include "cotan/map_files/blend.hpp"
-#include "cotan/map_files/convert.hpp"
-#include "cotan/map_files/height.hpp"
-#include "cotan/map_files/inspect.hpp"
-#include "cotan/map_files/mips.hpp"
-#include "cotan/shapes/shapes.hpp"
+#include "cotan/convention.hpp"
+#include "cotan/image.hpp"
+#include "cotan/scene.hpp"
+#include "map_files/blend.hpp"
+#include "map_files/convert.hpp"
+#include "map_files/height.hpp"
+#include "map_files/inspect.hpp"
+#include "map_files/mips.hpp"
 #include "run_tool.hpp"
 
 namespace cotan {

@@ -9,9 +9,8 @@
 #include <jpeglib.h>
 #include <nlohmann/json.hpp>
 
-#include "cotan/image/file.hpp"
-#include "cotan/image/rows.hpp"
-#include "cotan/shapes/shapes.hpp"
+#include "cotan/image.hpp"
+#include "cotan/scene.hpp"
 #include "png_maker.hpp"
 #include "run_tool.hpp"
 

@@ -4,8 +4,7 @@
 #include <algorithm>
 #include <array>
 
-#include "cotan/maps/compare.hpp"
-#include "cotan/maps/height.hpp"
+#include "cotan/maps.hpp"
 #include "map_cases.hpp"
 
 namespace cotan::maps {

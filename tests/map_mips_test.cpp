@@ -6,10 +6,9 @@
 
 #include <glm/geometric.hpp>
 
-#include "cotan/maps/compare.hpp"
-#include "cotan/maps/mips.hpp"
-#include "cotan/maps/texels.hpp"
-#include "cotan/shapes/shapes.hpp"
+#include "cotan/maps.hpp"
+#include "cotan/scene.hpp"
+#include "maps/texels.hpp"
 
 namespace cotan::maps {
 namespace {

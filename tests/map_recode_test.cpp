@@ -7,11 +7,10 @@
 
 #include <glm/geometric.hpp>
 
-#include "cotan/maps/compare.hpp"
-#include "cotan/maps/recode.hpp"
-#include "cotan/maps/texels.hpp"
-#include "cotan/parallel/loops.hpp"
-#include "cotan/shapes/shapes.hpp"
+#include "core/loops.hpp"
+#include "cotan/maps.hpp"
+#include "cotan/scene.hpp"
+#include "maps/texels.hpp"
 
 namespace cotan::maps {
 namespace {

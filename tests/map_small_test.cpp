@@ -4,10 +4,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "cotan/maps/blend.hpp"
-#include "cotan/maps/compare.hpp"
-#include "cotan/maps/mips.hpp"
-#include "cotan/maps/recode.hpp"
+#include "cotan/maps.hpp"
 #include "map_cases.hpp"
 
 namespace cotan::maps {

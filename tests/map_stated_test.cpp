@@ -5,8 +5,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include "cotan/image/file.hpp"
-#include "cotan/shapes/shapes.hpp"
+#include "cotan/image.hpp"
+#include "cotan/scene.hpp"
 #include "ktx2_maker.hpp"
 #include "png_maker.hpp"
 #include "quad_model.hpp"

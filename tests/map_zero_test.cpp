@@ -6,9 +6,8 @@
 #include <filesystem>
 #include <string>
 
-#include "cotan/image/file.hpp"
-#include "cotan/maps/compare.hpp"
-#include "cotan/maps/recode.hpp"
+#include "cotan/image.hpp"
+#include "cotan/maps.hpp"
 #include "map_cases.hpp"
 
 namespace cotan::maps {

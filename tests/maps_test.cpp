@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "cotan/portable.hpp"
-#include "cotan/shapes/shapes.hpp"
+#include "cotan/scene.hpp"
 
 namespace {
 

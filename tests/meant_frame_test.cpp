@@ -1,5 +1,5 @@
 // The frame `auto`: what a scene's normal maps mean.
-#include "cotan/scene/meant_frame.hpp"
+#include "scene/meant_frame.hpp"
 
 #include <gtest/gtest.h>
 

@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include "cotan/meshlets.hpp"
+#include "cotan/gpu_meshes.hpp"
 #include "cotan/portable.hpp"
 #include "cotan/triangle.hpp"
 #include "tangent_meshes.hpp"

@@ -2,4 +2,4 @@
 cotan_test(models_test
   SOURCES models_normal_tangent_test.cpp models_uv_cases_test.cpp models_devices_test.cpp
           models_materials_test.cpp models_extensions_test.cpp
-  LIBRARIES cotan_draw cotan_ground cotan_model cotan_report cotan_surface cotan_truth)
+  LIBRARIES cotan_render cotan_scene cotan_model cotan_inspect cotan_bake cotan_truth)

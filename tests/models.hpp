@@ -6,10 +6,10 @@
 #include <filesystem>
 #include <memory>
 
-#include "cotan/draw/painter.hpp"
-#include "cotan/model/load.hpp"
-#include "cotan/report/angles.hpp"
-#include "cotan/scene/geometry.hpp"
+#include "cotan/model.hpp"
+#include "cotan/render.hpp"
+#include "inspect/angles.hpp"
+#include "scene/geometry.hpp"
 
 namespace cotan::test {
 

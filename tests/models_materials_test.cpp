@@ -4,9 +4,8 @@
 #include <algorithm>
 #include <iostream>
 
-#include "cotan/ground/ground.hpp"
-#include "cotan/scene/front_camera.hpp"
-#include "cotan/surface/vertex_frames.hpp"
+#include "cotan/view.hpp"
+#include "scene/geometry.hpp"
 
 namespace cotan {
 namespace {

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "cotan/frame.hpp"
-#include "cotan/truth/quad.hpp"
+#include "truth/quad.hpp"
 
 namespace cotan {
 namespace {

@@ -7,8 +7,8 @@
 
 #include <glm/matrix.hpp>
 
-#include "cotan/cotangent_frame.hpp"
-#include "cotan/truth/quad.hpp"
+#include "cotan/frame.hpp"
+#include "truth/quad.hpp"
 
 namespace cotan {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "cotan/truth/patch.hpp"
+#include "truth/patch.hpp"
 
 namespace cotan {
 namespace {

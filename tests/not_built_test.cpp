@@ -1,8 +1,8 @@
 // What parts say where a library is missing: their sources for that case, which this build has no use for.
 #include <gtest/gtest.h>
 
-#include "cotan/bake/high_surface.hpp"
-#include "cotan/model/load.hpp"
+#include "bake/high_surface.hpp"
+#include "cotan/model.hpp"
 
 namespace cotan {
 namespace {

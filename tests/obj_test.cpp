@@ -12,7 +12,7 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
-#include "cotan/model/load.hpp"
+#include "cotan/model.hpp"
 
 namespace cotan {
 namespace {

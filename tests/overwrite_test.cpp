@@ -4,8 +4,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "cotan/files/output.hpp"
-#include "cotan/image/file.hpp"
+#include "cotan/image.hpp"
+#include "files/output.hpp"
 #include "quad_model.hpp"
 #include "run_tool.hpp"
 

@@ -36,6 +36,8 @@ sort "$place"/*.files | grep -v -e '^share/doc/' -e '^lib/python3/' | comm -3 - 
 [ ! -s "$place/differ" ] || failed "in the packages or in an installation, not in both: $(cat "$place/differ")"
 expect() { grep -qx "$2" "$place/$1.files" || failed "$1 lacks $2"; }
 expect cotan bin/cotan
+expect cotan bin/cotan-lab
+expect cotan share/man/man1/cotan-lab.1.gz
 expect cotan share/man/man1/cotan-map-convert.1.gz
 expect cotan share/bash-completion/completions/cotan
 expect cotan share/zsh/vendor-completions/_cotan

@@ -5,9 +5,9 @@
 #include <glm/geometric.hpp>
 
 #include "camera.hpp"
-#include "cotan/inspect/pick.hpp"
-#include "cotan/scene/geometry.hpp"
-#include "cotan/shapes/shapes.hpp"
+#include "cotan/inspect.hpp"
+#include "cotan/scene.hpp"
+#include "scene/geometry.hpp"
 
 namespace cotan {
 namespace {

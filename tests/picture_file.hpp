@@ -14,8 +14,7 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
-#include "cotan/image/file.hpp"
-#include "cotan/image/rows.hpp"
+#include "cotan/image.hpp"
 
 namespace cotan::test {
 

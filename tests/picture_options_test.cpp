@@ -3,11 +3,11 @@
 
 #include <glm/geometric.hpp>
 
+#include "bake/report_words.hpp"
 #include "common.hpp"
-#include "cotan/draw/camera_words.hpp"
-#include "cotan/picture/light.hpp"
-#include "cotan/report/words.hpp"
-#include "cotan/shapes/shapes.hpp"
+#include "cotan/picture.hpp"
+#include "cotan/render.hpp"
+#include "cotan/scene.hpp"
 #include "parse.hpp"
 #include "picture.hpp"
 

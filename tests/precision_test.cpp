@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "cotan/truth/precision.hpp"
+#include "truth/precision.hpp"
 
 namespace cotan {
 namespace {

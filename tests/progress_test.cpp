@@ -8,10 +8,10 @@
 #include <fmt/format.h>
 #include <pty.h>
 
-#include "cotan/image/file.hpp"
-#include "cotan/terminal/progress_line.hpp"
+#include "cotan/image.hpp"
 #include "quad_model.hpp"
 #include "run_tool.hpp"
+#include "terminal/progress_line.hpp"
 
 namespace cotan {
 namespace {

@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "cotan/truth/random.hpp"
+#include "truth/random.hpp"
 
 namespace cotan {
 namespace {

@@ -10,7 +10,7 @@
 #include <gtest/gtest.h>
 
 #include "cotan/frame.hpp"
-#include "cotan/reference/render.hpp"
+#include "cotan/render.hpp"
 
 namespace cotan::testing {
 

@@ -1,8 +1,8 @@
-if(TARGET cotan_render)
+if(TARGET cotan_vulkan)
   cotan_test(render_test
     SOURCES render_test.cpp render_frame_test.cpp render_shading_test.cpp render_mips_test.cpp
       render_layers_test.cpp render_layout_test.cpp
     LIBRARIES cotan_render)
   # Mip chains and the layout of GPU structs are tested from inside.
-  target_include_directories(render_test PRIVATE ${PROJECT_SOURCE_DIR}/src/render)
+  target_include_directories(render_test PRIVATE ${PROJECT_SOURCE_DIR}/src/render/vulkan)
 endif()

@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "cotan/portable.hpp"
-#include "mips.hpp"
+#include "texture_mips.hpp"
 
 namespace cotan {
 

@@ -10,7 +10,7 @@
 #include <gtest/gtest.h>
 
 #include "cotan/frame.hpp"
-#include "cotan/render/renderer.hpp"
+#include "cotan/render.hpp"
 
 namespace cotan::rendertest {
 

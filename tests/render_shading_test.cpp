@@ -2,6 +2,7 @@
 #include "render_scene.hpp"
 
 #include "cotan/portable.hpp"
+#include "scene/picture_text.hpp"
 
 namespace cotan {
 

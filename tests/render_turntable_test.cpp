@@ -4,7 +4,7 @@
 #include <cmath>
 #include <set>
 
-#include "cotan/image/file.hpp"
+#include "cotan/image.hpp"
 #include "run_tool.hpp"
 
 namespace cotan {

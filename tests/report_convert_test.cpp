@@ -5,9 +5,9 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "cotan/report/convert_report.hpp"
-#include "cotan/report/words.hpp"
-#include "cotan/shapes/shapes.hpp"
+#include "bake/convert_report.hpp"
+#include "bake/report_words.hpp"
+#include "cotan/scene.hpp"
 
 namespace cotan {
 namespace {

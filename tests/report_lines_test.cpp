@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "cotan/report/lint_report.hpp"
+#include "bake/lint_report.hpp"
 
 namespace cotan {
 namespace {

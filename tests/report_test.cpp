@@ -5,9 +5,9 @@
 #include <array>
 #include <cmath>
 
-#include "cotan/report/angles.hpp"
-#include "cotan/report/measurements.hpp"
-#include "cotan/report/tangent_difference.hpp"
+#include "inspect/angles.hpp"
+#include "report/measurements.hpp"
+#include "tangents_report.hpp"
 
 namespace cotan {
 namespace {

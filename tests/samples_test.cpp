@@ -1,5 +1,5 @@
 // Samples that are lit one by one, and levels of 8 bits that do not band.
-#include "cotan/scene/sample_places.hpp"
+#include "scene/sample_places.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,8 +7,8 @@
 #include <numbers>
 #include <set>
 
-#include "cotan/environment/environment.hpp"
-#include "cotan/inspect/inspection.hpp"
+#include "cotan/inspect.hpp"
+#include "cotan/view.hpp"
 #include "ground_scene.hpp"
 
 namespace cotan {

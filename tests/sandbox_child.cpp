@@ -18,12 +18,12 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "cotan/files/sandbox.hpp"
-#include "cotan/model/reader.hpp"
-#include "cotan/sandbox/confine.hpp"
-#include "cotan/sandbox/request.hpp"
-#include "cotan/sandbox/scene_wire.hpp"
-#include "cotan/shapes/shapes.hpp"
+#include "cotan/files.hpp"
+#include "cotan/model.hpp"
+#include "cotan/scene.hpp"
+#include "files/sandbox/confine.hpp"
+#include "files/sandbox/request.hpp"
+#include "files/sandbox/scene_wire.hpp"
 
 namespace {
 

@@ -8,12 +8,11 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "cotan/files/account.hpp"
-#include "cotan/image/file.hpp"
-#include "cotan/image/rows.hpp"
-#include "cotan/model/load.hpp"
-#include "cotan/sandbox/confine.hpp"
-#include "cotan/sandbox/scene_wire.hpp"
+#include "cotan/image.hpp"
+#include "cotan/model.hpp"
+#include "files/account.hpp"
+#include "files/sandbox/confine.hpp"
+#include "files/sandbox/scene_wire.hpp"
 #include "run_tool.hpp"
 
 namespace cotan {

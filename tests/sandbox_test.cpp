@@ -12,10 +12,9 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "cotan/image/file.hpp"
-#include "cotan/image/rows.hpp"
-#include "cotan/model/load.hpp"
-#include "cotan/sandbox/confine.hpp"
+#include "cotan/image.hpp"
+#include "cotan/model.hpp"
+#include "files/sandbox/confine.hpp"
 #include "run_tool.hpp"
 
 namespace cotan {

@@ -7,10 +7,10 @@
 
 #include <gtest/gtest.h>
 
-#include "cotan/sandbox/request.hpp"
-#include "cotan/sandbox/scene_wire.hpp"
-#include "cotan/scene/check.hpp"
-#include "cotan/shapes/shapes.hpp"
+#include "cotan/scene.hpp"
+#include "files/sandbox/request.hpp"
+#include "files/sandbox/scene_wire.hpp"
+#include "scene/scene_check.hpp"
 
 namespace cotan {
 namespace {

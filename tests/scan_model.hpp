@@ -13,8 +13,8 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "cotan/image/file.hpp"
-#include "cotan/shapes/shapes.hpp"
+#include "cotan/image.hpp"
+#include "cotan/scene.hpp"
 
 namespace cotan::test {
 

@@ -5,14 +5,14 @@
 #include <string>
 #include <utility>
 
-#include "cotan/bake/bake_model.hpp"
-#include "cotan/draw/draw.hpp"
-#include "cotan/gltf/edit.hpp"
-#include "cotan/lint/lint.hpp"
-#include "cotan/scene/check.hpp"
-#include "cotan/scene/geometry.hpp"
-#include "cotan/scene/view_check.hpp"
-#include "cotan/shapes/shapes.hpp"
+#include "cotan/bake.hpp"
+#include "cotan/gltf.hpp"
+#include "cotan/lint.hpp"
+#include "cotan/render.hpp"
+#include "cotan/scene.hpp"
+#include "scene/geometry.hpp"
+#include "scene/scene_check.hpp"
+#include "scene/view_check.hpp"
 
 namespace cotan {
 namespace {

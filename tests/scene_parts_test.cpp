@@ -3,9 +3,9 @@
 
 #include <string>
 
-#include "cotan/scene/objects.hpp"
-#include "cotan/scene/parts.hpp"
-#include "cotan/scene/up.hpp"
+#include "scene/objects.hpp"
+#include "scene/parts.hpp"
+#include "scene/up.hpp"
 
 namespace cotan {
 namespace {

@@ -6,15 +6,13 @@
 #include <map>
 #include <numbers>
 
-#include "cotan/environment/environment.hpp"
-#include "cotan/image/file.hpp"
-#include "cotan/scene/bounds.hpp"
-#include "cotan/scene/environment.hpp"
-#include "cotan/scene/front_camera.hpp"
-#include "cotan/surface/vertex_frames.hpp"
+#include "cotan/image.hpp"
+#include "cotan/view.hpp"
 #include "examples_browser.hpp"
 #include "flip.hpp"
 #include "models.hpp"
+#include "scene/bounds.hpp"
+#include "scene/environment_map.hpp"
 
 namespace cotan::test {
 namespace {

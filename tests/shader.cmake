@@ -13,7 +13,7 @@ if(COTAN_GLSLANG)
   if(TARGET cotan_cost)
     # The devices and buffers of the pricing.
     target_sources(shader_test PRIVATE shader_run_vulkan.cpp shader_draw_vulkan.cpp)
-    target_include_directories(shader_test PRIVATE ${PROJECT_SOURCE_DIR}/src/cost)
+    target_include_directories(shader_test PRIVATE ${PROJECT_SOURCE_DIR}/apps/lab/cost)
     target_link_libraries(shader_test PRIVATE cotan_cost Vulkan::Headers)
     target_compile_definitions(shader_test PRIVATE COTAN_WITH_VULKAN)
   endif()

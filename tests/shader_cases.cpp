@@ -4,7 +4,7 @@
 #include <limits>
 #include <stdexcept>
 
-#include "cotan/truth/patch.hpp"
+#include "truth/patch.hpp"
 
 namespace cotan::test {
 

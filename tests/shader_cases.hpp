@@ -8,7 +8,7 @@
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
-#include "cotan/shader_text/shader_text.hpp"
+#include "cotan/shader_text.hpp"
 
 namespace cotan::test {
 

@@ -3,9 +3,9 @@
 #include <cmath>
 #include <limits>
 
-#include "cotan/scene/picture_text.hpp"
-#include "cotan/truth/patch.hpp"
+#include "scene/picture_text.hpp"
 #include "shader_cases.hpp"
+#include "truth/patch.hpp"
 
 namespace cotan::test {
 

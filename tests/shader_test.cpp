@@ -8,8 +8,8 @@
 
 #include <fmt/format.h>
 
-#include "cotan/truth/patch.hpp"
 #include "shader_run.hpp"
+#include "truth/patch.hpp"
 
 namespace cotan::test {
 namespace {

@@ -7,7 +7,7 @@
 #include <map>
 #include <string>
 
-#include "cotan/shader_text/shader_text.hpp"
+#include "cotan/shader_text.hpp"
 #include "parse.hpp"
 #include "print.hpp"
 #include "specialise.hpp"

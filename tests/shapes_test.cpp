@@ -1,5 +1,5 @@
 // The built-in shapes against geometry.
-#include "cotan/shapes/shapes.hpp"
+#include "cotan/scene.hpp"
 
 #include <algorithm>
 #include <array>

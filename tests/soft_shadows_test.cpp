@@ -3,9 +3,8 @@
 
 #include <algorithm>
 
-#include "cotan/environment/environment.hpp"
-#include "cotan/ground/ground.hpp"
-#include "cotan/reference/render.hpp"
+#include "cotan/render.hpp"
+#include "cotan/view.hpp"
 #include "ground_scene.hpp"
 
 namespace cotan {

@@ -7,12 +7,11 @@
 
 #include <glm/geometric.hpp>
 
-#include "cotan/draw/painter.hpp"
 #include "cotan/portable.hpp"
-#include "cotan/reference/render.hpp"
-#include "cotan/scene/picture_text.hpp"
-#include "cotan/shapes/shapes.hpp"
-#include "cotan/truth/grain.hpp"
+#include "cotan/render.hpp"
+#include "cotan/scene.hpp"
+#include "scene/picture_text.hpp"
+#include "truth/grain.hpp"
 
 namespace cotan::test {
 namespace {

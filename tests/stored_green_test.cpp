@@ -1,9 +1,9 @@
 // Green of normal maps as the stored tangents mean it.
-#include "cotan/scene/stored_green.hpp"
+#include "scene/stored_green.hpp"
 
 #include <gtest/gtest.h>
 
-#include "cotan/scene/put_picture.hpp"
+#include "scene/put_picture.hpp"
 
 namespace cotan {
 namespace {

@@ -5,7 +5,7 @@ cotan_test(tangents_test BATCH 4
   LIBRARIES cotan_core cotan_truth)
 cotan_test(tangents_gltf_test
   SOURCES tangents_gltf_test.cpp
-  LIBRARIES cotan_model cotan_shapes)
+  LIBRARIES cotan_model cotan_scene)
 
 # Where size_t has 32 bits.
 add_test(NAME Core.isRightWhereSizesHave32Bits

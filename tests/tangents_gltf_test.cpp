@@ -1,7 +1,7 @@
 // MikkTSpace on real models in glTF files: agreement with another implementation.
 #include "tangents_oracle.hpp"
 
-#include "cotan/model/load.hpp"
+#include "cotan/model.hpp"
 
 namespace {
 

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <mutex>
 
-#include "cotan/tangents_progress.hpp"
+#include "cotan/tangents.hpp"
 #include "tangent_meshes.hpp"
 
 namespace {

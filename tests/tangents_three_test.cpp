@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <random>
 
-#include "cotan/model/load.hpp"
+#include "cotan/model.hpp"
 #include "run_tool.hpp"
 #include "tangents_oracle.hpp"
 

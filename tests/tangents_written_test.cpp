@@ -5,8 +5,8 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "cotan/gltf/edit.hpp"
-#include "cotan/gltf/lookup.hpp"
+#include "cotan/gltf.hpp"
+#include "gltf/json/lookup.hpp"
 #include "run_tool.hpp"
 
 namespace cotan {

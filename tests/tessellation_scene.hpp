@@ -1,8 +1,8 @@
 // A tessellated surface as a scene.
 #pragma once
 
-#include "cotan/scene/scene.hpp"
-#include "cotan/truth/tessellation.hpp"
+#include "cotan/scene.hpp"
+#include "truth/tessellation.hpp"
 
 namespace cotan {
 

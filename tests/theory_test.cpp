@@ -1,8 +1,8 @@
 // Claims of docs/explanation/theory.md that no table of `cotan accuracy` covers.
 #include <gtest/gtest.h>
 
-#include "cotan/truth/patch.hpp"
-#include "cotan/truth/tessellation.hpp"
+#include "truth/patch.hpp"
+#include "truth/tessellation.hpp"
 
 namespace cotan {
 namespace {

@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include "cotan/lint/lint.hpp"
+#include "cotan/lint.hpp"
 #include "examples_browser.hpp"
 #include "models.hpp"
 

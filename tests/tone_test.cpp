@@ -9,7 +9,7 @@
 #include <glm/mat3x3.hpp>
 #include <glm/vector_relational.hpp>
 
-#include "cotan/scene/picture_text.hpp"
+#include "scene/picture_text.hpp"
 
 namespace cotan {
 namespace {

@@ -7,11 +7,11 @@
 
 #include <gtest/gtest.h>
 
+#include "cotan/gpu_meshes.hpp"
 #include "cotan/portable.hpp"
-#include "cotan/provoking.hpp"
 #include "cotan/triangle.hpp"
-#include "cotan/truth/random.hpp"
 #include "tangent_meshes.hpp"
+#include "truth/random.hpp"
 
 namespace cotan {
 

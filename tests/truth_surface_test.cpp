@@ -3,8 +3,8 @@
 
 #include <cmath>
 
-#include "cotan/truth/patch.hpp"
-#include "cotan/truth/tessellation.hpp"
+#include "truth/patch.hpp"
+#include "truth/tessellation.hpp"
 
 namespace cotan {
 namespace {

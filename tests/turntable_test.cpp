@@ -1,5 +1,5 @@
 // A model that turns once around: where it stands, and that one camera sees all of it.
-#include "cotan/picture/turntable.hpp"
+#include "cotan/picture.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,9 +8,9 @@
 #include <glm/ext/matrix_transform.hpp>
 #include <glm/geometric.hpp>
 
-#include "cotan/scene/bounds.hpp"
-#include "cotan/scene/front_camera.hpp"
-#include "cotan/shapes/shapes.hpp"
+#include "cotan/scene.hpp"
+#include "cotan/view.hpp"
+#include "scene/bounds.hpp"
 
 namespace cotan {
 namespace {

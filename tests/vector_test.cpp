@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include "cotan/scene/camera_axes.hpp"
+#include "scene/camera_axes.hpp"
 
 namespace cotan::test {
 namespace {

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "cotan/verify/frames.hpp"
+#include "cotan/inspect.hpp"
 
 namespace cotan {
 namespace {

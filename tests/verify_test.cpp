@@ -3,8 +3,8 @@
 
 #include <cmath>
 
-#include "cotan/verify/bake.hpp"
-#include "cotan/verify/conversion.hpp"
+#include "cotan/inspect.hpp"
+#include "inspect/verify/verify_bake.hpp"
 
 namespace cotan {
 namespace {

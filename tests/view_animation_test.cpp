@@ -1,7 +1,7 @@
 // `cotan view` of models that move.
 #include <gtest/gtest.h>
 
-#include "cotan/shapes/shapes.hpp"
+#include "cotan/scene.hpp"
 #include "quad_model.hpp"
 #include "view_window.hpp"
 

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "cotan/shapes/shapes.hpp"
+#include "cotan/scene.hpp"
 #include "quad_model.hpp"
 #include "view_window.hpp"
 

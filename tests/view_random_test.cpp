@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include "cotan/shapes/shapes.hpp"
+#include "cotan/scene.hpp"
 #include "quad_model.hpp"
 #include "view_window.hpp"
 

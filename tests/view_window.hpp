@@ -14,7 +14,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "cotan/image/file.hpp"
+#include "cotan/image.hpp"
 #include "run_tool.hpp"
 
 namespace cotan::test {

@@ -6,7 +6,7 @@
 #include <glm/geometric.hpp>
 
 #include "camera.hpp"
-#include "cotan/draw/camera_words.hpp"
+#include "cotan/render.hpp"
 
 namespace cotan::viewer {
 namespace {

@@ -6,10 +6,10 @@
 
 #include <fmt/format.h>
 
-#include "cotan/picture/words.hpp"
-#include "cotan/terminal/arguments.hpp"
+#include "picture/words.hpp"
 #include "session.hpp"
 #include "settings.hpp"
+#include "terminal/arguments.hpp"
 #include "viewer_state.hpp"
 
 namespace cotan::viewer {

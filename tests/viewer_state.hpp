@@ -4,9 +4,9 @@
 #include <gtest/gtest.h>
 
 #include "commands.hpp"
-#include "cotan/scene/bounds.hpp"
 #include "event.hpp"
 #include "input.hpp"
+#include "scene/bounds.hpp"
 #include "state.hpp"
 
 namespace cotan::viewer {

@@ -6,12 +6,12 @@
 #include <sys/resource.h>
 
 #include "bake_options.hpp"
-#include "cotan/convention_words.hpp"
-#include "cotan/convert/put_map.hpp"
-#include "cotan/image/file.hpp"
-#include "cotan/image/format_table.hpp"
-#include "cotan/verify/views.hpp"
+#include "cotan/convention.hpp"
+#include "cotan/convert.hpp"
+#include "cotan/image.hpp"
 #include "gltf_open.hpp"
+#include "image/format_table.hpp"
+#include "inspect/verify/view_files.hpp"
 #include "parse.hpp"
 #include "verify.hpp"
 

@@ -7,18 +7,18 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "cotan/convention_words.hpp"
-#include "cotan/files/extension.hpp"
-#include "cotan/image/convert.hpp"
-#include "cotan/image/file.hpp"
-#include "cotan/scene/bounds.hpp"
-#include "cotan/scene/meant_frame.hpp"
-#include "cotan/scene/normal_format.hpp"
-#include "cotan/scene/objects.hpp"
-#include "cotan/scene/stored_green.hpp"
-#include "cotan/scene/up.hpp"
+#include "cotan/convention.hpp"
+#include "cotan/image.hpp"
+#include "files/extension.hpp"
 #include "gltf_open.hpp"
+#include "image/component_types.hpp"
 #include "parse.hpp"
+#include "scene/bounds.hpp"
+#include "scene/meant_frame.hpp"
+#include "scene/normal_format.hpp"
+#include "scene/objects.hpp"
+#include "scene/stored_green.hpp"
+#include "scene/up.hpp"
 
 namespace cotan::app {
 

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "bake/bake_model.hpp"
 #include "common.hpp"
-#include "cotan/bake/bake_model.hpp"
 #include "loading.hpp"
 
 namespace cotan::app {

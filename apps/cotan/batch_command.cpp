@@ -5,11 +5,11 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "batch/report.hpp"
+#include "batch/run.hpp"
 #include "commands.hpp"
-#include "cotan/batch/report.hpp"
-#include "cotan/batch/run.hpp"
-#include "cotan/files/account.hpp"
-#include "cotan/files/output.hpp"
+#include "files/account.hpp"
+#include "files/output.hpp"
 
 namespace cotan::app {
 

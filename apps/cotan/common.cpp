@@ -7,12 +7,12 @@
 
 #include <fmt/format.h>
 
-#include "cotan/files/account.hpp"
-#include "cotan/files/output.hpp"
-#include "cotan/image/format_table.hpp"
-#include "cotan/report/report_format.hpp"
-#include "cotan/terminal/printable.hpp"
-#include "cotan/terminal/progress_line.hpp"
+#include "files/account.hpp"
+#include "files/output.hpp"
+#include "files/report/report_format.hpp"
+#include "image/format_table.hpp"
+#include "terminal/printable.hpp"
+#include "terminal/progress_line.hpp"
 
 namespace cotan::app {
 

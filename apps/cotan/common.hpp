@@ -10,12 +10,12 @@
 
 #include <fmt/format.h>
 
-#include "cotan/files/plan.hpp"
-#include "cotan/parallel/loops.hpp"
-#include "cotan/report/json.hpp"
+#include "core/loops.hpp"
 #include "cotan/result.hpp"
-#include "cotan/terminal/arguments.hpp"
-#include "cotan/terminal/progress_line.hpp"
+#include "files/plan.hpp"
+#include "files/report/json.hpp"
+#include "terminal/arguments.hpp"
+#include "terminal/progress_line.hpp"
 
 namespace cotan::app {
 

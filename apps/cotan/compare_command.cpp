@@ -6,12 +6,13 @@
 
 #include <fmt/format.h>
 
-#include "cotan/image/file.hpp"
-#include "cotan/scene/meant_frame.hpp"
-#include "cotan/scene/parts.hpp"
-#include "cotan/verify/frames.hpp"
+#include "cotan/image.hpp"
+#include "cotan/inspect.hpp"
+#include "inspect/statistics.hpp"
 #include "parse.hpp"
 #include "picture.hpp"
+#include "scene/meant_frame.hpp"
+#include "scene/parts.hpp"
 
 namespace cotan::app {
 

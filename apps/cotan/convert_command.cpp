@@ -7,13 +7,12 @@
 
 #include <fmt/format.h>
 
-#include "cotan/convert/convert_model.hpp"
-#include "cotan/convert/named_frame.hpp"
-#include "cotan/draw/painter.hpp"
-#include "cotan/report/convert_report.hpp"
-#include "cotan/verify/conversion.hpp"
-#include "cotan/verify/views.hpp"
+#include "bake/convert_report.hpp"
+#include "cotan/convert.hpp"
+#include "cotan/inspect.hpp"
+#include "cotan/render.hpp"
 #include "gltf_open.hpp"
+#include "inspect/verify/view_files.hpp"
 #include "loading.hpp"
 #include "parse.hpp"
 #include "verify.hpp"

@@ -2,8 +2,8 @@
 
 #include <fmt/format.h>
 
-#include "cotan/files/extension.hpp"
-#include "cotan/model/load.hpp"
+#include "cotan/model.hpp"
+#include "files/extension.hpp"
 
 namespace cotan::app {
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "common.hpp"
-#include "cotan/gltf/edit.hpp"
+#include "cotan/gltf.hpp"
 
 namespace cotan::app {
 

@@ -2,14 +2,14 @@
 
 #include <fmt/format.h>
 
-#include "cotan/draw/camera_words.hpp"
-#include "cotan/inspect/hot_spots.hpp"
-#include "cotan/lint/limits.hpp"
-#include "cotan/report/lint_report.hpp"
-#include "cotan/terminal/command_words.hpp"
+#include "bake/lint_report.hpp"
+#include "cotan/inspect.hpp"
+#include "cotan/lint.hpp"
+#include "cotan/render.hpp"
 #include "gltf_open.hpp"
 #include "loading.hpp"
 #include "picture.hpp"
+#include "terminal/command_words.hpp"
 
 namespace cotan::app {
 

@@ -3,8 +3,8 @@
 #include <cctype>
 #include <string_view>
 
-#include "cotan/image/file.hpp"
-#include "cotan/model/load.hpp"
+#include "cotan/image.hpp"
+#include "cotan/model.hpp"
 
 namespace cotan::app {
 

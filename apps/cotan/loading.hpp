@@ -6,9 +6,9 @@
 
 #include "common.hpp"
 #include "cotan/convention.hpp"
-#include "cotan/draw/painter.hpp"
-#include "cotan/picture/words.hpp"
-#include "cotan/scene/scene.hpp"
+#include "cotan/render.hpp"
+#include "cotan/scene.hpp"
+#include "picture/words.hpp"
 
 namespace cotan::app {
 

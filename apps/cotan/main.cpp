@@ -1,36 +1,20 @@
 // The command line and its exit codes.
-#include <algorithm>
-#include <cstdio>
-#include <exception>
 #include <filesystem>
 #include <memory>
 #include <string>
 #include <system_error>
 #include <vector>
 
-#include <fmt/format.h>
-
 #include "commands.hpp"
-#ifdef COTAN_WITH_BATCH
-#include "cotan/batch/child.hpp"
-#endif
-#include "cotan/files/account.hpp"
-#include "cotan/files/interrupt.hpp"
-#include "cotan/files/output.hpp"
-#include "cotan/files/sandbox.hpp"
-#include "cotan/model/reader.hpp"
-#include "cotan/terminal/help_files.hpp"
-#include "cotan/terminal/printable.hpp"
+#include "files/output.hpp"
+#include "help/help_files.hpp"
+#include "lab_options.hpp"
+#include "program.hpp"
 #include "view_command.hpp"
 
 namespace {
 
-// Not fmt::print, which throws where standard error cannot be written.
-int fail(const cotan::Error& error)
-{
-    std::fputs(fmt::format("cotan: error: {}\n", cotan::printable(error.message)).c_str(), stderr);
-    return int(error.kind);
-}
+using cotan::app::finish;
 
 // The manual's pages and the completion of shells, into a folder as share/ has them. For the build: see CMakeLists.txt.
 cotan::Status writeHelpFiles(const cotan::Arguments& tool, const std::filesystem::path& folder)
@@ -42,17 +26,6 @@ cotan::Status writeHelpFiles(const cotan::Arguments& tool, const std::filesystem
             return written;
     }
     return cotan::Done{};
-}
-
-// The exit code of a command, once what it printed has arrived.
-int finish(const cotan::Status& status)
-{
-    if (const auto refused = cotan::refusal(); refused && !status)
-        return fail(*refused); // a reader may have put it in other words
-    if (!status)
-        return fail(status.error());
-    const cotan::Status printed = cotan::app::flushOutput();
-    return printed ? 0 : fail(printed.error());
 }
 
 // Arguments itself takes "help render" for "render --help"; this is what the help and completion have of it.
@@ -67,6 +40,9 @@ void addHelpCommand(cotan::Arguments& tool)
     cotan::app::addExamples(command, {"cotan help render", "cotan help map convert"});
     command.does([words] { return cotan::Status(cotan::Done{}); });
 }
+
+// Accuracy, figures and costs are the other program's: whoever bakes does not carry them.
+template<class Options> cotan::Status runInLab(const Options&) { return cotan::app::startLab(); }
 
 // By what somebody wants to do; the order here is that of the help.
 void addCommands(cotan::Arguments& tool)
@@ -85,11 +61,11 @@ void addCommands(cotan::Arguments& tool)
     addTangentsCommand(tool);
     tool.heading("Put it into an engine");
     addShaderCommand(tool);
-    addCostCommand(tool);
+    addCostCommand(tool, runInLab<CostCommandOptions>);
     tool.heading("Many files, and proofs");
     addBatchCommand(tool);
-    addAccuracyCommand(tool);
-    addFiguresCommand(tool);
+    addAccuracyCommand(tool, runInLab<AccuracyCommandOptions>);
+    addFiguresCommand(tool, runInLab<FiguresCommandOptions>);
     tool.heading("Help");
     addHelpCommand(tool);
 }
@@ -107,26 +83,4 @@ int runCommandLine(std::vector<std::string> words)
 
 } // namespace
 
-int main(int argc, char** argv)
-{
-    if (cotan::isReaderProcess(argc, argv))
-        return cotan::runReaderProcess();
-    cotan::sandboxByDefault({.program = "/proc/self/exe"});
-    cotan::removePartsOnInterrupt();
-    try {
-#ifdef COTAN_WITH_BATCH
-        if (cotan::isJobProcess(argc, argv))
-            return cotan::runJobProcess(argc, argv, runCommandLine);
-#endif
-        return runCommandLine({argv + std::min(argc, 1), argv + argc});
-    } catch (const std::bad_alloc&) {
-        return fail({cotan::ErrorKind::unavailable, "not enough memory"});
-    } catch (const std::system_error& e) { // of threads, too
-        return fail({cotan::ErrorKind::unavailable,
-                     e.code() == std::errc::resource_unavailable_try_again
-                         ? "no more threads or processes are allowed here (ulimit -u)"
-                         : std::string("unexpected: ") + e.what()});
-    } catch (const std::exception& e) {
-        return fail({cotan::ErrorKind::unavailable, std::string("unexpected: ") + e.what()});
-    }
-}
+int main(int argc, char** argv) { return cotan::app::runProgram(argc, argv, runCommandLine); }

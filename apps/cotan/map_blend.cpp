@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include "cotan/map_files/blend.hpp"
+#include "map_files/blend.hpp"
 #include "map_options.hpp"
 #include "parse.hpp"
 

@@ -1,7 +1,7 @@
 #include <fmt/format.h>
 
 #include "commands.hpp"
-#include "cotan/image/format_table.hpp"
+#include "image/format_table.hpp"
 #include "map_options.hpp"
 
 namespace cotan::app {

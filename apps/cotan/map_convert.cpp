@@ -1,8 +1,8 @@
 // `cotan map convert`: the same directions, stored another way.
 #include <fmt/format.h>
 
-#include "cotan/image/format_table.hpp"
-#include "cotan/map_files/convert.hpp"
+#include "image/format_table.hpp"
+#include "map_files/convert.hpp"
 #include "map_options.hpp"
 #include "parse.hpp"
 

@@ -1,7 +1,7 @@
 // `cotan map diff`: two maps against each other, in degrees.
 #include <fmt/format.h>
 
-#include "cotan/map_files/inspect.hpp"
+#include "map_files/inspect.hpp"
 #include "map_options.hpp"
 
 namespace cotan::app {

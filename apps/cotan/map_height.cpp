@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "cotan/map_files/height.hpp"
+#include "map_files/height.hpp"
 #include "map_options.hpp"
 #include "parse.hpp"
 

@@ -5,8 +5,8 @@
 #include <system_error>
 #include <vector>
 
-#include "cotan/image/format_table.hpp"
-#include "cotan/map_files/inspect.hpp"
+#include "image/format_table.hpp"
+#include "map_files/inspect.hpp"
 #include "map_options.hpp"
 
 namespace cotan::app {

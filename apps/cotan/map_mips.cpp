@@ -1,8 +1,8 @@
 // `cotan map mips`: the chain as one DDS or a file for each level.
 #include <fmt/format.h>
 
-#include "cotan/files/account.hpp"
-#include "cotan/map_files/mips.hpp"
+#include "files/account.hpp"
+#include "map_files/mips.hpp"
 #include "map_options.hpp"
 #include "parse.hpp"
 

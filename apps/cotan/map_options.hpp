@@ -6,9 +6,8 @@
 
 #include "common.hpp"
 #include "cotan/convention.hpp"
-#include "cotan/convention_words.hpp"
-#include "cotan/map_files/map_file.hpp"
 #include "loading.hpp"
+#include "map_files/map_file.hpp"
 
 namespace cotan::app {
 

@@ -1,6 +1,6 @@
 // `cotan batch` where there is no xxHash to tell files apart: it takes any words and says what is missing.
 #include "commands.hpp"
-#include "cotan/not_built.hpp"
+#include "core/not_built.hpp"
 
 namespace cotan::app {
 

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "cotan/terminal/command_words.hpp"
+#include "terminal/command_words.hpp"
 
 namespace cotan::app {
 

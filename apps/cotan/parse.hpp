@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "cotan/frame.hpp"
-#include "cotan/picture/words.hpp"
 #include "cotan/result.hpp"
-#include "cotan/scene/view.hpp"
+#include "cotan/view.hpp"
+#include "picture/words.hpp"
 
 namespace cotan::app {
 

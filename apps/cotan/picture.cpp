@@ -1,7 +1,7 @@
 #include "picture.hpp"
 
-#include "cotan/report/words.hpp"
-#include "cotan/scene/geometry.hpp"
+#include "bake/report_words.hpp"
+#include "scene/geometry.hpp"
 
 namespace cotan::app {
 

@@ -1,8 +1,8 @@
-// What `render` and `compare` share: the words that say which model, seen how, drawn by what (cotan/picture/).
+// What `render` and `compare` share: the words that say which model, seen how, drawn by what (src/picture).
 #pragma once
 
 #include "common.hpp"
-#include "cotan/picture/picture.hpp"
+#include "cotan/picture.hpp"
 #include "loading.hpp"
 
 namespace cotan::app {

@@ -5,17 +5,16 @@
 
 #include <fmt/format.h>
 
-#include "cotan/image/animation.hpp"
-#include "cotan/image/file.hpp"
-#include "cotan/image/format_table.hpp"
-#include "cotan/inspect/edges.hpp"
-#include "cotan/parse_number.hpp"
-#include "cotan/picture/light.hpp"
-#include "cotan/picture/turntable.hpp"
-#include "cotan/scene/geometry.hpp"
-#include "cotan/scene/meant_frame.hpp"
+#include "core/parse_number.hpp"
+#include "cotan/image.hpp"
+#include "cotan/inspect.hpp"
+#include "cotan/picture.hpp"
+#include "image/format_table.hpp"
+#include "inspect/statistics.hpp"
 #include "parse.hpp"
 #include "picture.hpp"
+#include "scene/geometry.hpp"
+#include "scene/meant_frame.hpp"
 
 namespace cotan::app {
 

@@ -2,8 +2,8 @@
 
 #include <fmt/format.h>
 
-#include "cotan/files/output.hpp"
-#include "cotan/shader_text/shader_text.hpp"
+#include "cotan/shader_text.hpp"
+#include "files/output.hpp"
 #include "parse.hpp"
 
 namespace cotan::app {

@@ -2,11 +2,11 @@
 
 #include <fmt/format.h>
 
-#include "cotan/gltf/tangents.hpp"
-#include "cotan/report/smooth_statistics.hpp"
-#include "cotan/report/tangent_difference.hpp"
-#include "cotan/report/words.hpp"
+#include "bake/report_words.hpp"
+#include "cotan/gltf.hpp"
 #include "gltf_open.hpp"
+#include "smooth_report.hpp"
+#include "tangents_report.hpp"
 
 namespace cotan::app {
 

@@ -2,9 +2,9 @@
 
 #include <fmt/format.h>
 
-#include "cotan/model/load.hpp"
-#include "cotan/verify/conversion.hpp"
-#include "cotan/verify/views.hpp"
+#include "cotan/inspect.hpp"
+#include "cotan/model.hpp"
+#include "inspect/verify/view_files.hpp"
 #include "loading.hpp"
 
 namespace cotan::app {

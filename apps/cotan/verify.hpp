@@ -6,7 +6,7 @@
 
 #include "common.hpp"
 #include "cotan/frame.hpp"
-#include "cotan/verify/bake.hpp"
+#include "inspect/verify/verify_bake.hpp"
 
 namespace cotan::app {
 

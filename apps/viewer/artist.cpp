@@ -4,7 +4,7 @@
 #include <mutex>
 #include <thread>
 
-#include "cotan/inspect/inspection.hpp"
+#include "cotan/inspect.hpp"
 #include "studio.hpp"
 
 namespace cotan::viewer {

@@ -8,8 +8,8 @@
 
 #include <glm/geometric.hpp>
 
-#include "cotan/scene/camera_axes.hpp"
 #include "cotan/vector.hpp"
+#include "scene/camera_axes.hpp"
 
 namespace cotan::viewer {
 

@@ -6,7 +6,7 @@
 
 #include <glm/vec2.hpp>
 
-#include "cotan/scene/scene.hpp"
+#include "cotan/scene.hpp"
 
 namespace cotan::viewer {
 

@@ -3,7 +3,7 @@
 
 #include "camera.hpp"
 #include "command_words.hpp"
-#include "cotan/draw/camera_words.hpp"
+#include "cotan/render.hpp"
 
 namespace cotan::viewer {
 

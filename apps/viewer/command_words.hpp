@@ -9,7 +9,7 @@
 
 #include <fmt/format.h>
 
-#include "cotan/parse_number.hpp"
+#include "core/parse_number.hpp"
 #include "cotan/result.hpp"
 #include "state.hpp"
 

@@ -7,10 +7,10 @@
 #include <fmt/ranges.h>
 
 #include "command_words.hpp"
-#include "cotan/convention_words.hpp"
-#include "cotan/draw/camera_words.hpp"
-#include "cotan/image/format_table.hpp"
+#include "cotan/convention.hpp"
+#include "cotan/render.hpp"
 #include "files.hpp"
+#include "image/format_table.hpp"
 #include "parse.hpp"
 #include "settings.hpp"
 

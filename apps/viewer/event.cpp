@@ -7,7 +7,7 @@
 
 #include <fmt/format.h>
 
-#include "cotan/parse_number.hpp"
+#include "core/parse_number.hpp"
 
 namespace cotan::viewer {
 

@@ -8,8 +8,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include "cotan/files/extension.hpp"
-#include "cotan/image/format_table.hpp"
+#include "files/extension.hpp"
+#include "image/format_table.hpp"
 
 namespace cotan::viewer {
 

@@ -8,7 +8,7 @@
 
 #include "camera.hpp"
 #include "commands.hpp"
-#include "cotan/inspect/pick.hpp"
+#include "cotan/inspect.hpp"
 
 namespace cotan::viewer {
 

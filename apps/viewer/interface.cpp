@@ -9,10 +9,10 @@
 
 #include "camera.hpp"
 #include "commands.hpp"
-#include "cotan/picture/words.hpp"
-#include "cotan/report/angles.hpp"
-#include "cotan/scene/bounds.hpp"
 #include "files.hpp"
+#include "inspect/angles.hpp"
+#include "picture/words.hpp"
+#include "scene/bounds.hpp"
 #include "settings.hpp"
 
 namespace cotan::viewer {

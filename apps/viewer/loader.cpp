@@ -7,8 +7,8 @@
 #include <thread>
 #include <utility>
 
-#include "cotan/inspect/map_faults.hpp"
-#include "cotan/scene/geometry.hpp"
+#include "cotan/inspect.hpp"
+#include "scene/geometry.hpp"
 
 namespace cotan::viewer {
 

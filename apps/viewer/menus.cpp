@@ -7,10 +7,10 @@
 #include <fmt/format.h>
 
 #include "commands.hpp"
-#include "cotan/environment/environment.hpp"
-#include "cotan/picture/words.hpp"
+#include "cotan/view.hpp"
 #include "files.hpp"
 #include "parse.hpp"
+#include "picture/words.hpp"
 #include "settings.hpp"
 
 namespace cotan::viewer {

@@ -1,7 +1,7 @@
 #include <cstring>
 
-#include "cotan/files/module.hpp"
-#include "cotan/not_built.hpp"
+#include "core/not_built.hpp"
+#include "files/module.hpp"
 #include "window.hpp"
 
 namespace cotan::viewer {

@@ -4,7 +4,8 @@
 
 #include <fmt/format.h>
 
-#include "cotan/inspect/inspection.hpp"
+#include "cotan/inspect.hpp"
+#include "inspect/statistics.hpp"
 
 namespace cotan::viewer {
 

@@ -2,9 +2,9 @@
 
 #include <fmt/format.h>
 
-#include "cotan/draw/camera_words.hpp"
-#include "cotan/picture/words.hpp"
+#include "cotan/render.hpp"
 #include "parse.hpp"
+#include "picture/words.hpp"
 
 namespace cotan::viewer {
 

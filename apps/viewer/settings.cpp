@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "cotan/parse_number.hpp"
+#include "core/parse_number.hpp"
 
 namespace cotan::viewer {
 

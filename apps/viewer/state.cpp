@@ -7,12 +7,12 @@
 #include <glm/geometric.hpp>
 
 #include "camera.hpp"
-#include "cotan/draw/camera_words.hpp"
-#include "cotan/image/format_table.hpp"
-#include "cotan/parse_number.hpp"
-#include "cotan/picture/words.hpp"
-#include "cotan/scene/bounds.hpp"
+#include "core/parse_number.hpp"
+#include "cotan/render.hpp"
 #include "files.hpp"
+#include "image/format_table.hpp"
+#include "picture/words.hpp"
+#include "scene/bounds.hpp"
 #include "settings.hpp"
 
 namespace cotan::viewer {

@@ -11,10 +11,10 @@
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
-#include "cotan/inspect/hot_spots.hpp"
-#include "cotan/inspect/probe.hpp"
-#include "cotan/report/statistics.hpp"
-#include "cotan/scene/scene.hpp"
+#include "cotan/inspect.hpp"
+#include "cotan/scene.hpp"
+#include "inspect/probe.hpp"
+#include "inspect/statistics.hpp"
 #include "picture.hpp"
 
 namespace cotan::viewer {

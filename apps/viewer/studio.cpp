@@ -6,12 +6,11 @@
 
 #include <fmt/format.h>
 
-#include "cotan/draw/exposure.hpp"
-#include "cotan/inspect/inspection.hpp"
-#include "cotan/report/angles.hpp"
-#include "cotan/scene/geometry.hpp"
-#include "cotan/verify/frames.hpp"
+#include "cotan/inspect.hpp"
+#include "cotan/render.hpp"
+#include "inspect/angles.hpp"
 #include "parse.hpp"
+#include "scene/geometry.hpp"
 
 namespace cotan::viewer {
 

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "artist.hpp"
-#include "cotan/picture/light.hpp"
+#include "cotan/picture.hpp"
 
 namespace cotan::viewer {
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "cotan/result.hpp"
-#include "cotan/scene/image.hpp"
+#include "cotan/scene.hpp"
 #include "event.hpp"
 #include "interface.hpp"
 

@@ -5,8 +5,8 @@
 #include <fmt/format.h>
 
 #include "commands.hpp"
-#include "cotan/image/file.hpp"
-#include "cotan/image/format_table.hpp"
+#include "cotan/image.hpp"
+#include "image/format_table.hpp"
 #include "input.hpp"
 
 namespace cotan::viewer {

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "cotan/cost/timing.hpp"
+#include "cost/timing.hpp"
 #include "pass_times.hpp"
 #include "test_log.hpp"
 

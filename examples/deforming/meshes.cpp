@@ -8,7 +8,7 @@
 
 #include <glm/common.hpp>
 
-#include <cotan/model/load.hpp>
+#include <cotan/model.hpp>
 
 namespace {
 

@@ -7,7 +7,7 @@
 
 #include <glm/vec4.hpp>
 
-#include <cotan/adjacency.hpp>
+#include <cotan/gpu_meshes.hpp>
 
 #include "../triangle/gpu.hpp"
 #include "meshes.hpp"

@@ -3,7 +3,7 @@
 #include <cstdio>
 
 #include <cotan/convention.hpp>
-#include <cotan/cotangent_frame.hpp>
+#include <cotan/frame.hpp>
 
 int main()
 {

@@ -1,9 +1,9 @@
 // The normal map of a detailed model for a simple one, read without tangents: bake LOW HIGH PICTURE
 #include <cstdio>
 
-#include <cotan/bake/bake_model.hpp>
-#include <cotan/image/file.hpp>
-#include <cotan/model/load.hpp>
+#include <cotan/bake.hpp>
+#include <cotan/image.hpp>
+#include <cotan/model.hpp>
 
 int main(int argc, char** argv)
 {

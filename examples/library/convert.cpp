@@ -1,7 +1,7 @@
 // A glTF model's normal maps for the frame `smooth`, without tangents: convert IN OUT
 #include <cstdio>
 
-#include <cotan/convert/convert_model.hpp>
+#include <cotan/convert.hpp>
 
 int main(int argc, char** argv)
 {

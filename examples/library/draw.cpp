@@ -1,11 +1,10 @@
 // Draws a model, or the built-in scene, on the processor, without a stored tangent: draw [MODEL] PICTURE
 #include <cstdio>
 
-#include <cotan/image/file.hpp>
-#include <cotan/model/load.hpp>
-#include <cotan/reference/render.hpp>
-#include <cotan/scene/geometry.hpp>
-#include <cotan/shapes/shapes.hpp>
+#include <cotan/image.hpp>
+#include <cotan/model.hpp>
+#include <cotan/render.hpp>
+#include <cotan/scene.hpp>
 
 int main(int argc, char** argv)
 {
@@ -16,7 +15,7 @@ int main(int argc, char** argv)
     View view;
     view.width = 320;
     view.height = 240;
-    view.camera = fitCamera(bounds(*scene), view.width, view.height);
+    view.camera = frontCamera(*scene, view.width, view.height);
     view.lights = defaultLights();
     const auto picture = renderReference(*scene, view);
     const auto written = picture ? writeImage(argv[argc - 1], *picture) : Status(picture.error());

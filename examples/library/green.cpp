@@ -1,8 +1,8 @@
 // Which way green of a normal map points: green FILE
 #include <cstdio>
 
-#include <cotan/image/file.hpp>
-#include <cotan/maps/green.hpp>
+#include <cotan/image.hpp>
+#include <cotan/maps.hpp>
 
 int main(int argc, char** argv)
 {

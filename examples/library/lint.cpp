@@ -1,8 +1,8 @@
 // What a model will look like without its tangents: lint FILE
 #include <cstdio>
 
-#include <cotan/lint/lint.hpp>
-#include <cotan/model/load.hpp>
+#include <cotan/lint.hpp>
+#include <cotan/model.hpp>
 
 int main(int argc, char** argv)
 {

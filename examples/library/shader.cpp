@@ -1,7 +1,7 @@
 // Prints the function that perturbs the normal in a fragment shader of Vulkan or OpenGL.
 #include <cstdio>
 
-#include <cotan/shader_text/shader_text.hpp>
+#include <cotan/shader_text.hpp>
 
 int main()
 {

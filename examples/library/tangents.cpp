@@ -1,7 +1,7 @@
 // How many vertices of a model would have to be split to store MikkTSpace's tangents: tangents FILE
 #include <cstdio>
 
-#include <cotan/model/load.hpp>
+#include <cotan/model.hpp>
 #include <cotan/tangents.hpp>
 
 int main(int argc, char** argv)

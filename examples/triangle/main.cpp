@@ -9,8 +9,7 @@
 #include <exception>
 #include <string>
 
-#include <cotan/meshlets.hpp>
-#include <cotan/provoking.hpp>
+#include <cotan/gpu_meshes.hpp>
 #include <cotan/triangle.hpp>
 
 #include "derivatives.frag.h"

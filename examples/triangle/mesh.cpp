@@ -8,8 +8,8 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
-#include <cotan/model/load.hpp>
-#include <cotan/shapes/shapes.hpp>
+#include <cotan/model.hpp>
+#include <cotan/scene.hpp>
 #include <cotan/tangents.hpp>
 
 namespace {

@@ -1,6 +1,6 @@
 // What `cotan cost` counts, as portable text: each function is the whole of perturbing a normal, from
 // interpolated inputs and differences to the unit result. Include cotan/lang.h, frame.h, history.h and fused.h
-// first. The fragment shaders (fragment.frag) and the operation counter (src/cost/scalar_count.cpp)
+// first. The fragment shaders (fragment.frag) and the operation counter (apps/lab/cost/scalar_count.cpp)
 // call the same text.
 //
 // Inputs: n interpolated normal, not unit; the differences of a frame; m decoded texel; tangent as

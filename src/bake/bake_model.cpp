@@ -1,4 +1,4 @@
-#include "cotan/bake/bake_model.hpp"
+#include "bake/bake_model.hpp"
 
 #include <chrono>
 

@@ -3,8 +3,8 @@
 
 #include <span>
 
-#include "cotan/bake/bake.hpp"
-#include "cotan/bake/low_points.hpp"
+#include "bake/bake_surfaces.hpp"
+#include "bake/low_points.hpp"
 
 namespace cotan {
 

@@ -6,7 +6,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
-#include "cotan/parallel/loops.hpp"
+#include "core/loops.hpp"
 
 namespace cotan {
 

@@ -1,4 +1,4 @@
-#include "cotan/bake/high_normal_maps.hpp"
+#include "bake/high_normal_maps.hpp"
 
 #include <cmath>
 #include <map>
@@ -7,9 +7,9 @@
 
 #include <glm/geometric.hpp>
 
-#include "cotan/scene/normal_format.hpp"
-#include "cotan/scene/texture_sample.hpp"
 #include "cotan/vector.hpp"
+#include "scene/normal_format.hpp"
+#include "scene/texture_sample.hpp"
 
 namespace cotan {
 

@@ -6,7 +6,7 @@
 
 #include <glm/geometric.hpp>
 
-#include "cotan/bake/high_surface.hpp"
+#include "bake/high_surface.hpp"
 
 namespace cotan {
 

@@ -6,7 +6,7 @@
 
 #include <glm/geometric.hpp>
 
-#include "cotan/bake/high_surface.hpp"
+#include "bake/high_surface.hpp"
 #include "curved_normals.hpp"
 #include "embree.hpp"
 
@@ -17,7 +17,7 @@ struct Part { // one instance, in world space
     std::vector<std::uint32_t> indices;
     std::vector<std::uint8_t> repeated; // one a triangle: not 0 where it lies on an earlier one; empty: none does
     std::vector<std::uint32_t> seen;    // indices as rays see them, where some are left out
-    std::vector<ShapeOperator> shapes; // of the vertices; empty: not prepared
+    std::vector<ShapeOperator> shapes;  // of the vertices; empty: not prepared
     float front = 1; // -1: most of the triangles are wound against their vertices' normals, which count
 };
 

@@ -1,4 +1,4 @@
-#include "cotan/bake/high_surface.hpp"
+#include "bake/high_surface.hpp"
 
 #include <algorithm>
 

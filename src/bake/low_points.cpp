@@ -1,4 +1,4 @@
-#include "cotan/bake/low_points.hpp"
+#include "bake/low_points.hpp"
 
 #include <cmath>
 

@@ -1,4 +1,4 @@
-#include "cotan/bake/low_tree.hpp"
+#include "bake/low_tree.hpp"
 
 #include <algorithm>
 #include <cmath>

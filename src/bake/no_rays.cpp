@@ -1,7 +1,7 @@
 // The detailed surface where there is no Embree to find it: nobody can make one.
-#include "cotan/bake/high_surface.hpp"
-#include "cotan/bake/low_tree.hpp"
-#include "cotan/not_built.hpp"
+#include "bake/high_surface.hpp"
+#include "bake/low_tree.hpp"
+#include "core/not_built.hpp"
 
 namespace cotan {
 

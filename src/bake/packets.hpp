@@ -7,7 +7,7 @@
 
 #include <glm/geometric.hpp>
 
-#include "cotan/bake/high_surface.hpp"
+#include "bake/high_surface.hpp"
 #include "embree.hpp"
 
 namespace cotan {

@@ -5,13 +5,13 @@
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
 
-#include "cotan/bake/bake_model.hpp"
+#include "bake/bake_model.hpp"
 #include "cotan/covector.hpp"
-#include "cotan/scene/check.hpp"
-#include "cotan/scene/objects.hpp"
-#include "cotan/scene/parts.hpp"
-#include "cotan/scene/put_picture.hpp"
-#include "cotan/scene/stored_green.hpp"
+#include "scene/objects.hpp"
+#include "scene/parts.hpp"
+#include "scene/put_picture.hpp"
+#include "scene/scene_check.hpp"
+#include "scene/stored_green.hpp"
 
 namespace cotan {
 

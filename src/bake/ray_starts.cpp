@@ -1,4 +1,4 @@
-#include "cotan/bake/ray_starts.hpp"
+#include "bake/ray_starts.hpp"
 
 #include <algorithm>
 #include <atomic>
@@ -12,7 +12,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
-#include "cotan/parallel/loops.hpp"
+#include "core/loops.hpp"
 #include "high_points.hpp"
 
 namespace cotan {

@@ -4,9 +4,9 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
-#include "cotan/bake/bake.hpp"
-#include "cotan/parallel/loops.hpp"
-#include "cotan/scene/normal_format.hpp"
+#include "bake/bake_surfaces.hpp"
+#include "core/loops.hpp"
+#include "scene/normal_format.hpp"
 
 namespace cotan {
 

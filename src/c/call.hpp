@@ -15,7 +15,6 @@
 #include <vector>
 
 #include "cotan.h"
-#include "cotan/progress.hpp"
 #include "cotan/result.hpp"
 
 struct cotan_bytes {

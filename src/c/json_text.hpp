@@ -2,11 +2,11 @@
 #pragma once
 
 #include "call.hpp"
-#include "cotan/report/report_format.hpp"
+#include "files/report/report_format.hpp"
 
 namespace cotan::c {
 
-// format: of cotan/report/report_format.hpp.
+// format: of files/report/report_format.hpp.
 inline void giveText(std::string_view format, const Json& json, cotan_bytes** to)
 {
     if (to)

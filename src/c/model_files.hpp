@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "call.hpp"
-#include "cotan/files/limits.hpp"
+#include "cotan/files.hpp"
 #include "pictures.hpp"
 
 namespace cotan::c {

@@ -1,6 +1,6 @@
 // cotan.h: files of models and pictures, and drawing, where what they need is not there.
 #include "call.hpp"
-#include "cotan/not_built.hpp"
+#include "core/not_built.hpp"
 
 using namespace cotan;
 using namespace cotan::c;

@@ -1,6 +1,6 @@
 // cotan.h: models, where there is no part `gltf`.
 #include "call.hpp"
-#include "cotan/not_built.hpp"
+#include "core/not_built.hpp"
 
 using namespace cotan;
 using namespace cotan::c;

@@ -4,9 +4,9 @@
 #include <cstdint>
 
 #include "call.hpp"
-#include "cotan/convention_words.hpp"
+#include "cotan/convention.hpp"
 #include "cotan/frame.hpp"
-#include "cotan/scene/image.hpp"
+#include "cotan/scene.hpp"
 
 struct cotan_image {
     cotan::Image image;

@@ -1,4 +1,4 @@
-#include "cotan/adjacency.hpp"
+#include "cotan/gpu_meshes.hpp"
 
 #include <numeric>
 

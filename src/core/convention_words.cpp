@@ -1,4 +1,4 @@
-#include "cotan/convention_words.hpp"
+#include "cotan/convention.hpp"
 
 #include <algorithm>
 #include <optional>

@@ -1,6 +1,4 @@
-#include "cotan/meshlets.hpp"
-
-#include "cotan/adjacency.hpp"
+#include "cotan/gpu_meshes.hpp"
 
 namespace cotan {
 

@@ -1,4 +1,4 @@
-#include "cotan/provoking.hpp"
+#include "cotan/gpu_meshes.hpp"
 
 #include <algorithm>
 #include <array>

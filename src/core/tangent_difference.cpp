@@ -1,11 +1,11 @@
-#include "cotan/tangent_difference.hpp"
+#include "cotan/tangents.hpp"
 
 #include <algorithm>
 #include <cmath>
 
 #include <glm/geometric.hpp>
 
-#include "cotan/angle.hpp"
+#include "cotan/vector.hpp"
 
 namespace cotan {
 

@@ -1,4 +1,4 @@
-#include "cotan/tangents_progress.hpp"
+#include "cotan/tangents.hpp"
 
 #include <algorithm>
 #include <optional>

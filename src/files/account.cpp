@@ -1,4 +1,4 @@
-#include "cotan/files/account.hpp"
+#include "files/account.hpp"
 
 #include <mutex>
 #include <system_error>

@@ -1,4 +1,4 @@
-#include "cotan/files/bytes.hpp"
+#include "files/bytes.hpp"
 
 #include <cstdio>
 #include <memory>
@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include "cotan/files/account.hpp"
+#include "files/account.hpp"
 
 namespace cotan {
 

@@ -1,4 +1,4 @@
-#include "cotan/files/folder.hpp"
+#include "files/folder.hpp"
 
 #include <algorithm>
 #include <system_error>

@@ -1,4 +1,4 @@
-#include "cotan/files/interrupt.hpp"
+#include "files/interrupt.hpp"
 
 #include <atomic>
 #include <csignal>

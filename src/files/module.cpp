@@ -1,4 +1,4 @@
-#include "cotan/files/module.hpp"
+#include "files/module.hpp"
 
 #include <filesystem>
 #include <string>

@@ -1,5 +1,5 @@
 // Where programs load no modules.
-#include "cotan/files/module.hpp"
+#include "files/module.hpp"
 
 namespace cotan {
 

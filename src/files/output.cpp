@@ -1,4 +1,4 @@
-#include "cotan/files/output.hpp"
+#include "files/output.hpp"
 
 #include <array>
 #include <atomic>
@@ -16,8 +16,8 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "cotan/files/account.hpp"
 #include "ending.hpp"
+#include "files/account.hpp"
 
 namespace cotan {
 

@@ -1,12 +1,12 @@
-#include "cotan/files/plan.hpp"
+#include "files/plan.hpp"
 
 #include <set>
 #include <system_error>
 
 #include <fmt/format.h>
 
-#include "cotan/files/account.hpp"
-#include "cotan/files/output.hpp"
+#include "files/account.hpp"
+#include "files/output.hpp"
 
 namespace cotan {
 

@@ -1,4 +1,4 @@
-#include "cotan/files/sandbox.hpp"
+#include "cotan/files.hpp"
 
 #include <utility>
 

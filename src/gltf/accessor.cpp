@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <set>
 
-#include "model.hpp"
+#include "gltf_model.hpp"
 
 namespace cotan {
 

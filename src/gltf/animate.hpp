@@ -3,8 +3,8 @@
 
 #include <vector>
 
-#include "cotan/gltf/animated.hpp"
-#include "model.hpp"
+#include "cotan/gltf.hpp"
+#include "gltf_model.hpp"
 
 namespace cotan {
 

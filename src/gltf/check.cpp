@@ -8,7 +8,7 @@
 
 #include <fmt/ranges.h>
 
-#include "file.hpp"
+#include "gltf_file.hpp"
 #include "schema.hpp"
 
 namespace cotan {

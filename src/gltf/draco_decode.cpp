@@ -10,9 +10,9 @@
 #include <fmt/format.h>
 
 #include "codes.hpp"
-#include "cotan/gltf/views.hpp"
-#include "draco.hpp"
+#include "draco_streams.hpp"
 #include "elements.hpp"
+#include "gltf/json/views.hpp"
 #include "problem.hpp"
 
 namespace cotan::gltf {

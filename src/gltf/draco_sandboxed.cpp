@@ -1,8 +1,8 @@
 // Draco streams decoded in a process of their own.
 #include "codes.hpp"
-#include "cotan/gltf/views.hpp"
-#include "cotan/sandbox/process.hpp"
-#include "draco.hpp"
+#include "draco_streams.hpp"
+#include "files/sandbox/process.hpp"
+#include "gltf/json/views.hpp"
 #include "problem.hpp"
 
 namespace cotan {

@@ -4,8 +4,8 @@
 
 #include <fmt/format.h>
 
-#include "cotan/files/bytes.hpp"
 #include "edit_state.hpp"
+#include "files/bytes.hpp"
 #include "mesh.hpp"
 #include "nodes.hpp"
 

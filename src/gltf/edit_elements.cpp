@@ -2,9 +2,9 @@
 #include <cmath>
 #include <numeric>
 
-#include "cotan/scene/texture_uv.hpp"
 #include "cotan/vector.hpp"
 #include "edit_state.hpp"
+#include "scene/texture_uv.hpp"
 #include "vertices.hpp"
 
 namespace cotan {

@@ -2,8 +2,8 @@
 // KHR_meshopt_compression.
 #include <algorithm>
 
-#include "cotan/gltf/views.hpp"
 #include "edit_state.hpp"
+#include "gltf/json/views.hpp"
 
 namespace cotan::gltf_edit {
 

@@ -9,10 +9,10 @@
 #include <string>
 #include <vector>
 
-#include "cotan/gltf/edit.hpp"
-#include "cotan/gltf/lookup.hpp"
+#include "cotan/gltf.hpp"
 #include "elements.hpp"
-#include "file.hpp"
+#include "gltf/json/lookup.hpp"
+#include "gltf_file.hpp"
 #include "problem.hpp"
 
 namespace cotan {

@@ -6,13 +6,13 @@
 #include <new>
 #include <system_error>
 
-#include "cotan/files/bytes.hpp"
-#include "cotan/files/extension.hpp"
-#include "cotan/files/output.hpp"
-#include "cotan/image/file.hpp"
-#include "cotan/image/format_table.hpp"
+#include "cotan/image.hpp"
 #include "edit_state.hpp"
-#include "parse.hpp"
+#include "files/bytes.hpp"
+#include "files/extension.hpp"
+#include "files/output.hpp"
+#include "image/format_table.hpp"
+#include "parse_json.hpp"
 
 namespace cotan {
 

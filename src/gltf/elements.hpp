@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "codes.hpp"
-#include "cotan/gltf/views.hpp"
+#include "gltf/json/views.hpp"
 
 namespace cotan::gltf {
 

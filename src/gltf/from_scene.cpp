@@ -4,10 +4,10 @@
 #include <cstring>
 #include <limits>
 
-#include "cotan/gltf/lookup.hpp"
-#include "cotan/image/file.hpp"
-#include "cotan/scene/check.hpp"
+#include "cotan/image.hpp"
 #include "edit_state.hpp"
+#include "gltf/json/lookup.hpp"
+#include "scene/scene_check.hpp"
 
 namespace cotan {
 

@@ -4,11 +4,11 @@
 #include <atomic>
 #include <optional>
 
-#include "cotan/files/bytes.hpp"
-#include "cotan/files/folder.hpp"
-#include "cotan/image/convert.hpp"
-#include "cotan/image/file.hpp"
-#include "cotan/parallel/loops.hpp"
+#include "core/loops.hpp"
+#include "cotan/image.hpp"
+#include "files/bytes.hpp"
+#include "files/folder.hpp"
+#include "image/component_types.hpp"
 #include "material.hpp"
 
 namespace cotan {

@@ -1,4 +1,4 @@
-#include "cotan/gltf/lookup.hpp"
+#include "gltf/json/lookup.hpp"
 
 #include <algorithm>
 

@@ -7,8 +7,8 @@
 #include <utility>
 #include <vector>
 
-#include "cotan/scene/scene.hpp"
-#include "model.hpp"
+#include "cotan/scene.hpp"
+#include "gltf_model.hpp"
 
 namespace cotan {
 

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "cotan/scene/scene.hpp"
-#include "model.hpp"
+#include "cotan/scene.hpp"
+#include "gltf_model.hpp"
 
 namespace cotan {
 

@@ -5,7 +5,7 @@
 
 #include <fmt/ranges.h>
 
-#include "cotan/parse_number.hpp"
+#include "core/parse_number.hpp"
 #include "problem.hpp"
 
 namespace cotan {

@@ -1,6 +1,6 @@
 // KHR_draco_mesh_compression where there is no Draco.
-#include "cotan/not_built.hpp"
-#include "draco.hpp"
+#include "core/not_built.hpp"
+#include "draco_streams.hpp"
 
 namespace cotan::gltf {
 

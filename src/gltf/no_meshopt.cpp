@@ -1,5 +1,5 @@
 // EXT_meshopt_compression where there is no libmeshoptimizer.
-#include "cotan/not_built.hpp"
+#include "core/not_built.hpp"
 #include "problem.hpp"
 #include "unpack.hpp"
 

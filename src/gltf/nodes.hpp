@@ -5,8 +5,8 @@
 
 #include <glm/mat4x4.hpp>
 
-#include "cotan/scene/scene.hpp"
-#include "model.hpp"
+#include "cotan/scene.hpp"
+#include "gltf_model.hpp"
 
 namespace cotan {
 

@@ -1,11 +1,11 @@
-#include "cotan/gltf/placed.hpp"
+#include "gltf/json/placed.hpp"
 
 #include <glm/geometric.hpp>
 
-#include "cotan/gltf/lookup.hpp"
 #include "cotan/portable.hpp"
-#include "cotan/scene/placings.hpp"
+#include "gltf/json/lookup.hpp"
 #include "mesh.hpp"
+#include "scene/placings.hpp"
 #include "structure.hpp"
 
 namespace cotan {

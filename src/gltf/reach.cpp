@@ -7,8 +7,8 @@
 
 #include <glm/geometric.hpp>
 
-#include "cotan/parse_number.hpp"
-#include "cotan/scene/bounds.hpp"
+#include "core/parse_number.hpp"
+#include "scene/bounds.hpp"
 
 namespace cotan {
 

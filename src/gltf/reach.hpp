@@ -1,7 +1,7 @@
 // Where a model gets to in an animation.
 #pragma once
 
-#include "cotan/gltf/animated.hpp"
+#include "cotan/gltf.hpp"
 
 namespace cotan {
 

@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "cotan/gltf/views.hpp"
+#include "gltf/json/views.hpp"
 
 namespace cotan::gltf {
 

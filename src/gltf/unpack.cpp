@@ -6,10 +6,10 @@
 #include <set>
 
 #include "codes.hpp"
-#include "cotan/gltf/draco.hpp"
-#include "cotan/gltf/lookup.hpp"
-#include "cotan/gltf/views.hpp"
 #include "elements.hpp"
+#include "gltf/draco.hpp"
+#include "gltf/json/lookup.hpp"
+#include "gltf/json/views.hpp"
 
 namespace cotan {
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "file.hpp"
+#include "gltf_file.hpp"
 
 namespace cotan {
 

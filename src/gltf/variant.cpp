@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "cotan/gltf/lookup.hpp"
-#include "cotan/gltf/views.hpp"
+#include "gltf/json/lookup.hpp"
+#include "gltf/json/views.hpp"
 #include "named.hpp"
 
 namespace cotan {

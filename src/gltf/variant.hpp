@@ -1,7 +1,7 @@
 // Which of its materials a model shows (KHR_materials_variants).
 #pragma once
 
-#include "model.hpp"
+#include "gltf_model.hpp"
 
 namespace cotan {
 

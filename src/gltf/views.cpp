@@ -1,4 +1,4 @@
-#include "cotan/gltf/views.hpp"
+#include "gltf/json/views.hpp"
 
 #include <algorithm>
 #include <array>

@@ -4,7 +4,7 @@
 #include <map>
 
 #include "codes.hpp"
-#include "cotan/gltf/views.hpp"
+#include "gltf/json/views.hpp"
 
 namespace cotan::gltf {
 

@@ -1,4 +1,4 @@
-#include "cotan/image/animation.hpp"
+#include "cotan/image.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -6,10 +6,10 @@
 
 #include <fmt/format.h>
 
-#include "cotan/files/output.hpp"
-#include "cotan/image/convert.hpp"
-#include "cotan/image/format_table.hpp"
+#include "files/output.hpp"
 #include "formats.hpp"
+#include "image/component_types.hpp"
+#include "image/format_table.hpp"
 #include "webp.hpp"
 
 namespace cotan {

@@ -1,4 +1,4 @@
-#include "cotan/image/dds.hpp"
+#include "image/dds.hpp"
 
 #include <array>
 #include <cstring>

@@ -1,11 +1,10 @@
-#include "cotan/image/encode_like.hpp"
+#include "cotan/image.hpp"
 
 #include <optional>
 
 #include <fmt/format.h>
 
-#include "cotan/image/file.hpp"
-#include "cotan/image/format_table.hpp"
+#include "image/format_table.hpp"
 #include "jpeg.hpp"
 #include "webp.hpp"
 

@@ -7,7 +7,7 @@
 
 #include <OpenImageIO/filesystem.h>
 
-#include "cotan/files/limits.hpp"
+#include "cotan/files.hpp"
 #include "numbers.hpp"
 
 namespace cotan::oiio {

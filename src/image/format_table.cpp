@@ -1,11 +1,11 @@
-#include "cotan/image/format_table.hpp"
+#include "image/format_table.hpp"
 
 #include <algorithm>
 #include <vector>
 
 #include <fmt/format.h>
 
-#include "cotan/files/extension.hpp"
+#include "files/extension.hpp"
 
 namespace cotan {
 

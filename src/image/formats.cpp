@@ -2,9 +2,9 @@
 
 #include <cstring>
 
-#include "cotan/files/module.hpp"
-#include "cotan/image/format_table.hpp"
-#include "cotan/not_built.hpp"
+#include "core/not_built.hpp"
+#include "files/module.hpp"
+#include "image/format_table.hpp"
 
 namespace cotan {
 

@@ -10,11 +10,10 @@
 #include <string>
 #include <string_view>
 
-#include "cotan/files/limits.hpp"
-#include "cotan/image/animation.hpp"
-#include "cotan/image/rows.hpp"
+#include "cotan/files.hpp"
+#include "cotan/image.hpp"
 #include "cotan/result.hpp"
-#include "cotan/scene/image.hpp"
+#include "cotan/scene.hpp"
 
 namespace cotan {
 

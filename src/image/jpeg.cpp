@@ -12,7 +12,7 @@
 #include <jerror.h>
 #include <jpeglib.h>
 
-#include "cotan/image/size.hpp"
+#include "image/size.hpp"
 
 namespace cotan {
 

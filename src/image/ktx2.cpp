@@ -8,8 +8,8 @@
 #include <fmt/format.h>
 #include <glm/detail/type_half.hpp>
 
-#include "cotan/image/dds.hpp"
-#include "cotan/image/size.hpp"
+#include "image/dds.hpp"
+#include "image/size.hpp"
 
 namespace cotan {
 

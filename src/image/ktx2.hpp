@@ -7,9 +7,9 @@
 #include <string>
 #include <string_view>
 
-#include "cotan/files/limits.hpp"
+#include "cotan/files.hpp"
 #include "cotan/result.hpp"
-#include "cotan/scene/image.hpp"
+#include "cotan/scene.hpp"
 
 namespace cotan {
 

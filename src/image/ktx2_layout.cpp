@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "cotan/image/frame_key.hpp"
+#include "image/frame_key.hpp"
 #include "ktx2.hpp"
 #include "numbers.hpp"
 

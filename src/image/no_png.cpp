@@ -1,6 +1,6 @@
 // PNG where there is no libpng.
-#include "cotan/image/file.hpp"
-#include "cotan/not_built.hpp"
+#include "core/not_built.hpp"
+#include "cotan/image.hpp"
 #include "png.hpp"
 #include "png_rows.hpp"
 

@@ -1,7 +1,7 @@
 // WebP where there is no libwebp.
 #include <fmt/format.h>
 
-#include "cotan/not_built.hpp"
+#include "core/not_built.hpp"
 #include "webp.hpp"
 
 namespace cotan {

@@ -1,5 +1,5 @@
 // zlib where there is none.
-#include "cotan/not_built.hpp"
+#include "core/not_built.hpp"
 #include "ktx2.hpp"
 
 namespace cotan {

@@ -1,5 +1,5 @@
 // Zstandard where there is no libzstd.
-#include "cotan/not_built.hpp"
+#include "core/not_built.hpp"
 #include "ktx2.hpp"
 
 namespace cotan {

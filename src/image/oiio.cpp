@@ -10,10 +10,10 @@
 
 #include <fmt/format.h>
 
-#include "cotan/image/convert.hpp"
-#include "cotan/image/frame_key.hpp"
-#include "cotan/image/size.hpp"
 #include "formats.hpp"
+#include "image/component_types.hpp"
+#include "image/frame_key.hpp"
+#include "image/size.hpp"
 
 namespace cotan {
 

@@ -9,12 +9,11 @@
 
 #include <OpenImageIO/imageio.h>
 
-#include "cotan/image/animation.hpp"
-#include "cotan/image/format_table.hpp"
-#include "cotan/image/rows.hpp"
+#include "cotan/image.hpp"
 #include "cotan/result.hpp"
-#include "cotan/scene/image.hpp"
+#include "cotan/scene.hpp"
 #include "file_layout.hpp"
+#include "image/format_table.hpp"
 
 namespace cotan::oiio {
 

@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "cotan/image/size.hpp"
+#include "image/size.hpp"
 #include "oiio.hpp"
 
 namespace cotan::oiio {

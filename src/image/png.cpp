@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include "cotan/image/size.hpp"
+#include "image/size.hpp"
 #include "png_session.hpp"
 
 namespace cotan {

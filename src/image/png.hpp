@@ -7,10 +7,10 @@
 #include <span>
 #include <string>
 
-#include "cotan/files/limits.hpp"
-#include "cotan/image/file.hpp"
+#include "cotan/files.hpp"
+#include "cotan/image.hpp"
 #include "cotan/result.hpp"
-#include "cotan/scene/image.hpp"
+#include "cotan/scene.hpp"
 
 namespace cotan {
 

@@ -7,10 +7,10 @@
 #include <optional>
 #include <string>
 
-#include "cotan/files/limits.hpp"
-#include "cotan/files/output.hpp"
-#include "cotan/image/rows.hpp"
+#include "cotan/files.hpp"
+#include "cotan/image.hpp"
 #include "cotan/result.hpp"
+#include "files/output.hpp"
 
 namespace cotan {
 

@@ -9,9 +9,9 @@
 
 #include <png.h>
 
-#include "cotan/image/frame_key.hpp"
 #include "cotan/result.hpp"
-#include "cotan/scene/image.hpp"
+#include "cotan/scene.hpp"
+#include "image/frame_key.hpp"
 
 namespace cotan {
 

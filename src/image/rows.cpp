@@ -1,4 +1,4 @@
-#include "cotan/image/rows.hpp"
+#include "cotan/image.hpp"
 
 #include <array>
 #include <cstdio>
@@ -8,14 +8,13 @@
 
 #include <fmt/format.h>
 
-#include "cotan/files/bytes.hpp"
-#include "cotan/files/output.hpp"
-#include "cotan/image/file.hpp"
-#include "cotan/image/format_table.hpp"
+#include "files/bytes.hpp"
+#include "files/output.hpp"
 #include "formats.hpp"
+#include "image/format_table.hpp"
 #include "png.hpp"
 #include "png_rows.hpp"
-#include "sandboxed.hpp"
+#include "sandboxed_images.hpp"
 
 namespace cotan {
 

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 #include <webp/decode.h>
 
-#include "cotan/image/size.hpp"
+#include "image/size.hpp"
 
 namespace cotan {
 

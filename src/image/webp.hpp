@@ -8,10 +8,10 @@
 #include <string>
 #include <vector>
 
-#include "cotan/files/limits.hpp"
-#include "cotan/image/animation.hpp"
+#include "cotan/files.hpp"
+#include "cotan/image.hpp"
 #include "cotan/result.hpp"
-#include "cotan/scene/image.hpp"
+#include "cotan/scene.hpp"
 
 namespace cotan {
 

@@ -9,7 +9,7 @@
 #include <webp/encode.h>
 #include <webp/mux.h>
 
-#include "cotan/files/output.hpp"
+#include "files/output.hpp"
 #include "webp.hpp"
 
 namespace cotan {

@@ -1,4 +1,4 @@
-#include "cotan/inspect/edges.hpp"
+#include "cotan/inspect.hpp"
 
 #include <algorithm>
 #include <array>
@@ -8,7 +8,7 @@
 
 #include <glm/geometric.hpp>
 
-#include "cotan/scene/texture_uv.hpp"
+#include "scene/texture_uv.hpp"
 
 namespace cotan {
 

@@ -1,4 +1,4 @@
-#include "cotan/inspect/hot_spots.hpp"
+#include "cotan/inspect.hpp"
 
 #include <algorithm>
 #include <array>
@@ -9,11 +9,10 @@
 #include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
 
-#include "cotan/inspect/pick.hpp"
-#include "cotan/lint/lint.hpp"
-#include "cotan/lint/stored_corner.hpp"
-#include "cotan/lint/triangle_uv.hpp"
-#include "cotan/scene/bounds.hpp"
+#include "bake/lint/stored_corner.hpp"
+#include "bake/lint/triangle_uv.hpp"
+#include "cotan/lint.hpp"
+#include "scene/bounds.hpp"
 
 namespace cotan {
 

@@ -1,4 +1,4 @@
-#include "cotan/inspect/inspection.hpp"
+#include "cotan/inspect.hpp"
 
 #include <algorithm>
 #include <array>
@@ -8,11 +8,11 @@
 #include <glm/common.hpp>
 #include <glm/mat3x3.hpp>
 
-#include "cotan/image/convert.hpp"
-#include "cotan/lint/triangle_uv.hpp"
-#include "cotan/report/angles.hpp"
-#include "cotan/scene/picture_text.hpp"
-#include "cotan/scene/stored_green.hpp"
+#include "bake/lint/triangle_uv.hpp"
+#include "image/component_types.hpp"
+#include "inspect/angles.hpp"
+#include "scene/picture_text.hpp"
+#include "scene/stored_green.hpp"
 
 namespace cotan {
 

@@ -1,10 +1,10 @@
-#include "cotan/inspect/map_faults.hpp"
+#include "cotan/inspect.hpp"
 
 #include <set>
 
 #include <fmt/format.h>
 
-#include "cotan/maps/faults.hpp"
+#include "cotan/maps.hpp"
 
 namespace cotan {
 

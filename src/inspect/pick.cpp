@@ -1,4 +1,4 @@
-#include "cotan/inspect/pick.hpp"
+#include "cotan/inspect.hpp"
 
 #include <cmath>
 

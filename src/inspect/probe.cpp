@@ -1,12 +1,12 @@
-#include "cotan/inspect/probe.hpp"
+#include "inspect/probe.hpp"
 
 #include <cmath>
 
 #include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
 
-#include "cotan/scene/texture_uv.hpp"
 #include "cotan/vector.hpp"
+#include "scene/texture_uv.hpp"
 
 namespace cotan {
 

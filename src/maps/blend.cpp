@@ -1,4 +1,4 @@
-#include "cotan/maps/blend.hpp"
+#include "cotan/maps.hpp"
 
 #include <algorithm>
 #include <atomic>
@@ -10,8 +10,7 @@
 #include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
 
-#include "cotan/maps/recode.hpp"
-#include "cotan/maps/texels.hpp"
+#include "maps/texels.hpp"
 
 namespace cotan::maps {
 

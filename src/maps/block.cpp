@@ -1,4 +1,4 @@
-#include "cotan/maps/block.hpp"
+#include "maps/block.hpp"
 
 #include <algorithm>
 #include <array>

@@ -7,8 +7,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "cotan/parallel/loops.hpp"
-#include "cotan/scene/image.hpp"
+#include "core/loops.hpp"
+#include "cotan/scene.hpp"
 
 // Processors without such registers pass these vectors in another way; nobody outside this file is passed one.
 #if defined(__GNUC__) && !defined(__clang__)

@@ -1,12 +1,12 @@
-#include "cotan/maps/compare.hpp"
+#include "cotan/maps.hpp"
 
 #include <cmath>
 #include <numbers>
 
 #include <glm/geometric.hpp>
 
-#include "cotan/angle.hpp"
-#include "cotan/maps/texels.hpp"
+#include "cotan/vector.hpp"
+#include "maps/texels.hpp"
 
 namespace cotan::maps {
 

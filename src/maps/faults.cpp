@@ -1,4 +1,4 @@
-#include "cotan/maps/faults.hpp"
+#include "cotan/maps.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -7,9 +7,8 @@
 #include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
 
-#include "cotan/maps/height.hpp"
-#include "cotan/maps/recode.hpp"
-#include "cotan/maps/texels.hpp"
+#include "cotan/maps.hpp"
+#include "maps/texels.hpp"
 
 namespace cotan::maps {
 

@@ -1,4 +1,4 @@
-#include "cotan/maps/green.hpp"
+#include "cotan/maps.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -10,7 +10,9 @@
 
 #include <glm/geometric.hpp>
 
-#include "cotan/parallel/loops.hpp"
+#include "core/loops.hpp"
+#include "maps/patches.hpp"
+#include "maps/texels.hpp"
 
 namespace cotan::maps {
 

@@ -1,11 +1,11 @@
-#include "cotan/maps/mips.hpp"
+#include "cotan/maps.hpp"
 
 #include <algorithm>
 #include <cmath>
 
 #include <glm/geometric.hpp>
 
-#include "cotan/maps/texels.hpp"
+#include "maps/texels.hpp"
 
 namespace cotan::maps {
 

@@ -1,4 +1,4 @@
-#include "cotan/maps/normal_statistics.hpp"
+#include "cotan/maps.hpp"
 #include "cotan/vector.hpp"
 
 #include <algorithm>
@@ -9,6 +9,7 @@
 
 #include <glm/geometric.hpp>
 
+#include "maps/texels.hpp"
 #include "srgb.hpp"
 
 namespace cotan::maps {

@@ -1,4 +1,4 @@
-#include "cotan/maps/patches.hpp"
+#include "maps/patches.hpp"
 
 #include <algorithm>
 #include <cstring>

@@ -1,4 +1,4 @@
-#include "cotan/maps/recode.hpp"
+#include "cotan/maps.hpp"
 
 #include <array>
 #include <atomic>
@@ -8,7 +8,7 @@
 
 #include <glm/geometric.hpp>
 
-#include "cotan/maps/texels.hpp"
+#include "maps/texels.hpp"
 
 namespace cotan::maps {
 

@@ -1,9 +1,9 @@
-#include "cotan/maps/stated.hpp"
+#include "cotan/maps.hpp"
 
 #include <utility>
 #include <vector>
 
-#include "cotan/maps/texels.hpp"
+#include "maps/texels.hpp"
 #include "srgb.hpp"
 
 namespace cotan::maps {

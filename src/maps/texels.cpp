@@ -1,4 +1,4 @@
-#include "cotan/maps/texels.hpp"
+#include "maps/texels.hpp"
 
 #include <algorithm>
 #include <array>
@@ -8,7 +8,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
-#include "cotan/parallel/loops.hpp"
+#include "core/loops.hpp"
 #include "cotan/vector.hpp"
 
 namespace cotan::maps {

@@ -9,9 +9,9 @@
 #include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
 
-#include "cotan/maps/height.hpp"
-#include "cotan/maps/texels.hpp"
+#include "cotan/maps.hpp"
 #include "fft.hpp"
+#include "maps/texels.hpp"
 
 namespace cotan::maps {
 

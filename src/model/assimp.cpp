@@ -18,10 +18,10 @@
 #include "assimp_convert.hpp"
 #include "assimp_files.hpp"
 #include "collada_check.hpp"
-#include "cotan/files/bytes.hpp"
-#include "cotan/files/extension.hpp"
-#include "cotan/scene/check.hpp"
+#include "files/bytes.hpp"
+#include "files/extension.hpp"
 #include "ply_check.hpp"
+#include "scene/scene_check.hpp"
 #include "source_material.hpp"
 #include "text_lines.hpp"
 

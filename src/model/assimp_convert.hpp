@@ -4,9 +4,9 @@
 #include <optional>
 #include <string>
 
-#include "cotan/model/load.hpp"
+#include "cotan/model.hpp"
 #include "cotan/result.hpp"
-#include "cotan/scene/scene.hpp"
+#include "cotan/scene.hpp"
 #include "model_textures.hpp"
 
 struct aiMaterial;

@@ -5,8 +5,8 @@
 
 #include <assimp/MemoryIOWrapper.h>
 
-#include "cotan/files/bytes.hpp"
-#include "cotan/files/folder.hpp"
+#include "files/bytes.hpp"
+#include "files/folder.hpp"
 
 namespace cotan {
 

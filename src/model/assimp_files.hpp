@@ -9,7 +9,7 @@
 
 #include <assimp/IOSystem.hpp>
 
-#include "cotan/model/load.hpp"
+#include "cotan/model.hpp"
 
 namespace cotan {
 

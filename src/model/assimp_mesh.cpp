@@ -6,8 +6,8 @@
 #include <glm/geometric.hpp>
 
 #include "assimp_convert.hpp"
-#include "cotan/scene/geometry.hpp"
 #include "mesh_weld.hpp"
+#include "scene/geometry.hpp"
 
 namespace cotan {
 

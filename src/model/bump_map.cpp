@@ -3,8 +3,8 @@
 #include <cmath>
 #include <vector>
 
-#include "cotan/maps/height.hpp"
-#include "cotan/maps/texels.hpp"
+#include "cotan/maps.hpp"
+#include "maps/texels.hpp"
 
 namespace cotan {
 

@@ -1,7 +1,7 @@
 // Grey bump maps as normal maps.
 #pragma once
 
-#include "cotan/scene/image.hpp"
+#include "cotan/scene.hpp"
 
 namespace cotan {
 

@@ -1,7 +1,7 @@
 // Vertices that are equal in everything become one.
 #pragma once
 
-#include "cotan/scene/scene.hpp"
+#include "cotan/scene.hpp"
 
 namespace cotan {
 

@@ -10,9 +10,9 @@
 #include <fmt/format.h>
 
 #include "bump_map.hpp"
-#include "cotan/files/folder.hpp"
-#include "cotan/image/convert.hpp"
-#include "cotan/image/file.hpp"
+#include "cotan/image.hpp"
+#include "files/folder.hpp"
+#include "image/component_types.hpp"
 
 namespace cotan {
 

@@ -7,8 +7,8 @@
 #include <optional>
 #include <string>
 
-#include "cotan/model/load.hpp"
-#include "cotan/scene/scene.hpp"
+#include "cotan/model.hpp"
+#include "cotan/scene.hpp"
 
 struct aiScene;
 struct aiTexture;

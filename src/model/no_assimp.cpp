@@ -1,6 +1,6 @@
 // What is read by Assimp, where there is none.
-#include "cotan/model/load.hpp"
-#include "cotan/not_built.hpp"
+#include "core/not_built.hpp"
+#include "cotan/model.hpp"
 
 namespace cotan {
 

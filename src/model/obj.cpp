@@ -9,14 +9,14 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
-#include "cotan/files/bytes.hpp"
-#include "cotan/files/folder.hpp"
-#include "cotan/model/load.hpp"
+#include "cotan/model.hpp"
 #include "cotan/portable.hpp"
-#include "cotan/scene/geometry.hpp"
+#include "files/bytes.hpp"
+#include "files/folder.hpp"
 #include "mesh_weld.hpp"
 #include "mtl.hpp"
 #include "obj_text.hpp"
+#include "scene/geometry.hpp"
 #include "source_material.hpp"
 #include "text_lines.hpp"
 

@@ -11,7 +11,7 @@
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
 
-#include "cotan/model/load.hpp"
+#include "cotan/model.hpp"
 #include "cotan/result.hpp"
 
 namespace cotan {

@@ -11,7 +11,7 @@
 
 #include <fmt/format.h>
 
-#include "cotan/parse_number.hpp"
+#include "core/parse_number.hpp"
 
 namespace cotan {
 

@@ -5,7 +5,7 @@
 #include <span>
 #include <string>
 
-#include "cotan/model/load.hpp"
+#include "cotan/model.hpp"
 #include "cotan/result.hpp"
 
 namespace cotan {

@@ -11,15 +11,13 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "cotan/files/account.hpp"
-#include "cotan/gltf/draco.hpp"
-#include "cotan/image/file.hpp"
-#include "cotan/image/rows.hpp"
-#include "cotan/model/load.hpp"
-#include "cotan/model/reader.hpp"
-#include "cotan/sandbox/confine.hpp"
-#include "cotan/sandbox/request.hpp"
-#include "cotan/sandbox/scene_wire.hpp"
+#include "cotan/image.hpp"
+#include "cotan/model.hpp"
+#include "files/account.hpp"
+#include "files/sandbox/confine.hpp"
+#include "files/sandbox/request.hpp"
+#include "files/sandbox/scene_wire.hpp"
+#include "gltf/draco.hpp"
 
 namespace cotan {
 

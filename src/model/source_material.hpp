@@ -6,7 +6,7 @@
 
 #include <glm/vec3.hpp>
 
-#include "cotan/scene/scene.hpp"
+#include "cotan/scene.hpp"
 #include "model_textures.hpp"
 
 namespace cotan {

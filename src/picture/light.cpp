@@ -1,4 +1,4 @@
-#include "cotan/picture/light.hpp"
+#include "cotan/picture.hpp"
 
 #include <cmath>
 #include <filesystem>
@@ -8,11 +8,10 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "cotan/ground/ground.hpp"
-#include "cotan/image/file.hpp"
-#include "cotan/parse_number.hpp"
-#include "cotan/scene/geometry.hpp"
-#include "cotan/surroundings/surroundings.hpp"
+#include "core/parse_number.hpp"
+#include "cotan/image.hpp"
+#include "cotan/view.hpp"
+#include "scene/geometry.hpp"
 
 namespace cotan {
 

@@ -1,16 +1,16 @@
-#include "cotan/picture/picture.hpp"
+#include "cotan/picture.hpp"
 
 #include <algorithm>
 
 #include <fmt/format.h>
 
-#include "cotan/convention_words.hpp"
-#include "cotan/image/convert.hpp"
-#include "cotan/image/file.hpp"
-#include "cotan/maps/stated.hpp"
-#include "cotan/maps/texels.hpp"
-#include "cotan/scene/normal_format.hpp"
-#include "cotan/scene/put_picture.hpp"
+#include "cotan/convention.hpp"
+#include "cotan/image.hpp"
+#include "cotan/maps.hpp"
+#include "image/component_types.hpp"
+#include "maps/texels.hpp"
+#include "scene/normal_format.hpp"
+#include "scene/put_picture.hpp"
 
 namespace cotan {
 

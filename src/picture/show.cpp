@@ -1,9 +1,8 @@
 // What of a model a picture shows: light, a vector, an inspection, an error.
-#include "cotan/inspect/inspection.hpp"
-#include "cotan/picture/picture.hpp"
-#include "cotan/report/angles.hpp"
-#include "cotan/report/words.hpp"
-#include "cotan/verify/frames.hpp"
+#include "bake/report_words.hpp"
+#include "cotan/inspect.hpp"
+#include "cotan/picture.hpp"
+#include "inspect/angles.hpp"
 
 namespace cotan {
 

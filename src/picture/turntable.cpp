@@ -1,12 +1,12 @@
-#include "cotan/picture/turntable.hpp"
+#include "cotan/picture.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
 
-#include "cotan/scene/bounds.hpp"
 #include "cotan/vector.hpp"
+#include "scene/bounds.hpp"
 
 namespace cotan {
 

@@ -1,10 +1,10 @@
-#include "cotan/picture/words.hpp"
+#include "picture/words.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "cotan/convention_words.hpp"
-#include "cotan/terminal/command_words.hpp"
+#include "cotan/convention.hpp"
+#include "terminal/command_words.hpp"
 
 namespace cotan {
 

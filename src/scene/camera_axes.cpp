@@ -1,4 +1,4 @@
-#include "cotan/scene/camera_axes.hpp"
+#include "scene/camera_axes.hpp"
 
 #include <cmath>
 

@@ -12,8 +12,8 @@
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 
-#include "cotan/scene/camera_axes.hpp"
-#include "cotan/scene/parts.hpp"
+#include "scene/camera_axes.hpp"
+#include "scene/parts.hpp"
 
 namespace cotan {
 

@@ -1,4 +1,4 @@
-#include "cotan/scene/front_camera.hpp"
+#include "cotan/view.hpp"
 
 #include <algorithm>
 #include <array>
@@ -8,9 +8,9 @@
 
 #include <glm/geometric.hpp>
 
-#include "cotan/scene/bounds.hpp"
-#include "cotan/scene/camera_axes.hpp"
 #include "cotan/vector.hpp"
+#include "scene/bounds.hpp"
+#include "scene/camera_axes.hpp"
 
 namespace cotan {
 

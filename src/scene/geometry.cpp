@@ -1,4 +1,4 @@
-#include "cotan/scene/geometry.hpp"
+#include "scene/geometry.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -6,9 +6,9 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
-#include "cotan/scene/camera_axes.hpp"
-#include "cotan/scene/texture_uv.hpp"
 #include "cotan/vector.hpp"
+#include "scene/camera_axes.hpp"
+#include "scene/texture_uv.hpp"
 
 namespace cotan {
 

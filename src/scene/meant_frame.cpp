@@ -1,4 +1,4 @@
-#include "cotan/scene/meant_frame.hpp"
+#include "scene/meant_frame.hpp"
 
 #include <algorithm>
 #include <array>
@@ -7,7 +7,7 @@
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 
-#include "cotan/scene/texture_uv.hpp"
+#include "scene/texture_uv.hpp"
 
 namespace cotan {
 

@@ -11,8 +11,8 @@
 
 #include <glm/geometric.hpp>
 
-#include "cotan/angle.hpp"
-#include "cotan/scene/geometry.hpp"
+#include "cotan/vector.hpp"
+#include "scene/geometry.hpp"
 
 namespace cotan {
 

@@ -1,4 +1,4 @@
-#include "cotan/scene/objects.hpp"
+#include "scene/objects.hpp"
 
 #include <string_view>
 #include <unordered_set>

@@ -1,4 +1,4 @@
-#include "cotan/scene/parts.hpp"
+#include "scene/parts.hpp"
 
 #include <algorithm>
 #include <array>

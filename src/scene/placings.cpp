@@ -1,4 +1,4 @@
-#include "cotan/scene/placings.hpp"
+#include "scene/placings.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "cotan/scene/stored_green.hpp"
+#include "scene/stored_green.hpp"
 
 #include <cmath>
 #include <cstddef>
@@ -7,7 +7,7 @@
 
 #include <glm/geometric.hpp>
 
-#include "cotan/scene/texture_uv.hpp"
+#include "scene/texture_uv.hpp"
 
 namespace cotan {
 

@@ -1,4 +1,4 @@
-#include "cotan/scene/up.hpp"
+#include "scene/up.hpp"
 
 #include <algorithm>
 

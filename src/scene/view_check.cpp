@@ -1,4 +1,4 @@
-#include "cotan/scene/view_check.hpp"
+#include "scene/view_check.hpp"
 #include "cotan/vector.hpp"
 
 #include <cmath>

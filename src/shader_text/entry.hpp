@@ -1,7 +1,7 @@
 // The function that a caller uses, as portable text; and the comment at the top.
 #pragma once
 
-#include "cotan/shader_text/shader_text.hpp"
+#include "cotan/shader_text.hpp"
 
 namespace cotan::shader_text {
 

@@ -1,7 +1,7 @@
 // What stands around the functions in a spatial shader of Godot.
 #pragma once
 
-#include "cotan/shader_text/shader_text.hpp"
+#include "cotan/shader_text.hpp"
 
 namespace cotan::shader_text {
 

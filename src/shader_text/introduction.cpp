@@ -115,7 +115,7 @@ std::string needs(const Choice& choice)
             + (choice.language == Language::essl ? "data textures" : "storage buffers")
             + ". Hand the three words on without interpolation (flat).\n"
               "//   An index buffer in which every triangle owns its provoking vertex, the first (in OpenGL and WebGL\n"
-              "//   the last): cotan convert --provoking, or provokingMesh of cotan/provoking.hpp.\n";
+              "//   the last): cotan convert --provoking, or provokingMesh of cotan/gpu_meshes.hpp.\n";
     if (choice.stage == Stage::mesh)
         return "// Needs from the caller:\n"
                "//   the corners of the primitive. Hand the three words on for each primitive.\n";

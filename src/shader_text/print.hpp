@@ -3,7 +3,7 @@
 
 #include <map>
 
-#include "cotan/shader_text/shader_text.hpp"
+#include "cotan/shader_text.hpp"
 #include "syntax.hpp"
 
 namespace cotan::shader_text {

@@ -1,4 +1,4 @@
-#include "cotan/terminal/arguments.hpp"
+#include "terminal/arguments.hpp"
 
 #include <algorithm>
 #include <map>
@@ -7,9 +7,9 @@
 
 #include <CLI/CLI.hpp>
 
-#include "cotan/terminal/command_words.hpp"
-#include "cotan/terminal/help_text.hpp"
 #include "parse_errors.hpp"
+#include "terminal/command_words.hpp"
+#include "terminal/help_text.hpp"
 #include "value_checks.hpp"
 
 namespace cotan {

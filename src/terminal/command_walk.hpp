@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "cotan/terminal/command_help.hpp"
+#include "terminal/command_help.hpp"
 
 namespace cotan {
 

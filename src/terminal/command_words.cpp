@@ -1,4 +1,4 @@
-#include "cotan/terminal/command_words.hpp"
+#include "terminal/command_words.hpp"
 
 #include <algorithm>
 #include <vector>

@@ -1,4 +1,4 @@
-#include "cotan/terminal/help_text.hpp"
+#include "terminal/help_text.hpp"
 
 #include <algorithm>
 #include <cstdlib>
@@ -9,7 +9,7 @@
 #include <unistd.h>
 
 #include "command_walk.hpp"
-#include "cotan/parse_number.hpp"
+#include "core/parse_number.hpp"
 
 namespace cotan {
 

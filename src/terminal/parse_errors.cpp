@@ -6,7 +6,7 @@
 
 #include <CLI/CLI.hpp>
 
-#include "cotan/terminal/command_words.hpp"
+#include "terminal/command_words.hpp"
 #include "value_checks.hpp"
 
 namespace cotan {

@@ -1,4 +1,4 @@
-#include "cotan/terminal/progress_line.hpp"
+#include "terminal/progress_line.hpp"
 
 #include <algorithm>
 #include <atomic>

@@ -5,7 +5,7 @@
 #include <sstream>
 #include <utility>
 
-#include "cotan/terminal/command_words.hpp"
+#include "terminal/command_words.hpp"
 
 namespace cotan {
 

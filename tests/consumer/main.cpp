@@ -5,10 +5,10 @@
 
 #include <glm/vec3.hpp>
 
-#include <cotan/angle.hpp>
-#include <cotan/cotangent_frame.hpp>
+#include <cotan/frame.hpp>
 #include <cotan/tangents.hpp>
 #include <cotan/triangle.hpp>
+#include <cotan/vector.hpp>
 #include <cotan/version.hpp>
 
 #ifdef GLM_FORCE_DEFAULT_ALIGNED_GENTYPES

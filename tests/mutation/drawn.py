@@ -17,43 +17,26 @@ from plant import HOME, WORK
 
 # Which tests could notice a mistake in a folder, the nearest first; `python:` and `c_api` run over the C library.
 TESTS = {
-    "apps/cotan": "cli_test tangents_command_test files_test help_test words_test judgement_command_test map_command_test bake_command_test",
+    "apps/cotan": "cli_test tangents_command_test files_test help_test words_test judgement_command_test map_command_test bake_command_test batch_test batch_command_test",
     "apps/viewer": "viewer_test view_window_test",
     "bindings/js": "web",
     "bindings/python": "python:arrays python:bake python:maps python:models python:geometry python:render python:work python:json",
     "shaders/cotan": "core_test tangents_test reference_test frame_table_test shader_text_test",
-    "src/bake": "bake_test bake_command_test python:bake",
-    "src/batch": "batch_test batch_command_test",
+    "apps/lab": "figures_test lighting_test accuracy_test cost_test report_test",
+    "src/bake": "bake_test lint_test judgement_test convert_test auto_frame_test bake_command_test tangents_gltf_test python:bake",
     "src/c": "c_buffers_test c_facts c_api python:geometry python:maps python:bake python:models python:render",
-    "src/convert": "convert_test judgement_test tangents_gltf_test",
-    "src/core": "core_test tangents_test map_test geometry_test",
-    "src/cost": "cost_test",
-    "src/draw": "draw_test figures_test",
-    "src/environment": "environment_test reference_test",
-    "src/figures": "figures_test lighting_test",
-    "src/files": "files_test map_command_test",
+    "src/core": "core_test tangents_test map_test geometry_test bake_test",
+    "src/files": "files_test sandbox_test report_test assimp_test map_command_test",
     "src/gltf": "gltf_test gltf_bad_test gltf_edit_test gltf_models_test tangents_gltf_test convert_test",
-    "src/ground": "environment_test",
     "src/image": "image_test map_test gltf_test",
-    "src/inspect": "viewer_test draw_test",
-    "src/lint": "lint_test judgement_test auto_frame_test",
-    "src/map_files": "map_command_test python:maps",
+    "src/inspect": "draw_test viewer_test bake_command_test report_test",
     "src/maps": "map_test map_command_test",
     "src/model": "obj_test assimp_test gltf_test models_test",
-    "src/parallel": "map_test bake_test",
     "src/picture": "environment_test cli_test models_test",
-    "src/reference": "reference_test draw_test",
-    "src/render": "render_test",
-    "src/report": "report_test lint_test judgement_test",
-    "src/sandbox": "sandbox_test assimp_test",
+    "src/render": "reference_test draw_test render_test figures_test",
     "src/scene": "geometry_test shapes_test gltf_test reference_test environment_test",
     "src/shader_text": "shader_text_test frame_table_test",
-    "src/shapes": "shapes_test",
-    "src/surface": "figures_test reference_test draw_test",
-    "src/surroundings": "environment_test",
     "src/terminal": "cli_test words_test",
-    "src/truth": "figures_test lighting_test accuracy_test",
-    "src/verify": "draw_test bake_command_test",
 }
 ENDINGS = (".cpp", ".hpp", ".h", ".py", ".js")
 BROKEN = WORK / "not_compiling.txt"  # so that another run over the same sources does not try them again
@@ -175,7 +158,7 @@ def check_headers(changed, jobs):
             commands.setdefault(part[0].strip("/"), entry)
 
     def check(name):
-        entry = commands.get("/".join(name.split("/")[:2]), commands["src/reference"])
+        entry = commands.get("/".join(name.split("/")[:2]), commands["src/render"])
         words = entry["command"].split()
         words = words[1 if "ccache" in words[0] else 0:words.index("-o")]
         with tempfile.TemporaryDirectory() as folder:
@@ -186,7 +169,7 @@ def check_headers(changed, jobs):
 
     headers = [name for name in changed if name.endswith((".hpp", ".h")) and not name.startswith("shaders/cotan/")]
     if any(name.startswith("shaders/cotan/") for name in changed):
-        headers.append("include/cotan/portable.hpp")
+        headers.append("src/core/include/cotan/portable.hpp")
     with concurrent.futures.ThreadPoolExecutor(jobs) as pool:
         return "".join(pool.map(check, headers))
 

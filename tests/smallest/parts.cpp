@@ -3,12 +3,10 @@
 #include <cstdio>
 #include <string>
 
-#include <cotan/draw/draw.hpp>
-#include <cotan/maps/green.hpp>
-#include <cotan/maps/recode.hpp>
-#include <cotan/scene/geometry.hpp>
-#include <cotan/shader_text/shader_text.hpp>
-#include <cotan/shapes/shapes.hpp>
+#include <cotan/maps.hpp>
+#include <cotan/render.hpp>
+#include <cotan/scene.hpp>
+#include <cotan/shader_text.hpp>
 
 namespace {
 
@@ -40,7 +38,7 @@ int main()
     const Scene scene = builtinScene();
     View view;
     view.width = view.height = 32;
-    view.camera = fitCamera(bounds(scene), view.width, view.height);
+    view.camera = frontCamera(scene, view.width, view.height);
     view.output = Output::normal;
     const auto picture = drawView(scene, view, "auto");
     bool unit = bool(picture), seen = false;

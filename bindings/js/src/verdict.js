@@ -1,4 +1,4 @@
-// What of a lint report is over the limits that a caller sets: `over_limit` of `cotan lint --json` (src/lint/limits.cpp),
+// What of a lint report is over the limits that a caller sets: `over_limit` of `cotan lint --json` (src/bake/lint/lint_limits.cpp),
 // for other limits than the report was made with.
 import { choice, options } from './arrays.js';
 import { usage, wordsFor } from './errors.js';

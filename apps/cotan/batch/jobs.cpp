@@ -1,0 +1,226 @@
+#include "batch/job.hpp"
+
+#include <algorithm>
+#include <map>
+#include <optional>
+#include <span>
+#include <string_view>
+#include <type_traits>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <nlohmann/json.hpp>
+
+#include "files/bytes.hpp"
+#include "files/sandbox/process.hpp"
+#include "words.hpp"
+
+namespace cotan {
+
+namespace {
+
+using nlohmann::json;
+
+constexpr std::size_t kMostBytes = std::size_t(4) << 30;
+constexpr std::size_t kMostNameBytes = 1000;
+constexpr double kMostMegabytes = 1 << 24;
+constexpr double kLeastSeconds = 0.001, kMostSeconds = 1e6;
+constexpr double kMostRetries = 100, kMostPriority = 1000000;
+
+// Lists and objects are named only: writing one out takes stack for each level that it is deep.
+Error expected(const std::string& member, const std::string& what, const json& found)
+{
+    const std::string text = found.is_array() ? "a list"
+        : found.is_object()                   ? "an object"
+                                              : found.dump(-1, ' ', false, json::error_handler_t::replace);
+    return inputError(fmt::format("\"{}\": expected {}; found {}", member, what, printable(text, 60)));
+}
+
+// The words of a member that is a list of texts.
+Result<std::vector<std::string>> texts(const json& job, const char* member)
+{
+    std::vector<std::string> all;
+    if (!job.contains(member))
+        return all;
+    const json& list = job[member];
+    if (!list.is_array())
+        return expected(member, "a list of texts such as [\"lint\", \"model.glb\"]", list);
+    for (const json& item : list) {
+        if (!item.is_string())
+            return expected(member, "texts only (numbers in quotes, too)", item);
+        all.push_back(item.get<std::string>());
+        if (all.back().find('\0') != std::string::npos)
+            return expected(member, "texts without the character 0", item);
+    }
+    return all;
+}
+
+void addNew(std::vector<std::string>& all, const std::vector<std::string>& more)
+{
+    for (const std::string& item : more)
+        if (std::ranges::find(all, item) == all.end())
+            all.push_back(item);
+}
+
+constexpr std::string_view kMembers[] = {
+    "name",     "command", "inputs", "outputs", "limit-memory", "limit-time", "limit-processor-time",
+    "priority", "retries", "env"};
+
+// A member that is a number, where it is there.
+template<class Number>
+Status readNumber(const json& job, const char* member, double least, double most, std::optional<Number>& number)
+{
+    if (!job.contains(member))
+        return Done{};
+    const json& value = job[member];
+    const bool whole = std::is_integral_v<Number>;
+    const bool fits = (whole ? value.is_number_integer() : value.is_number()) && value.get<double>() >= least
+        && value.get<double>() <= most;
+    if (!fits)
+        return expected(member,
+                        fmt::format("{} from {:.12g} to {:.12g}", whole ? "a whole number" : "a number", least, most),
+                        value);
+    number = value.get<Number>();
+    return Done{};
+}
+
+Status readEnvironment(const json& job, std::map<std::string, std::string>& environment)
+{
+    if (!job.contains("env"))
+        return Done{};
+    const json& value = job["env"];
+    if (!value.is_object())
+        return expected("env", "an object of texts such as {\"NAME\": \"VALUE\"}", value);
+    for (const auto& [name, text] : value.items()) {
+        if (!text.is_string() || text.get<std::string>().find('\0') != std::string::npos)
+            return expected("env", "texts without the character 0 (numbers in quotes, too)", text);
+        if (name.empty() || name.find_first_of(std::string_view("=\0", 2)) != std::string::npos)
+            return expected("env", "names of variables", name);
+        environment[name] = text.get<std::string>();
+    }
+    return Done{};
+}
+
+Status readOptions(const json& job, JobOptions& options)
+{
+    std::optional<int> priority;
+    Status read = readNumber(job, "limit-memory", 0, kMostMegabytes, options.megabytes);
+    if (read)
+        read = readNumber(job, "limit-time", kLeastSeconds, kMostSeconds, options.seconds);
+    if (read)
+        read = readNumber(job, "limit-processor-time", 0, kMostSeconds, options.processorSeconds);
+    if (read)
+        read = readNumber(job, "retries", 0, kMostRetries, options.retries);
+    if (read)
+        read = readNumber(job, "priority", -kMostPriority, kMostPriority, priority);
+    options.priority = priority.value_or(0);
+    return read ? readEnvironment(job, options.environment) : read;
+}
+
+Result<Job> readJob(std::string_view line, const CheckWords& check)
+{
+    const json parsed = json::parse(line, nullptr, /*allow_exceptions*/ false);
+    if (parsed.is_discarded())
+        return inputError("expected a JSON object on one line; found text that is no JSON");
+    if (!parsed.is_object())
+        return inputError("expected a JSON object; found another JSON value");
+    for (const auto& [member, value] : parsed.items())
+        if (std::ranges::find(kMembers, member) == std::end(kMembers))
+            return inputError(
+                fmt::format("expected {}; found \"{}\"", fmt::join(kMembers, ", "), printable(member, 60)));
+    const auto command = texts(parsed, "command"), inputs = texts(parsed, "inputs"), outputs = texts(parsed, "outputs");
+    for (const auto* list : {&command, &inputs, &outputs})
+        if (!*list)
+            return list->error();
+    if (command->empty())
+        return inputError("\"command\": expected a list of words such as [\"lint\", \"model.glb\"]; found none");
+    Job job;
+    job.words = *command;
+    if (parsed.contains("name")) {
+        const json& name = parsed["name"];
+        if (!name.is_string() || name.get<std::string>().empty() || name.get<std::string>().size() > kMostNameBytes)
+            return expected("name", fmt::format("a text of 1 to {} bytes", kMostNameBytes), name);
+        job.name = printable(name.get<std::string>(), kMostNameBytes);
+    } else {
+        job.name = commandLine(job.words);
+    }
+    if (Status good = check(job); !good)
+        return inputError(good.error().message);
+    if (Status read = readOptions(parsed, job.options); !read)
+        return read.error();
+    addNew(job.inputs, *inputs);
+    addNew(job.outputs, *outputs);
+    return job;
+}
+
+// The errors of many lines as one.
+class Complaints {
+public:
+    void add(const std::string& place, std::size_t line, const std::string& what)
+    {
+        if (count_++ == 0)
+            first_ = fmt::format("{}:{}: {}", place, line, what);
+    }
+    std::optional<Error> error() const
+    {
+        if (count_ == 0)
+            return std::nullopt;
+        return inputError(first_ + (count_ > 1 ? fmt::format(" (and {} more lines are wrong)", count_ - 1) : ""));
+    }
+
+private:
+    std::string first_;
+    std::size_t count_ = 0;
+};
+
+} // namespace
+
+std::vector<std::string> Job::key() const
+{
+    std::vector<std::string> all;
+    for (const auto& [variable, value] : options.environment)
+        all.push_back(variable + "=" + value);
+    all.insert(all.end(), words.begin(), words.end());
+    return all;
+}
+
+Result<JobList> readJobs(const std::filesystem::path& file, const CheckWords& check)
+{
+    const auto bytes = readFileBytes(file, kMostBytes);
+    if (!bytes)
+        return bytes.error();
+    std::string_view text(reinterpret_cast<const char*>(bytes->data()), bytes->size());
+    if (text.starts_with("\xef\xbb\xbf")) // what some editors put before UTF-8
+        text.remove_prefix(3);
+    JobList list;
+    list.folder = std::filesystem::absolute(file).lexically_normal().parent_path();
+    std::map<std::string, std::size_t> lines; // by name
+    Complaints complaints;
+    for (std::size_t line = 1; !text.empty(); ++line) {
+        const std::size_t end = std::min(text.find('\n'), text.size());
+        const std::string_view one = text.substr(0, end);
+        text.remove_prefix(std::min(end + 1, text.size()));
+        if (one.find_first_not_of(" \t\r") == std::string_view::npos)
+            continue;
+        auto job = readJob(one, check);
+        if (!job) {
+            complaints.add(file.string(), line, job.error().message);
+            continue;
+        }
+        job->line = line;
+        const auto [known, isNew] = lines.emplace(job->name, line);
+        if (isNew)
+            list.jobs.push_back(std::move(*job));
+        else
+            complaints.add(file.string(), line,
+                           fmt::format("'{}' is the name of line {}, too; expected another name for each job",
+                                       printable(job->name, 120), known->second));
+    }
+    if (const auto error = complaints.error())
+        return *error;
+    if (list.jobs.empty())
+        return inputError(file.string() + ": expected a job in each line; found none");
+    return list;
+}
+
+} // namespace cotan

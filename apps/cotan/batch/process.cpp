@@ -1,0 +1,120 @@
+#include "process.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <csignal>
+#include <cstring>
+#include <utility>
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "files/sandbox/spawn.hpp"
+
+namespace cotan {
+
+namespace {
+
+using Seconds = std::chrono::duration<double>;
+
+constexpr double kGrace = 2;                      // seconds to end in once asked
+constexpr std::size_t kHead = 4096, kTail = 8192; // bytes that are kept of what it prints
+constexpr int kMostReads = 64;                    // at a time: others want to be heard, too
+
+double secondsOf(const timeval& time) { return double(time.tv_sec) + 1e-6 * double(time.tv_usec); }
+
+} // namespace
+
+JobProcess::JobProcess(pid_t process, Descriptor messages, double limitSeconds)
+    : process_(process), messages_(std::move(messages)),
+      deadline_(began_ + std::chrono::duration_cast<Clock::duration>(Seconds(limitSeconds)))
+{
+}
+
+JobProcess::JobProcess(JobProcess&& other) noexcept
+    : process_(std::exchange(other.process_, -1)), messages_(std::move(other.messages_)), began_(other.began_),
+      deadline_(other.deadline_), asked_(other.asked_), made_(other.made_), head_(std::move(other.head_)),
+      tail_(std::move(other.tail_)), cut_(other.cut_)
+{
+}
+
+JobProcess::~JobProcess()
+{
+    if (process_ < 0)
+        return;
+    ::kill(-process_, SIGKILL);
+    while (::waitpid(process_, nullptr, 0) < 0 && errno == EINTR)
+        ;
+}
+
+Result<JobProcess> JobProcess::start(const std::string& program, const std::filesystem::path& folder,
+                                     const ChildRequest& request, const std::map<std::string, std::string>& environment,
+                                     double limitSeconds)
+{
+    int pair[2];
+    if (::pipe2(pair, O_CLOEXEC) != 0)
+        return unavailableError(fmt::format("cannot start a process: {}", std::strerror(errno)));
+    Descriptor ours(pair[0]), theirs(pair[1]);
+    ::fcntl(ours.get(), F_SETFL, O_NONBLOCK);
+    pid_t process = -1;
+    if (const int problem = spawn({program, toWords(request), -1, theirs.get(), folder, environment}, process))
+        return unavailableError(fmt::format("cannot start a process: {}", std::strerror(problem)));
+    return JobProcess(process, std::move(ours), limitSeconds);
+}
+
+void JobProcess::listen()
+{
+    std::array<char, 4096> bytes;
+    for (int i = 0; i < kMostReads && messages_.get() >= 0; ++i) {
+        const ssize_t got = ::read(messages_.get(), bytes.data(), bytes.size());
+        if (got < 0 && (errno == EAGAIN || errno == EINTR))
+            return;
+        if (got <= 0) {
+            messages_.close();
+            return;
+        }
+        std::string_view text(bytes.data(), std::size_t(got));
+        const std::size_t toHead = std::min(text.size(), kHead - head_.size());
+        head_ += text.substr(0, toHead);
+        tail_ += text.substr(toHead);
+        if (tail_.size() > 2 * kTail) {
+            tail_.erase(0, tail_.size() - kTail);
+            cut_ = true;
+        }
+    }
+}
+
+std::optional<Ending> JobProcess::look()
+{
+    listen();
+    Ending ending;
+    rusage usage{};
+    const pid_t found = ::wait4(process_, &ending.status, WNOHANG, &usage);
+    const auto now = Clock::now();
+    if (found == 0 || (found < 0 && errno == EINTR)) {
+        if (!asked_ && now >= deadline_) {
+            ::kill(-process_, SIGTERM);
+            asked_ = true;
+        }
+        if (!made_ && now >= deadline_ + std::chrono::duration_cast<Clock::duration>(Seconds(kGrace))) {
+            ::kill(-process_, SIGKILL);
+            made_ = true;
+        }
+        return std::nullopt;
+    }
+    ::kill(-process_, SIGKILL); // what it has left running
+    process_ = -1;
+    listen(); // its last words
+    ending.late = asked_;
+    ending.said = cut_ ? head_ + "\n...\n" + tail_ : head_ + tail_;
+    ending.seconds = Seconds(now - began_).count();
+    ending.processorSeconds = secondsOf(usage.ru_utime) + secondsOf(usage.ru_stime);
+    ending.megabytes = double(usage.ru_maxrss) / 1024;
+    return ending;
+}
+
+} // namespace cotan

@@ -1,0 +1,452 @@
+#include "batch/run.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <csignal>
+#include <cstring>
+#include <deque>
+#include <functional>
+#include <list>
+#include <map>
+#include <optional>
+#include <thread>
+
+#include <fmt/format.h>
+#include <poll.h>
+#include <sys/wait.h>
+
+#include "files/bytes.hpp"
+#include "files/output.hpp"
+#include "files/plan.hpp"
+#include "files/sandbox/request.hpp"
+#include "process.hpp"
+
+namespace cotan {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr int kTick = 50;                                  // milliseconds between two looks at deadlines
+constexpr int kSoon = 1;                                   // where a process has closed its output and is about to end
+constexpr auto kTryAgain = std::chrono::milliseconds(200); // where all that is left runs elsewhere
+constexpr std::size_t kMostReportBytes = std::size_t(256) << 20;
+
+struct Running {
+    std::size_t job;
+    std::size_t slot;
+    fs::path work;
+    JobProcess process;
+    Claim claim;
+    std::int64_t began;
+};
+
+// As the record names it: relative to the folder of the jobs where it is within.
+std::string nameOf(const fs::path& folder, const std::string& file)
+{
+    const fs::path place = (folder / file).lexically_normal();
+    const fs::path relative = place.lexically_relative(folder);
+    return !relative.empty() && *relative.begin() != ".." ? relative.string() : place.string();
+}
+
+// The last line in which a command says why it failed, or its last line.
+std::string lastWords(const std::string& said)
+{
+    constexpr std::string_view kError = "cotan: error: ";
+    if (const std::size_t at = said.rfind(kError); at != std::string::npos)
+        return printable(said.substr(at + kError.size(), said.find('\n', at) - at - kError.size()), 400);
+    const std::size_t end = said.find_last_not_of(" \n\r\t");
+    if (end == std::string::npos)
+        return "it printed nothing";
+    const std::size_t begin = said.rfind('\n', end);
+    return printable(said.substr(begin == std::string::npos ? 0 : begin + 1, end - begin), 400);
+}
+
+bool isGood(const JobRecord& record) { return record.state == JobState::done || record.state == JobState::limit; }
+
+JobRecord skippedRecord(const std::string& failed)
+{
+    JobRecord record;
+    record.state = JobState::skipped;
+    record.reason = fmt::format("waits for '{}', which is not done", failed);
+    return record;
+}
+
+// The limits of one job.
+struct Limits {
+    double seconds = 0, processorSeconds = 0;
+    std::size_t megabytes = 0;
+};
+
+Limits limitsOf(const RunOptions& all, const JobOptions& own)
+{
+    return {own.seconds.value_or(all.seconds), std::ceil(own.processorSeconds.value_or(all.processorSeconds)),
+            own.megabytes.value_or(all.megabytes)};
+}
+
+void judge(const Ending& ending, const Limits& limits, JobRecord& record)
+{
+    const std::string words = lastWords(ending.said);
+    const auto is = [&](JobState state, std::string reason) {
+        record.state = state;
+        record.reason = std::move(reason);
+    };
+    const int status = ending.status;
+    const bool signalled = WIFSIGNALED(status);
+    const int signal = signalled ? WTERMSIG(status) : 0, code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+    if (signalled)
+        record.signal = signal;
+    else
+        record.code = code;
+    const bool noMemory = code == kNoMemoryCode || (signalled && ending.said.find("bad_alloc") != std::string::npos);
+    if (ending.late)
+        return is(JobState::late, fmt::format("took longer than {:.4g} s and was ended", limits.seconds));
+    if (signal == SIGXCPU)
+        return is(JobState::late,
+                  fmt::format("took more than {:.4g} s of processor time and was ended", limits.processorSeconds));
+    if (noMemory && limits.megabytes > 0)
+        return is(JobState::memory, fmt::format("wanted more memory than {} MiB", limits.megabytes));
+    if (noMemory)
+        return is(JobState::memory, "wanted more memory than there is");
+    if (signal == SIGKILL)
+        return is(
+            JobState::crashed,
+            fmt::format("was killed (signal 9) with {:.0f} MiB in use, perhaps for want of memory", ending.megabytes));
+    if (signalled)
+        return is(JobState::crashed,
+                  fmt::format("crashed (signal {}, {}) with {:.0f} MiB in use: {}", signal, ::strsignal(signal),
+                              ending.megabytes, words));
+    if (code == 0)
+        return is(JobState::done, "");
+    is(code == int(ErrorKind::limit) ? JobState::limit : JobState::failed, words);
+}
+
+// The run of a batch: one thread, which starts processes, waits for what they say, and keeps their results.
+class Run {
+public:
+    Run(const JobList& list, const Plan& plan, std::span<const std::size_t> chosen, Store& store,
+        const RunOptions& options, const Progress& progress)
+        : list_(list), chosen_(chosen), store_(store), options_(options), states_(list.folder),
+          results_(list.jobs.size()), waitsFor_(list.jobs.size()), waiting_(list.jobs.size()), runs_(list.jobs.size()),
+          priorities_(prioritiesOf(list, plan)), steps_(progress, chosen.size())
+    {
+        for (std::size_t slot = std::max<std::size_t>(options.processes, 1); slot > 0; --slot)
+            slots_.push_back(slot);
+        for (const std::size_t job : chosen) {
+            waitsFor_[job] = plan.needs[job].size();
+            for (const std::size_t need : plan.needs[job])
+                waiting_[need].push_back(job);
+            if (waitsFor_[job] == 0)
+                addReady(job);
+        }
+    }
+
+    Result<std::vector<JobResult>> all()
+    {
+        while (finished_ < chosen_.size()) {
+            if (Status started = start(); !started)
+                return started.error();
+            if (Status heard = wait(); !heard)
+                return heard.error();
+            if (steps_.stopped())
+                return stoppedError();
+        }
+        std::vector<JobResult> results;
+        for (const std::size_t job : chosen_)
+            results.push_back(std::move(results_[job]));
+        return results;
+    }
+
+private:
+    // Of each job the largest one of its own and of those that wait for it.
+    static std::vector<int> prioritiesOf(const JobList& list, const Plan& plan)
+    {
+        std::vector<int> priorities;
+        std::vector<std::size_t> raised;
+        for (const Job& job : list.jobs) {
+            raised.push_back(priorities.size());
+            priorities.push_back(job.options.priority);
+        }
+        while (!raised.empty()) {
+            const std::size_t job = raised.back();
+            raised.pop_back();
+            for (const std::size_t need : plan.needs[job])
+                if (priorities[need] < priorities[job]) {
+                    priorities[need] = priorities[job];
+                    raised.push_back(need);
+                }
+        }
+        return priorities;
+    }
+
+    void addReady(std::size_t job) { ready_[priorities_[job]].push_back(job); }
+
+    // The first of those with the largest priority.
+    std::size_t takeReady()
+    {
+        const auto most = ready_.begin();
+        const std::size_t job = most->second.front();
+        most->second.pop_front();
+        if (most->second.empty())
+            ready_.erase(most);
+        return job;
+    }
+
+    // As many as there is room for.
+    Status start()
+    {
+        std::deque<std::size_t> elsewhere; // run by other processes
+        Status status = Done{};
+        while (status && !slots_.empty() && !ready_.empty() && !steps_.stopped()) {
+            const std::size_t job = takeReady();
+            if (auto kept = keptOf(job)) {
+                finish(job, std::move(*kept), /*kept*/ true);
+            } else if (auto claim = store_.claim(list_.jobs[job].key())) {
+                // It may have been finished elsewhere since.
+                if (auto done = keptOf(job))
+                    finish(job, std::move(*done), true);
+                else
+                    status = begin(job, std::move(*claim));
+            } else {
+                elsewhere.push_back(job);
+            }
+        }
+        for (const std::size_t job : elsewhere)
+            addReady(job);
+        return status;
+    }
+
+    std::optional<JobRecord> keptOf(std::size_t job)
+    {
+        if (options_.again)
+            return std::nullopt;
+        auto record = store_.find(list_.jobs[job].key());
+        const auto holds = [&](const FileState& state) { return states_.holds(state, record->at); };
+        if (record && repeatable(*record) && std::ranges::all_of(record->inputs, holds)
+            && std::ranges::all_of(record->outputs, holds))
+            return record;
+        return std::nullopt;
+    }
+
+    Status begin(std::size_t job, Claim claim)
+    {
+        const Job& asked = list_.jobs[job];
+        auto folder = store_.workFolder();
+        if (!folder)
+            return folder.error();
+        const std::size_t slot = slots_.back();
+        ChildRequest request;
+        request.work = *folder / std::to_string(slot);
+        std::error_code ignored;
+        fs::remove_all(request.work, ignored);
+        if (Status made = makeFolder(request.work); !made)
+            return made;
+        for (const std::string& output : asked.outputs)
+            fs::create_directories((list_.folder / output).parent_path(), ignored); // else the command says why
+        request.parent = ::getpid();
+        const Limits limits = limitsOf(options_, asked.options);
+        request.megabytes = limits.megabytes;
+        request.processorSeconds = std::size_t(limits.processorSeconds);
+        request.thumbnails = options_.thumbnails;
+        request.words = asked.words;
+        if (!asked.threads)
+            request.words.insert(request.words.end(), {"--threads", std::to_string(options_.threads)});
+        if (asked.json.empty())
+            request.words.insert(request.words.end(), {"--json", (request.work / kReportName).string()});
+        const std::int64_t began = nowNanoseconds();
+        auto process =
+            JobProcess::start(options_.program, list_.folder, request, asked.options.environment, limits.seconds);
+        ++runs_[job];
+        if (!process) {
+            JobRecord record;
+            record.state = JobState::failed;
+            record.code = int(process.error().kind);
+            record.reason = process.error().message;
+            finish(job, std::move(record), false);
+            return Done{};
+        }
+        slots_.pop_back();
+        running_.push_back({job, slot, request.work, std::move(*process), std::move(claim), began});
+        return Done{};
+    }
+
+    // For something to happen, a little while at most.
+    Status wait()
+    {
+        if (running_.empty()) {
+            if (!ready_.empty() && finished_ < chosen_.size())
+                std::this_thread::sleep_for(kTryAgain);
+            return Done{};
+        }
+        std::vector<pollfd> descriptors;
+        int tick = kTick;
+        for (const Running& r : running_) {
+            descriptors.push_back({r.process.descriptor(), POLLIN, 0});
+            if (r.process.descriptor() < 0)
+                tick = kSoon;
+        }
+        ::poll(descriptors.data(), descriptors.size(), tick);
+        for (auto at = running_.begin(); at != running_.end();) {
+            const pid_t number = at->process.number();
+            const auto ending = at->process.look();
+            if (!ending) {
+                ++at;
+                continue;
+            }
+            const std::size_t job = at->job;
+            JobRecord record = recordOf(*at, number, *ending);
+            slots_.push_back(at->slot);
+            if (mayHelp(job, record)) {
+                running_.erase(at++);
+                addReady(job);
+                continue;
+            }
+            Status kept = store_.keep(list_.jobs[job].key(), record);
+            running_.erase(at++); // with its claim
+            finish(job, std::move(record), false);
+            if (!kept)
+                return kept;
+        }
+        return Done{};
+    }
+
+    // Whether a job is to run once more.
+    bool mayHelp(std::size_t job, const JobRecord& record) const
+    {
+        return !repeatable(record) && runs_[job] <= list_.jobs[job].options.retries.value_or(options_.retries);
+    }
+
+    JobRecord recordOf(const Running& r, pid_t number, const Ending& ending)
+    {
+        const Job& job = list_.jobs[r.job];
+        JobRecord record;
+        record.said = ending.said;
+        record.seconds = ending.seconds;
+        record.processorSeconds = ending.processorSeconds;
+        record.megabytes = ending.megabytes;
+        record.runs = runs_[r.job];
+        judge(ending, limitsOf(options_, job.options), record);
+        if (!WIFEXITED(ending.status) || record.state == JobState::memory)
+            for (const std::string& output : job.outputs)
+                removeParts((list_.folder / output).parent_path(), number);
+        const fs::path report = job.json.empty() ? r.work / kReportName : list_.folder / job.json;
+        if (isGood(record))
+            if (const auto bytes = readReplacedBytes(report, kMostReportBytes))
+                record.degrees = degreesIn({reinterpret_cast<const char*>(bytes->data()), bytes->size()});
+        ChildAnswer answer = readAnswer(r.work);
+        record.thumbnail = std::move(answer.thumbnail);
+        record.at = nowNanoseconds();
+        record.outputs = statesOf(answer.outputs, r.work);
+        answer.inputs.insert(answer.inputs.end(), job.inputs.begin(), job.inputs.end());
+        record.inputs = statesOf(answer.inputs, r.work);
+        // What it also writes, it made itself; what changed under its eyes belongs to the next run.
+        std::erase_if(record.inputs, [&](const FileState& input) {
+            return std::ranges::find(record.outputs, input.file, &FileState::file) != record.outputs.end();
+        });
+        for (FileState& input : record.inputs)
+            if (input.changed >= r.began)
+                input.digest = "changed while it was read";
+        return record;
+    }
+
+    std::vector<FileState> statesOf(const std::vector<std::string>& files, const fs::path& work)
+    {
+        std::vector<std::string> names;
+        for (const std::string& file : files)
+            if (!(list_.folder / file).lexically_normal().string().starts_with(work.string()))
+                names.push_back(nameOf(list_.folder, file));
+        std::ranges::sort(names);
+        names.erase(std::unique(names.begin(), names.end()), names.end());
+        std::vector<FileState> states;
+        for (const std::string& name : names)
+            states.push_back(states_.of(name));
+        return states;
+    }
+
+    void finish(std::size_t job, JobRecord record, bool kept)
+    {
+        std::vector<std::size_t> failed;
+        const bool good = isGood(record);
+        results_[job] = {job, std::move(record), kept};
+        ++finished_;
+        steps_.step();
+        if (!good)
+            failed.push_back(job);
+        else
+            for (const std::size_t next : waiting_[job])
+                if (--waitsFor_[next] == 0)
+                    addReady(next);
+        while (!failed.empty()) { // and all that wait for those
+            const std::size_t bad = failed.back();
+            failed.pop_back();
+            for (const std::size_t next : waiting_[bad])
+                if (results_[next].record.state == JobState::notRun) {
+                    results_[next] = {next, skippedRecord(list_.jobs[bad].name), false};
+                    ++finished_;
+                    steps_.step();
+                    failed.push_back(next);
+                }
+        }
+    }
+
+    const JobList& list_;
+    const std::span<const std::size_t> chosen_;
+    Store& store_;
+    const RunOptions& options_;
+    FileStates states_;
+    std::vector<JobResult> results_;                // of all jobs, by number
+    std::vector<std::size_t> waitsFor_;             // how many jobs it still waits for
+    std::vector<std::vector<std::size_t>> waiting_; // jobs that wait for it
+    std::vector<int> runs_;                         // how often it has been started here
+    std::vector<int> priorities_;
+    std::map<int, std::deque<std::size_t>, std::greater<>> ready_; // by priority
+    std::vector<std::size_t> slots_;                               // that are free
+    std::list<Running> running_;
+    std::size_t finished_ = 0;
+    CountedSteps steps_;
+};
+
+// Jobs that nobody has run since they wait for one that is not done.
+void skipWaiting(const JobList& list, const Plan& plan, std::vector<JobResult>& results)
+{
+    for (bool more = true; more;) {
+        more = false;
+        for (JobResult& result : results)
+            for (const std::size_t need : plan.needs[result.job])
+                if (const JobState state = results[need].record.state; result.record.state == JobState::notRun
+                    && state != JobState::notRun && !isGood(results[need].record)) {
+                    result.record = skippedRecord(list.jobs[need].name);
+                    more = true;
+                }
+    }
+}
+
+} // namespace
+
+Result<std::vector<JobResult>> runJobs(const JobList& list, const Plan& plan, std::span<const std::size_t> chosen,
+                                       Store& store, const RunOptions& options, const Progress& progress)
+{
+    return Run(list, plan, chosen, store, options, progress).all();
+}
+
+std::vector<JobResult> collect(const JobList& list, const Plan& plan, std::span<const Store> stores)
+{
+    FileStates states(list.folder);
+    std::vector<JobResult> results;
+    for (std::size_t job = 0; job < list.jobs.size(); ++job) {
+        JobResult result{job, {}, /*kept*/ false};
+        result.record.reason = "no store has a result of it with these inputs";
+        for (const Store& store : stores) {
+            auto record = store.find(list.jobs[job].key());
+            const auto holds = [&](const FileState& state) { return states.holds(state, record->at); };
+            if (record && record->at > result.record.at && std::ranges::all_of(record->inputs, holds)
+                && std::ranges::all_of(record->outputs, holds))
+                result.record = std::move(*record);
+        }
+        results.push_back(std::move(result));
+    }
+    skipWaiting(list, plan, results);
+    return results;
+}
+
+} // namespace cotan

@@ -1,0 +1,149 @@
+#include "batch/store.hpp"
+
+#include <cerrno>
+#include <chrono>
+#include <cstdlib>
+#include <string>
+#include <string_view>
+#include <system_error>
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/file.h>
+#include <unistd.h>
+
+#include "files/bytes.hpp"
+#include "files/output.hpp"
+#include "files/plan.hpp"
+
+namespace cotan {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr std::size_t kMostRecordBytes = 64 << 20;
+constexpr const char* kResults = "results";
+constexpr const char* kWork = "work";
+constexpr const char* kLock = "lock";
+
+// What a record is found by. Only what every machine sees alike: neither folders nor times.
+std::string keyOf(const std::vector<std::string>& words, const std::string& version)
+{
+    std::string text = version;
+    for (const std::string& word : words) {
+        text += '\0';
+        text += word;
+    }
+    return digestOf(text);
+}
+
+bool lockWhole(const Descriptor& file) { return ::flock(file.get(), LOCK_EX | LOCK_NB) == 0; }
+
+// Work folders whose processes are no more: nobody holds their locks, or they had no time to make one.
+void removeLeft(const fs::path& work)
+{
+    constexpr auto kTimeForALock = std::chrono::minutes(1);
+    std::error_code ignored;
+    for (fs::directory_iterator at(work, ignored), end; !ignored && at != end; at.increment(ignored)) {
+        const Descriptor lock(::open((at->path() / kLock).c_str(), O_RDWR | O_CLOEXEC));
+        std::error_code none;
+        const auto made = fs::last_write_time(at->path(), none);
+        const bool old = !none && made + kTimeForALock < fs::file_time_type::clock::now();
+        if (lock.get() >= 0 ? lockWhole(lock) : old)
+            fs::remove_all(at->path(), none);
+    }
+}
+
+} // namespace
+
+Store::Store(fs::path folder, std::string version)
+    : folder_(fs::absolute(folder).lexically_normal()), version_(std::move(version))
+{
+}
+
+Store::~Store()
+{
+    std::error_code ignored;
+    if (!work_.empty())
+        fs::remove_all(work_, ignored);
+}
+
+Result<Store> Store::open(const fs::path& folder, std::string version)
+{
+    Store store(folder, std::move(version));
+    for (const char* name : {kResults, kWork}) {
+        if (Status made = makeFolder(store.folder_ / name); !made)
+            return made.error();
+        if (Status writable = checkWritable(store.folder_ / name / kLock); !writable)
+            return writable.error();
+    }
+    removeLeft(store.folder_ / kWork);
+    return store;
+}
+
+Result<Store> Store::openToRead(const fs::path& folder, std::string version)
+{
+    Store store(folder, std::move(version));
+    std::error_code ignored;
+    if (!fs::is_directory(store.folder_ / kResults, ignored))
+        return inputError(folder.string() + ": expected a store of cotan batch; found none");
+    return store;
+}
+
+// 256 folders, since some file systems are slow with a million files in one.
+fs::path Store::fileOf(const std::vector<std::string>& words) const
+{
+    const std::string key = keyOf(words, version_);
+    return folder_ / kResults / key.substr(0, 2) / (key.substr(2) + ".json");
+}
+
+std::optional<JobRecord> Store::find(const std::vector<std::string>& words) const
+{
+    const fs::path file = fileOf(words);
+    if (::access(file.c_str(), R_OK) != 0)
+        return std::nullopt;
+    const auto bytes = readReplacedBytes(file, kMostRecordBytes);
+    if (!bytes)
+        return std::nullopt;
+    return parseRecord({reinterpret_cast<const char*>(bytes->data()), bytes->size()});
+}
+
+Status Store::keep(const std::vector<std::string>& words, const JobRecord& record) const
+{
+    const fs::path file = fileOf(words);
+    if (Status made = makeFolder(file.parent_path()); !made)
+        return made;
+    return writeFileWhole(file, toText(record, words, version_));
+}
+
+std::optional<Claim> Store::claim(const std::vector<std::string>& words) const
+{
+    // One byte of one file for each job, far beyond its end: nothing is made, so nothing is left behind.
+    Descriptor file(::open((folder_ / kLock).c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666));
+    struct flock range {};
+    range.l_type = F_WRLCK;
+    range.l_whence = SEEK_SET;
+    range.l_start = off_t(std::strtoull(keyOf(words, version_).substr(0, 15).c_str(), nullptr, 16));
+    range.l_len = 1;
+    if (file.get() >= 0 && ::fcntl(file.get(), F_OFD_SETLK, &range) != 0 && (errno == EAGAIN || errno == EACCES))
+        return std::nullopt;
+    return Claim(std::move(file));
+}
+
+Result<fs::path> Store::workFolder()
+{
+    if (!work_.empty())
+        return work_;
+    std::string pattern = (folder_ / kWork / "XXXXXX").string();
+    if (!::mkdtemp(pattern.data()))
+        return outputError(
+            fmt::format("{}: cannot make a folder there: {}", (folder_ / kWork).string(), reasonOf(errno)));
+    work_ = pattern;
+    workLock_ = Descriptor(::open((work_ / kLock).c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666));
+    if (workLock_.get() >= 0)
+        lockWhole(workLock_);
+    return work_;
+}
+
+} // namespace cotan

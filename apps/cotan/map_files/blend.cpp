@@ -1,0 +1,54 @@
+#include "map_files/blend.hpp"
+
+#include <atomic>
+
+#include "cotan/image.hpp"
+#include "stream.hpp"
+
+namespace cotan::maps {
+
+Result<BlendedFile> blendFiles(const std::filesystem::path& base, const std::filesystem::path& detail,
+                               const std::filesystem::path& out, const BlendFileOptions& o, const FileOptions& files)
+{
+    auto opened = openMap(base, o.base, "options.from", files.limits);
+    if (!opened)
+        return opened.error();
+    RowReader& in = *opened->rows;
+    const auto fine = readMap(detail, o.detail, "options.detailFrom", files.limits);
+    if (!fine)
+        return fine.error();
+    const auto mask = o.mask.empty() ? Result<Image>(Image{}) : readImage(o.mask, files.limits);
+    if (!mask)
+        return mask.error();
+    const Convention to = o.to.value_or(opened->convention);
+    const auto bits = bitsFor(o.bits, in.type, to, out);
+    if (!bits)
+        return bits.error();
+    const BlendSettings settings{.base = opened->convention,
+                                 .detail = fine->convention,
+                                 .to = to,
+                                 .mode = o.mode,
+                                 .strength = o.strength,
+                                 .tilesX = o.tilesX,
+                                 .tilesY = o.tilesY,
+                                 .mask = o.mask.empty() ? nullptr : &*mask,
+                                 .type = bits->type,
+                                 .dither = o.dither,
+                                 .pictureHeight = in.height};
+    std::atomic<std::size_t> invalid = 0;
+    const Status streamed = streamToFile(in, {}, out, {in.width, in.height, bits->type, false, bits->half, in.frame},
+                                         files.threads, files.progress, [&](Image& strip, int firstRow) {
+                                             opened->put(strip);
+                                             BlendSettings here = settings;
+                                             here.firstRow = firstRow;
+                                             std::size_t found = 0;
+                                             Image rows = blend(strip, fine->image, here, found);
+                                             invalid += found;
+                                             return rows;
+                                         });
+    if (!streamed)
+        return streamed.error();
+    return BlendedFile{in.width, in.height, *bits, invalid, to};
+}
+
+} // namespace cotan::maps

@@ -1,0 +1,132 @@
+#include "map_files/convert.hpp"
+
+#include <atomic>
+
+#include <fmt/format.h>
+
+#include "by_mesh.hpp"
+#include "stream.hpp"
+#include "texture_file.hpp"
+
+namespace cotan::maps {
+
+namespace {
+
+Status checkOptions(const ConvertFileOptions& o)
+{
+    const bool turns = o.from.convention.kind != o.to.kind;
+    if (turns != o.mesh.has_value())
+        return usageError(turns ? "options.mesh: between tangent and object space the mesh is needed; found none"
+                                : "options.mesh: is for maps between tangent and object space; found both in one");
+    if (turns && o.strength != 1)
+        return usageError(
+            "options.strength: expected 1 between tangent and object space; convert within tangent space for it");
+    if (o.strength == 0)
+        return usageError("options.strength: expected a factor other than 0; found 0");
+    return Done{};
+}
+
+// Reads and turns a whole picture.
+Result<Image> byMesh(const std::filesystem::path& file, const MeshOfMap& mesh, const RecodeSettings& settings,
+                     const FileOptions& files, ConvertedFile& done)
+{
+    const auto map = readMap(file, settings.from, "options.from", files.limits);
+    if (!map)
+        return map.error();
+    auto turned = throughMesh(map->image, settings, mesh, files.progress, done.counts, done.shown);
+    if (turned && done.shown == 0)
+        return inputError(
+            fmt::format("{}: no texel of the map is shown by the mesh (uv outside 0 to 1?)", mesh.file.string()));
+    return turned;
+}
+
+Result<Image> whole(const std::filesystem::path& file, const RecodeSettings& settings, const FileOptions& files,
+                    ConvertedFile& done)
+{
+    const auto map = readMap(file, settings.from, "options.from", files.limits);
+    if (!map)
+        return map.error();
+    CountedSteps steps(files.progress, 2);
+    if (!steps.step())
+        return stoppedError();
+    Image turned = recode(map->image, settings, done.counts);
+    if (!steps.step())
+        return stoppedError();
+    return turned;
+}
+
+// A texture of one level.
+Status writeTexture(const std::filesystem::path& out, const Image& map, TexelCode code, const Convention& to)
+{
+    return writeTextureFile(out, code, {levelOf(map, code, to)}, map.frame);
+}
+
+// The frame of the result: in tangent space what the map says, or what the mesh was read with; in object space none.
+std::string frameAfter(const std::string& said, const ConvertFileOptions& o)
+{
+    if (o.to.kind != MapKind::tangentSpace)
+        return {};
+    return o.mesh ? std::string(name(o.mesh->frame)) : said;
+}
+
+// Streams a picture through.
+Status byRows(const OpenMap& map, const std::filesystem::path& out, const RecodeSettings& settings,
+              const FileOptions& files, ConvertedFile& done)
+{
+    RowReader& in = *map.rows;
+    const bool alpha = in.alpha && settings.from.channels == Channels::xyz && settings.to.channels == Channels::xyz;
+    std::atomic<std::size_t> invalid = 0, clamped = 0;
+    const Status streamed =
+        streamToFile(in, {}, out, {in.width, in.height, done.bits.type, alpha, done.bits.half, done.frame},
+                     files.threads, files.progress, [&](Image& strip, int firstRow) {
+                         map.put(strip);
+                         RecodeSettings here = settings;
+                         here.firstRow = firstRow;
+                         RecodeCounts found;
+                         Image rows = recode(strip, here, found);
+                         invalid += found.invalid;
+                         clamped += found.clamped;
+                         return rows;
+                     });
+    done.counts = {invalid, clamped};
+    return streamed;
+}
+
+} // namespace
+
+Result<ConvertedFile> convertFile(const std::filesystem::path& map, const std::filesystem::path& out,
+                                  const ConvertFileOptions& o, const FileOptions& files)
+{
+    if (Status fits = checkOptions(o); !fits)
+        return fits.error();
+    auto opened = openMap(map, o.from, "options.from", files.limits);
+    if (!opened)
+        return opened.error();
+    RowReader& in = *opened->rows;
+    const auto code = codeFor(o.compress, o.bits, o.to, out);
+    if (!code)
+        return code.error();
+    const auto bits = isTextureFile(out) ? Result<Bits>(Bits{}) : bitsFor(o.bits, in.type, o.to, out);
+    if (!bits)
+        return bits.error();
+    const RecodeSettings settings{.from = opened->convention,
+                                  .to = codeConvention(*code, o.to),
+                                  .type = *code == TexelCode::rgba8 ? bits->type : PixelType::float32,
+                                  .strength = o.strength,
+                                  .normalise = o.normalise,
+                                  .dither = o.dither};
+    ConvertedFile done{in.width, in.height, *bits, {}, 0, frameAfter(in.frame, o), opened->convention};
+    if (!o.mesh && !isTextureFile(out)) {
+        const Status streamed = byRows(*opened, out, settings, files, done);
+        return streamed ? Result<ConvertedFile>(done) : streamed.error();
+    }
+    auto turned = o.mesh ? byMesh(map, *o.mesh, settings, files, done) : whole(map, settings, files, done);
+    if (!turned)
+        return turned.error();
+    turned->frame = done.frame;
+    const Status written =
+        isTextureFile(out) ? writeTexture(out, *turned, *code, o.to) : writeMap(out, *turned, done.bits);
+    return written ? Result<ConvertedFile>(done) : written.error();
+}
+
+} // namespace cotan::maps

@@ -1,0 +1,93 @@
+#include "map_files/inspect.hpp"
+
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "cotan/maps.hpp"
+#include "inspect/angles.hpp"
+#include "maps/patches.hpp"
+#include "stream.hpp"
+
+namespace cotan::maps {
+
+Result<SurveyedFile> surveyFile(const std::filesystem::path& map, const FileOptions& files)
+{
+    MapSurvey survey;
+    SurveyedFile found;
+    for (const auto pass : {&MapSurvey::first, &MapSurvey::second}) {
+        const auto reader = openRows(map, files.limits);
+        if (!reader)
+            return reader.error();
+        RowReader& in = **reader;
+        found.width = in.width, found.height = in.height, found.type = in.type, found.frame = in.frame,
+        found.channels = in.channels;
+        const bool second = pass == &MapSurvey::second;
+        const Status read =
+            inOrder(in, partOf(files.progress, second, 2), [&](const Image& strip, int) { (survey.*pass)(strip); });
+        if (!read)
+            return read.error();
+        if (survey.oneColour())
+            break;
+    }
+    found.statistics = survey.finish();
+    return found;
+}
+
+Result<GreenOfFile> greenOfFile(const std::filesystem::path& map, const FileOptions& files)
+{
+    const auto reader = openRows(map, files.limits);
+    if (!reader)
+        return reader.error();
+    RowReader& in = **reader;
+    PatchSampler sampler(in.width, in.height, in.type);
+    const Status read = inOrder(in, files.progress, [&](const Image& strip, int row) { sampler.add(strip, row); });
+    if (!read)
+        return read.error();
+    return GreenOfFile{greenOf(sampler), sampler.patches().size()};
+}
+
+Result<ComparedFiles> compareFiles(const std::filesystem::path& fileA, const StatedConvention& statedA,
+                                   const std::filesystem::path& fileB, const StatedConvention& statedB,
+                                   const std::filesystem::path& heat, const FileOptions& files)
+{
+    const auto a = openMap(fileA, statedA, "options.from", files.limits);
+    if (!a)
+        return a.error();
+    const auto b = openMap(fileB, statedB, "options.to", files.limits);
+    if (!b)
+        return b.error();
+    RowReader* const readers[] = {a->rows.get(), b->rows.get()};
+    const int width = readers[0]->width, height = readers[0]->height;
+    if (width != readers[1]->width || height != readers[1]->height)
+        return inputError(fmt::format("{}: expected {} x {} as {} has, found {} x {}", fileB.string(), width, height,
+                                      fileA.string(), readers[1]->width, readers[1]->height));
+    std::unique_ptr<RowWriter> picture;
+    if (!heat.empty()) {
+        auto writer = createRows(heat, {width, height, PixelType::unorm8, false, false}, files.threads);
+        if (!writer)
+            return writer.error();
+        picture = *std::move(writer);
+    }
+    AngleHistogram angles;
+    const auto work = [&](std::span<Image> strips, int) -> std::function<Status()> {
+        a->put(strips[0]);
+        b->put(strips[1]);
+        auto degrees = anglesBetween(strips[0], a->convention, strips[1], b->convention);
+        Image rows = picture ? heatMap(degrees, width, strips[0].height) : Image{};
+        return [&, degrees = std::move(degrees), rows = std::move(rows)]() -> Status {
+            for (float d : degrees)
+                angles.add(d);
+            return picture ? picture->write(rows) : Status(Done{});
+        };
+    };
+    if (Status done = streamStrips(readers, {}, files.progress, work); !done)
+        return done.error();
+    if (picture)
+        if (Status written = picture->finish(); !written)
+            return written.error();
+    const AngleStatistics s = angles.statistics();
+    return ComparedFiles{s, std::size_t(width) * std::size_t(height) - s.count, a->convention, b->convention};
+}
+
+} // namespace cotan::maps

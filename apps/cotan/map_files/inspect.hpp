@@ -1,0 +1,54 @@
+// Properties of map files, and the angles between two of them. Nothing is changed.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "cotan/maps.hpp"
+#include "files/report/json.hpp"
+#include "inspect/statistics.hpp"
+#include "map_files/map_file.hpp"
+
+namespace cotan::maps {
+
+struct SurveyedFile {
+    int width = 0, height = 0;
+    PixelType type = PixelType::unorm8;
+    NormalStatistics statistics;
+    std::string frame = {}; // as Image::frame
+    int channels = 4;       // as Image::channels
+};
+
+// Reads a file through, once or twice. Errors: as openRows; ErrorKind::stopped.
+Result<SurveyedFile> surveyFile(const std::filesystem::path& map, const FileOptions& files = {});
+
+// The same in sentences and for a report; file: its name.
+std::vector<std::string> linesOf(const SurveyedFile& survey, const std::string& file);
+Json toJson(const SurveyedFile& survey);
+
+struct GreenOfFile {
+    GreenVerdict verdict;
+    std::size_t patches = 0; // that were judged
+};
+
+// Which way green points. Errors: as openRows; ErrorKind::stopped.
+Result<GreenOfFile> greenOfFile(const std::filesystem::path& map, const FileOptions& files = {});
+
+// The same in sentences and for a report; file: its name.
+std::vector<std::string> linesOf(const GreenOfFile& found, const std::string& file);
+Json toJson(const GreenOfFile& found);
+
+struct ComparedFiles {
+    AngleStatistics angles;  // degrees between the two, over the texels that are directions in both
+    std::size_t skipped = 0; // other texels
+    Convention a{}, b{};     // how the two were read
+};
+
+// Compares two maps of one size, each read with its own convention. heat: a picture of the angles as heatMap gives it;
+// empty: none. Errors: as openRows and createRows; ErrorKind::usage: "options.from: " (of a), "options.to: " (of b);
+// ErrorKind::input: two sizes; ErrorKind::stopped.
+Result<ComparedFiles> compareFiles(const std::filesystem::path& a, const StatedConvention& statedA,
+                                   const std::filesystem::path& b, const StatedConvention& statedB,
+                                   const std::filesystem::path& heat = {}, const FileOptions& files = {});
+
+} // namespace cotan::maps

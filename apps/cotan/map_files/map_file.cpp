@@ -1,0 +1,131 @@
+#include "map_files/map_file.hpp"
+
+#include <algorithm>
+#include <system_error>
+
+#include <fmt/format.h>
+
+#include "cotan/image.hpp"
+#include "image/format_table.hpp"
+#include "stream.hpp"
+
+namespace cotan::maps {
+
+namespace {
+
+bool holds(const ImageFormat& format, PixelType type)
+{
+    return type == PixelType::unorm8 ? format.bits8 : type == PixelType::unorm16 ? format.bits16 : format.floats;
+}
+
+} // namespace
+
+std::size_t workBudget(const std::filesystem::path& file, const LoadLimits& limits)
+{
+    std::error_code unknown;
+    const std::uintmax_t size = std::filesystem::file_size(file, unknown);
+    return std::min(limits.imageBytes, imageBudget(limits, unknown ? 0 : size));
+}
+
+Result<Bits> bitsFor(const std::string& wanted, PixelType input, const std::filesystem::path& file)
+{
+    if (Status writable = checkImageName(file); !writable)
+        return writable.error();
+    const ImageFormat& format = *imageFormatOf(file);
+    PixelType type = input;
+    if (wanted == "8")
+        type = PixelType::unorm8;
+    else if (wanted == "16")
+        type = PixelType::unorm16;
+    else if (wanted == "float" || wanted == "half")
+        type = PixelType::float32;
+    else if (wanted != "auto")
+        return usageError(fmt::format("options.bits: expected auto, 8, 16, half or float; found '{}'", wanted));
+    else if (!holds(format, type))
+        type = format.bits16 ? PixelType::unorm16 : format.bits8 ? PixelType::unorm8 : PixelType::float32;
+    const bool half = wanted == "half";
+    if (half ? !format.halfs : !holds(format, type))
+        return usageError(
+            fmt::format("options.bits: {} files cannot hold {}", format.endings[0], half ? "half" : bitsName(type)));
+    return Bits{type, half};
+}
+
+std::string bitsName(PixelType type)
+{
+    return type == PixelType::unorm8 ? "8 bit" : type == PixelType::unorm16 ? "16 bit" : "float";
+}
+
+std::string bitsName(const Bits& bits) { return bits.half ? "half" : bitsName(bits.type); }
+
+Status checkSigned(const Convention& to, const Bits& bits, const std::filesystem::path& file)
+{
+    if (to.expansion == Expansion::signedValues
+        && (bits.type != PixelType::float32 || !imageFormatHas(file, &ImageFormat::negative)))
+        return usageError(fmt::format("options.to: signed values need a {} of floats; found {}, {}",
+                                      imageEndings(&ImageFormat::negative, ", ", " or "), file.extension().string(),
+                                      bitsName(bits)));
+    return Done{};
+}
+
+Result<Bits> bitsFor(const std::string& wanted, PixelType input, const Convention& to,
+                     const std::filesystem::path& file)
+{
+    const auto bits = bitsFor(wanted, input, file);
+    if (!bits)
+        return bits;
+    const Status fits = checkSigned(to, *bits, file);
+    return fits ? bits : fits.error();
+}
+
+Result<LoadedMap> readMap(const std::filesystem::path& file, const StatedConvention& stated, const std::string& option,
+                          const LoadLimits& limits)
+{
+    auto image = readImage(file, limits);
+    if (!image)
+        return image.error();
+    const auto convention = conventionOf(stated, image->name, image->channels, option);
+    if (!convention)
+        return convention.error();
+    if (convention->channels != Channels::xyz)
+        unswizzle(*image, swizzleOf(*image));
+    undo(stated.damage, *image);
+    return LoadedMap{*std::move(image), *convention};
+}
+
+Status writeMap(const std::filesystem::path& file, const Image& image, const Bits& bits)
+{
+    if (!bits.half)
+        return writeImage(file, image);
+    auto writer = createRows(file, {image.width, image.height, image.type, true, true, image.frame});
+    if (!writer)
+        return writer.error();
+    if (Status written = (*writer)->write(image); !written)
+        return written;
+    return (*writer)->finish();
+}
+
+Result<OpenMap> openMap(const std::filesystem::path& file, const StatedConvention& stated, const std::string& option,
+                        const LoadLimits& limits)
+{
+    auto reader = openRows(file, limits);
+    if (!reader)
+        return reader.error();
+    const auto convention = conventionOf(stated, (*reader)->name, (*reader)->channels, option);
+    if (!convention)
+        return convention.error();
+    OpenMap map{*std::move(reader), *convention, Swizzle::rg, stated.damage};
+    if (convention->channels == Channels::xyz || !map.rows->alpha)
+        return map;
+    ChannelRange range;
+    if (Status read = inOrder(*map.rows, {}, [&](const Image& strip, int) { range.add(strip); }); !read)
+        return read.error();
+    map.swizzle = range.swizzle();
+    map.rows.reset(); // what it holds goes first
+    auto again = openRows(file, limits);
+    if (!again)
+        return again.error();
+    map.rows = *std::move(again);
+    return map;
+}
+
+} // namespace cotan::maps

@@ -1,0 +1,156 @@
+#include "map_files/mips.hpp"
+
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "image/pending.hpp"
+#include "texture_file.hpp"
+
+namespace cotan::maps {
+
+namespace {
+
+// The normals with their roughness in alpha.
+TextureLevel levelWithRoughness(const MipLevel& level, TexelCode code, const MipFileOptions& o)
+{
+    Image both = level.normals;
+    for (std::size_t i = 0; i < both.pixelCount(); ++i)
+        if (both.type == PixelType::float32)
+            both.floats()[4 * i + 3] = level.roughness.floats()[4 * i];
+        else
+            both.bytes8()[4 * i + 3] = level.roughness.bytes8()[4 * i];
+    return levelOf(both, code, *o.to, o.keepLengths);
+}
+
+std::filesystem::path marked(const std::filesystem::path& file, const std::string& mark)
+{
+    return file.parent_path() / (file.stem().string() + mark + file.extension().string());
+}
+
+// One file, or with bc5, which has no room for a third channel, two.
+Status writeTextures(const std::filesystem::path& out, const std::vector<MipLevel>& chain, TexelCode code,
+                     const MipFileOptions& o)
+{
+    std::vector<TextureLevel> normals, roughness;
+    if (code != TexelCode::bc5) {
+        for (const MipLevel& level : chain)
+            normals.push_back(levelWithRoughness(level, code, o));
+        return writeTextureFile(out, code, normals, chain[0].normals.frame);
+    }
+    const std::filesystem::path second = marked(out, "_roughness");
+    if (o.mayWrite)
+        if (Status may = o.mayWrite(second); !may)
+            return may;
+    for (const MipLevel& level : chain) {
+        normals.push_back(levelOf(level.normals, code, *o.to));
+        roughness.push_back(bc4Level(level.roughness));
+    }
+    if (Status w = writeTextureFile(out, TexelCode::bc5, normals, chain[0].normals.frame); !w)
+        return w;
+    return writeTextureFile(second, TexelCode::bc4, roughness);
+}
+
+std::filesystem::path numbered(const std::filesystem::path& file, const char* mark, std::size_t level)
+{
+    return marked(file, fmt::format("{}_{}", mark, level));
+}
+
+Status writeChain(const std::filesystem::path& out, const std::vector<MipLevel>& chain, const Bits& bits,
+                  const MipFileOptions& o)
+{
+    for (std::size_t i = 0; i < chain.size() && o.mayWrite; ++i)
+        for (const char* mark : {"", "_roughness"})
+            if (Status may = o.mayWrite(numbered(out, mark, i)); !may)
+                return may;
+    std::optional<InterruptsHeld> held;
+    if (bits.half) // written by rows, one file after the other
+        held.emplace();
+    std::vector<OutputFile> pending; // all files appear together
+    for (std::size_t i = 0; i < chain.size(); ++i)
+        for (const auto& [mark, image] :
+             {std::pair("", &chain[i].normals), std::pair("_roughness", &chain[i].roughness)}) {
+            const std::filesystem::path file = numbered(out, mark, i);
+            if (bits.half) {
+                if (Status w = writeMap(file, *image, bits); !w)
+                    return w;
+                continue;
+            }
+            auto output = writePending(file, *image);
+            if (!output)
+                return output.error();
+            pending.push_back(std::move(*output));
+        }
+    return commitTogether(pending);
+}
+
+// Of blocks floats, of which they are made.
+Result<Bits> bitsOfMips(TexelCode code, PixelType input, const std::filesystem::path& out, const MipFileOptions& o)
+{
+    if (code != TexelCode::rgba8)
+        return Bits{PixelType::float32, false};
+    return isTextureFile(out) ? Result<Bits>(Bits{}) : bitsFor(o.bits, input, *o.to, out);
+}
+
+} // namespace
+
+std::filesystem::path firstMipFile(const std::filesystem::path& out)
+{
+    return isTextureFile(out) ? out : numbered(out, "", 0);
+}
+
+Result<MippedFile> writeMips(const std::filesystem::path& file, const std::filesystem::path& out,
+                             const MipFileOptions& asked, const FileOptions& files)
+{
+    MipFileOptions o = asked;
+    if (o.compress == "bc5" && o.keepLengths)
+        return usageError("options.keepLengths: bc5 has no channel for lengths");
+    if (o.to) // before the work
+        if (const auto code = codeFor(o.compress, o.bits, *o.to, out); !code)
+            return code.error();
+    const auto read = readMap(file, o.from, "options.from", files.limits);
+    if (!read)
+        return read.error();
+    const Image* const map = &read->image;
+    const Convention from = read->convention, to = o.to.value_or(from);
+    o.to = to;
+    const auto code = codeFor(o.compress, o.bits, to, out);
+    if (!code)
+        return code.error();
+    const auto bits = bitsOfMips(*code, map->type, out, o);
+    if (!bits)
+        return bits.error();
+    // 32 bytes of moments for a quarter of the texels, and both pictures of all levels.
+    const std::size_t work = map->pixelCount() * (8 + 11 * bytesPerComponent(bits->type));
+    const std::size_t most = 3 * workBudget(file, files.limits);
+    if (work > most)
+        return inputError(
+            fmt::format("{}: the chain takes {} MiB for {} x {}, the limit is {} MiB for a file of this size",
+                        file.string(), work >> 20, map->width, map->height, most >> 20));
+    CountedSteps steps(files.progress, 3); // read, filtered, written
+    if (!steps.step())
+        return stoppedError();
+    auto chain = mipChain(*map,
+                          {.from = from,
+                           .to = codeConvention(*code, to),
+                           .keepLengths = o.keepLengths,
+                           .model = o.model,
+                           .roughness = o.roughness,
+                           .type = bits->type});
+    for (MipLevel& level : chain)
+        level.normals.frame = map->frame;
+    if (!steps.step())
+        return stoppedError();
+    if (Status written = isTextureFile(out) ? writeTextures(out, chain, *code, o) : writeChain(out, chain, *bits, o);
+        !written)
+        return written.error();
+    steps.step();
+    MippedFile done{from, to, {}};
+    for (const MipLevel& level : chain)
+        done.levels.push_back({level.normals.width, level.normals.height, level.meanLength, level.meanRoughness});
+    return done;
+}
+
+} // namespace cotan::maps

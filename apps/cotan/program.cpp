@@ -1,0 +1,86 @@
+#include "program.hpp"
+
+#include <algorithm>
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <exception>
+#include <filesystem>
+#include <new>
+#include <system_error>
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#ifdef COTAN_WITH_BATCH
+#include "batch/child.hpp"
+#endif
+#include "common.hpp"
+#include "cotan/files.hpp"
+#include "cotan/model.hpp"
+#include "files/account.hpp"
+#include "files/interrupt.hpp"
+#include "terminal/printable.hpp"
+
+namespace cotan::app {
+
+namespace {
+
+char** startedWith = nullptr; // main's argv
+
+// Not fmt::print, which throws where standard error cannot be written.
+int fail(const Error& error)
+{
+    std::fputs(fmt::format("cotan: error: {}\n", printable(error.message)).c_str(), stderr);
+    return int(error.kind);
+}
+
+} // namespace
+
+int finish(const Status& status)
+{
+    if (const auto refused = refusal(); refused && !status)
+        return fail(*refused); // a reader may have put it in other words
+    if (!status)
+        return fail(status.error());
+    const Status printed = flushOutput();
+    return printed ? 0 : fail(printed.error());
+}
+
+Status startLab()
+{
+    std::error_code failed;
+    const std::filesystem::path self = std::filesystem::read_symlink("/proc/self/exe", failed);
+    const std::filesystem::path lab = self.parent_path() / "cotan-lab";
+    if (!failed && startedWith)
+        ::execv(lab.c_str(), startedWith);
+    const std::string why = failed ? failed.message() : std::strerror(errno);
+    return unavailableError(fmt::format("{}: the program of this command does not start: {}", lab.string(), why));
+}
+
+int runProgram(int argc, char** argv, int (*commandLine)(std::vector<std::string>))
+{
+    startedWith = argv;
+    if (isReaderProcess(argc, argv))
+        return runReaderProcess();
+    sandboxByDefault({.program = "/proc/self/exe"});
+    removePartsOnInterrupt();
+    try {
+#ifdef COTAN_WITH_BATCH
+        if (isJobProcess(argc, argv))
+            return runJobProcess(argc, argv, commandLine);
+#endif
+        return commandLine({argv + std::min(argc, 1), argv + argc});
+    } catch (const std::bad_alloc&) {
+        return fail({ErrorKind::unavailable, "not enough memory"});
+    } catch (const std::system_error& e) { // of threads, too
+        return fail({ErrorKind::unavailable,
+                     e.code() == std::errc::resource_unavailable_try_again
+                         ? "no more threads or processes are allowed here (ulimit -u)"
+                         : std::string("unexpected: ") + e.what()});
+    } catch (const std::exception& e) {
+        return fail({ErrorKind::unavailable, std::string("unexpected: ") + e.what()});
+    }
+}
+
+} // namespace cotan::app

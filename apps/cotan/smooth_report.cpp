@@ -1,0 +1,71 @@
+#include "smooth_report.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+#include <glm/geometric.hpp>
+
+namespace cotan {
+
+namespace {
+
+template<class T> std::vector<T> gathered(std::span<const T> values, const std::vector<std::uint32_t>& sources)
+{
+    std::vector<T> out;
+    out.reserve(sources.size());
+    for (const std::uint32_t s : sources)
+        out.push_back(values[s]);
+    return out;
+}
+
+} // namespace
+
+SmoothStatistics smoothStatistics(const MeshView& mesh)
+{
+    const VertexSplit split = splitMirrored(mesh);
+    const auto positions = gathered(mesh.positions, split.sources);
+    const auto normals = gathered(mesh.normals, split.sources);
+    const auto texcoords = gathered(mesh.texcoords, split.sources);
+    const Cotangents c = smoothCotangents({positions, normals, texcoords, split.indices});
+    std::vector<float> shear, stretch;
+    for (std::size_t i = 0; i < c.u.size(); ++i) {
+        const double u = glm::length(glm::dvec3(c.u[i])), v = glm::length(glm::dvec3(c.v[i]));
+        if (!(u > 0) || !(v > 0))
+            continue;
+        const double sine = std::abs(glm::dot(glm::dvec3(c.u[i]), glm::dvec3(c.v[i]))) / (u * v);
+        shear.push_back(float(std::asin(std::min(sine, 1.0)) * 57.29577951308232));
+        stretch.push_back(float(std::max(u, v) / std::min(u, v)));
+    }
+    SmoothStatistics s;
+    s.vertices = c.u.size();
+    s.added = split.sources.size() - mesh.positions.size();
+    s.without = c.u.size() - shear.size();
+    s.shear = statisticsOf(std::move(shear));
+    const AngleStatistics ratios = statisticsOf(std::move(stretch)); // no angles: only ranks are asked for
+    s.stretchMedian = ratios.median;
+    s.stretchMaximum = ratios.maximum;
+    return s;
+}
+
+std::string toText(const SmoothStatistics& s)
+{
+    const std::string figures = s.shear.count == 0 ? "no shear or stretch to measure"
+                                                   : fmt::format("shear {}; stretch median {:.3g}, max {:.3g}",
+                                                                 toText(s.shear), s.stretchMedian, s.stretchMaximum);
+    return fmt::format("{} vertices ({} added where mirrored charts meet), {} without a frame; {}", s.vertices, s.added,
+                       s.without, figures);
+}
+
+Json toJson(const SmoothStatistics& s)
+{
+    Json shear = toJson(s.shear);
+    shear.erase("pixels"); // vertices here
+    return {{"vertices", s.vertices},
+            {"vertices_added", s.added},
+            {"without_frame", s.without},
+            {"shear", shear},
+            {"stretch", {{"median", s.stretchMedian}, {"max", s.stretchMaximum}}}};
+}
+
+} // namespace cotan

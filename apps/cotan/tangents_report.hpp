@@ -1,0 +1,15 @@
+// How far stored tangents are off, in words and in reports.
+#pragma once
+
+#include <string>
+
+#include "cotan/tangents.hpp"
+#include "files/report/json.hpp"
+
+namespace cotan {
+
+// One line for users. reference: what the stored tangents were compared with, "MikkTSpace".
+std::string toText(const TangentDifference& difference, const std::string& reference);
+Json toJson(const TangentDifference& difference);
+
+} // namespace cotan

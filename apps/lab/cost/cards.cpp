@@ -1,0 +1,136 @@
+#include "cost/cards.hpp"
+
+#include <algorithm>
+#include <charconv>
+
+#include "compile.hpp"
+
+namespace cotan::cost {
+
+namespace {
+
+constexpr std::string_view kHeader = "maker,card,device,driver,date,stage,row,instructions,arithmetic,registers,code "
+                                     "bytes,inverse throughput,latency,failure";
+constexpr std::size_t kColumns = 14, kFirstNumber = 7, kFailure = 13;
+
+// The numbers of a stage in the order of the columns.
+constexpr std::optional<double> StageCode::*kNumbers[] = {&StageCode::instructions,      &StageCode::arithmetic,
+                                                          &StageCode::registers,         &StageCode::bytes,
+                                                          &StageCode::inverseThroughput, &StageCode::latency};
+
+std::string quoted(std::string_view text)
+{
+    if (text.find_first_of(",\"") == std::string_view::npos)
+        return std::string(text);
+    std::string result = "\"";
+    for (const char c : text)
+        result += c == '"' ? std::string("\"\"") : std::string(1, c);
+    return result + '"';
+}
+
+std::vector<std::string> cellsOf(std::string_view line)
+{
+    std::vector<std::string> cells(1);
+    bool inside = false; // of quotes
+    for (std::size_t i = 0; i < line.size(); ++i)
+        if (line[i] == '"' && inside && i + 1 < line.size() && line[i + 1] == '"')
+            cells.back() += line[i++];
+        else if (line[i] == '"')
+            inside = !inside;
+        else if (line[i] == ',' && !inside)
+            cells.emplace_back();
+        else
+            cells.back() += line[i];
+    return cells;
+}
+
+// False for what is neither empty nor a finite number.
+bool readNumber(const std::string& cell, std::optional<double>& number)
+{
+    if (cell.empty())
+        return true;
+    double value = 0;
+    const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), value);
+    number = value;
+    return error == std::errc() && end == cell.data() + cell.size() && value >= 0 && value < 1e15;
+}
+
+StageCode* placeOf(DeviceCode& card, std::string_view stage, std::string_view row)
+{
+    StageCode* found = nullptr;
+    eachStage(card, [&](std::string_view kind, std::string_view name, StageCode& code) {
+        if (!found && stage == kind && row == name)
+            found = &code;
+    });
+    return found;
+}
+
+} // namespace
+
+std::string cardsToCsv(const std::vector<DeviceCode>& cards)
+{
+    std::string text = std::string(kHeader) + '\n';
+    for (const DeviceCode& card : cards) {
+        const std::string head = quoted(card.maker) + ',' + quoted(card.family.empty() ? card.name : card.family) + ','
+            + quoted(card.name) + ',' + quoted(card.driver) + ',' + card.date + ',';
+        const auto line = [&](std::string_view stage, std::string_view row, const StageCode& code) {
+            text += head + std::string(stage) + ',' + quoted(row);
+            for (const auto number : kNumbers) {
+                text += ',';
+                char digits[32];
+                if (code.*number)
+                    text.append(digits, std::to_chars(digits, digits + sizeof digits, *(code.*number)).ptr);
+            }
+            text += ',' + quoted(code.failure) + '\n';
+        };
+        if (!card.silence.empty()) {
+            StageCode none;
+            none.failure = card.silence;
+            line("silence", "", none);
+            continue;
+        }
+        eachStage(card, line);
+    }
+    return text;
+}
+
+Result<std::vector<DeviceCode>> cardsFromCsv(std::string_view text)
+{
+    std::vector<const Row*> all;
+    for (const Row& row : rows())
+        all.push_back(&row);
+    std::vector<DeviceCode> cards;
+    int number = 0;
+    while (!text.empty()) {
+        const std::size_t end = std::min(text.find('\n'), text.size());
+        std::string_view line = text.substr(0, end);
+        text.remove_prefix(std::min(end + 1, text.size()));
+        if (line.ends_with('\r'))
+            line.remove_suffix(1);
+        const std::string where = "line " + std::to_string(++number) + ": ";
+        if (line == kHeader)
+            continue;
+        if (number == 1)
+            return inputError(where + "expected '" + std::string(kHeader) + "'");
+        const std::vector<std::string> cells = cellsOf(line);
+        if (cells.size() != kColumns)
+            return inputError(where + "expected " + std::to_string(kColumns) + " cells, found "
+                              + std::to_string(cells.size()));
+        if (cards.empty() || cards.back().family != cells[1] || cards.back().maker != cells[0]) {
+            cards.push_back({cells[2], cells[0], cells[3], cells[1], "", cells[4], {}, {}, {}});
+            prepareStages(cards.back(), all);
+        }
+        if (cells[5] == "silence")
+            cards.back().silence = cells[kFailure];
+        StageCode unknown;
+        StageCode* stage = placeOf(cards.back(), cells[5], cells[6]);
+        StageCode& code = stage ? *stage : unknown;
+        code.failure = cells[kFailure];
+        for (std::size_t i = 0; i < std::size(kNumbers); ++i)
+            if (!readNumber(cells[kFirstNumber + i], code.*kNumbers[i]))
+                return inputError(where + "expected a number, found '" + cells[kFirstNumber + i] + "'");
+    }
+    return cards;
+}
+
+} // namespace cotan::cost

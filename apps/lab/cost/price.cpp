@@ -1,0 +1,128 @@
+#include "cost/price.hpp"
+
+#include <algorithm>
+#include <fstream>
+
+#include <sys/utsname.h>
+
+#include "cost/cards.hpp"
+
+namespace cotan::cost {
+
+namespace {
+
+std::string machineText()
+{
+    std::string system;
+    std::ifstream release("/etc/os-release");
+    for (std::string line; std::getline(release, line);)
+        if (line.rfind("PRETTY_NAME=", 0) == 0)
+            system = line.substr(12);
+    system.erase(std::remove(system.begin(), system.end(), '"'), system.end());
+    utsname name{};
+    ::uname(&name);
+    return (system.empty() ? std::string(name.sysname) : system) + ", " + name.machine;
+}
+
+std::string joined(const std::vector<std::string>& words, const char* between)
+{
+    std::string text;
+    for (const std::string& word : words)
+        text += (text.empty() ? "" : between) + word;
+    return text;
+}
+
+Result<std::vector<const Row*>> chosenRows(const std::vector<std::string>& names)
+{
+    for (const std::string& name : names)
+        if (!rowFromName(name)) {
+            std::vector<std::string> known;
+            for (const Row& row : rows())
+                known.emplace_back(row.name);
+            return usageError("options.frames: expected one of " + joined(known, ", ") + "; found '" + name + "'");
+        }
+    std::vector<const Row*> chosen;
+    for (const Row& row : rows()) {
+        const bool named = std::find(names.begin(), names.end(), row.name) != names.end();
+        // What the others are compared with is always there.
+        if (names.empty() || named || row.name == "floor" || row.name == "mikktspace")
+            chosen.push_back(&row);
+    }
+    return chosen;
+}
+
+// Machine code and times. Errors: why Vulkan cannot be used at all, or that it was stopped; the rest is kept.
+Status measure(const PriceOptions& o, CostReport& report)
+{
+    Status usable = Done{};
+    const std::vector<std::string> families = !o.families.empty() ? o.families
+        : o.devices.empty() && o.name.empty()                     ? usualFamilies()
+                                                                  : std::vector<std::string>();
+    CountedSteps steps(o.progress, families.size() + 2); // devices, families, times
+    if (o.families.empty() || !o.devices.empty()) {
+        auto code = machineCodeOfDevices(report.rows, o.devices);
+        if (code)
+            report.code = std::move(*code);
+        else
+            usable = code.error();
+        if (code && report.code.empty() && !o.devices.empty())
+            return unavailableError("no Vulkan device has '" + joined(o.devices, "' or '") + "' in its name");
+    }
+    if (!o.name.empty() && report.code.size() > 1)
+        return usageError("options.name: names one device; found " + std::to_string(report.code.size())
+                          + ": say which by options.devices");
+    if (!o.name.empty() && !report.code.empty())
+        report.code.front().family = o.name;
+    if (!steps.step())
+        return stoppedError();
+    for (const std::string& family : families) {
+        report.code.push_back(machineCodeOfFamily(report.rows, family));
+        if (!steps.step())
+            return stoppedError();
+    }
+    if (!o.timing) {
+        report.timingSilence = "--no-timing was given";
+        return usable;
+    }
+    if (!o.families.empty() && o.devices.empty())
+        return usable; // only cards that are not here were asked for
+    auto timing = timeRows(report.rows, {o.devices, o.timeCpuDevices, o.repeats, usualCases()});
+    if (timing)
+        report.timing = std::move(*timing);
+    else
+        report.timingSilence = timing.error().message;
+    return usable;
+}
+
+} // namespace
+
+Result<CostReport> price(const PriceOptions& options)
+{
+    auto rows = chosenRows(options.frames);
+    if (!rows)
+        return rows.error();
+    CostReport report;
+    report.machine = machineText();
+    report.rows = std::move(*rows);
+    Status measured = Done{};
+    if (options.cards.empty()) {
+        measured = measure(options, report);
+    } else {
+        auto cards = cardsFromCsv(options.cards);
+        if (!cards)
+            return inputError("options.cards: " + cards.error().message);
+        report.code = std::move(*cards);
+        report.cardsRead = true;
+        report.timingSilence = "the figures of these cards were read from a file";
+    }
+    if (!measured && measured.error().kind != ErrorKind::unavailable)
+        return measured.error();
+    if (std::ranges::none_of(report.code, [](const DeviceCode& d) { return d.silence.empty(); }))
+        report.codeSilence = measured
+            ? "no driver that was asked reports machine code; operations and SPIR-V were counted. "
+              "Mesa's Radeon driver reports without a card (Debian: mesa-vulkan-drivers)"
+            : measured.error().message + "; operations and SPIR-V were counted";
+    return report;
+}
+
+} // namespace cotan::cost

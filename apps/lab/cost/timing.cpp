@@ -1,0 +1,279 @@
+#include "cost/timing.hpp"
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cmath>
+#include <map>
+
+#include "timing_scene.hpp"
+
+namespace cotan::cost {
+
+namespace {
+
+constexpr std::uint32_t kMapSize = 64;
+
+struct Uniforms { // vertex.vert's Draw
+    float projection[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
+    float model[12] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0};
+    float covectors[12] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0};
+};
+
+class Timer {
+public:
+    explicit Timer(Device& device) : device_(device)
+    {
+        queue_ = device.device.getQueue(device.queueFamily, 0);
+        pool_ = vk::raii::CommandPool(device.device,
+                                      {vk::CommandPoolCreateFlagBits::eResetCommandBuffer, device.queueFamily});
+        commands_ =
+            std::move(vk::raii::CommandBuffers(device.device, {*pool_, vk::CommandBufferLevel::ePrimary, 1})[0]);
+        fence_ = vk::raii::Fence(device.device, vk::FenceCreateInfo());
+        queries_ = vk::raii::QueryPool(device.device, {{}, vk::QueryType::eTimestamp, 2});
+        layout_ = makeLayout(device);
+        using U = vk::ImageUsageFlagBits;
+        map_ = makePicture(device, vk::Format::eR8G8B8A8Unorm, kMapSize, U::eSampled | U::eTransferDst);
+        sampler_ =
+            vk::raii::Sampler(device.device, vk::SamplerCreateInfo({}, vk::Filter::eLinear, vk::Filter::eLinear));
+        const Uniforms uniforms;
+        uniforms_ = makeBuffer(device, vk::BufferUsageFlagBits::eUniformBuffer, &uniforms, sizeof uniforms);
+        makeSet();
+        prepareImages();
+    }
+
+    // What draw() draws from here on. Throws where the device has no such target.
+    void use(const TimingCase& what, const std::vector<const Row*>& rows, const Grid& grid)
+    {
+        if (!(device_.physical.getProperties().limits.framebufferColorSampleCounts
+              & vk::SampleCountFlagBits(what.samples)))
+            throw std::runtime_error("the device has no targets of so many samples a pixel");
+        what_ = what;
+        target_ = {};
+        target_ = makePicture(device_, kColorFormat, std::uint32_t(what.side), vk::ImageUsageFlagBits::eColorAttachment,
+                              what.samples);
+        commands_.begin({vk::CommandBufferUsageFlagBits::eOneTimeSubmit});
+        transition(commands_, *target_.image, vk::ImageLayout::eUndefined, vk::ImageLayout::eColorAttachmentOptimal);
+        submit();
+        std::vector<vk::raii::Pipeline>& pipelines = pipelines_[what.samples];
+        for (std::size_t i = pipelines.size(); i < rows.size(); ++i)
+            pipelines.push_back(makePipeline(device_, layout_, rows[i]->stored, vertexStage(rows[i]->stored).vertex,
+                                             rows[i]->fragment, false, what.samples));
+        const vk::DescriptorImageInfo image(*sampler_, *map_.view, vk::ImageLayout::eShaderReadOnlyOptimal);
+        using T = vk::DescriptorType;
+        const std::array buffers{vk::DescriptorBufferInfo(*uniforms_.buffer, 0, VK_WHOLE_SIZE),
+                                 vk::DescriptorBufferInfo(*grid.positions.buffer, 0, VK_WHOLE_SIZE),
+                                 vk::DescriptorBufferInfo(*grid.texcoords.buffer, 0, VK_WHOLE_SIZE),
+                                 vk::DescriptorBufferInfo(*grid.corners.buffer, 0, VK_WHOLE_SIZE),
+                                 vk::DescriptorBufferInfo(*grid.normals.buffer, 0, VK_WHOLE_SIZE),
+                                 vk::DescriptorBufferInfo(*grid.triangles.buffer, 0, VK_WHOLE_SIZE)};
+        const std::array writes{vk::WriteDescriptorSet(set_, 0, 0, 1, T::eUniformBuffer, nullptr, &buffers[0]),
+                                vk::WriteDescriptorSet(set_, 1, 0, 1, T::eCombinedImageSampler, &image),
+                                vk::WriteDescriptorSet(set_, 2, 0, 5, T::eStorageBuffer, nullptr, &buffers[1])};
+        device_.device.updateDescriptorSets(writes, nullptr);
+    }
+
+    // Nanoseconds of one draw.
+    double draw(std::size_t pipeline, Stored stored, const Grid& grid)
+    {
+        commands_.begin({vk::CommandBufferUsageFlagBits::eOneTimeSubmit});
+        commands_.resetQueryPool(*queries_, 0, 2);
+        vk::RenderingAttachmentInfo color(*target_.view, vk::ImageLayout::eColorAttachmentOptimal);
+        color.loadOp = vk::AttachmentLoadOp::eDontCare;
+        color.storeOp = vk::AttachmentStoreOp::eStore;
+        const auto side = std::uint32_t(what_.side);
+        const vk::Rect2D area({0, 0}, {side, side});
+        commands_.writeTimestamp2(vk::PipelineStageFlagBits2::eAllCommands, *queries_, 0);
+        commands_.beginRendering(vk::RenderingInfo({}, area, 1, 0, color));
+        commands_.bindPipeline(vk::PipelineBindPoint::eGraphics, *pipelines_[what_.samples][pipeline]);
+        commands_.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, *layout_.pipeline, 0, set_, nullptr);
+        commands_.setViewport(0, vk::Viewport(0, 0, float(side), float(side), 0, 1));
+        commands_.setScissor(0, area);
+        commands_.bindVertexBuffers(0, *grid.vertices[std::size_t(stored)].buffer, vk::DeviceSize(0));
+        const Buffer& indices = provokes(stored) ? grid.provokingIndices : grid.indices;
+        commands_.bindIndexBuffer(*indices.buffer, 0, vk::IndexType::eUint32);
+        commands_.drawIndexed(grid.indexCount, std::uint32_t(what_.layers), 0, 0, 0);
+        commands_.endRendering();
+        commands_.writeTimestamp2(vk::PipelineStageFlagBits2::eAllCommands, *queries_, 1);
+        submit();
+        [[maybe_unused]] const auto [result, ticks] = queries_.getResults<std::uint64_t>(
+            0, 2, 16, 8, vk::QueryResultFlagBits::e64 | vk::QueryResultFlagBits::eWait);
+        return double(ticks[1] - ticks[0]) * device_.nanoseconds;
+    }
+
+private:
+    void makeSet()
+    {
+        using T = vk::DescriptorType;
+        const std::array sizes{vk::DescriptorPoolSize(T::eUniformBuffer, 1),
+                               vk::DescriptorPoolSize(T::eCombinedImageSampler, 1),
+                               vk::DescriptorPoolSize(T::eStorageBuffer, kBuffers)};
+        descriptors_ = vk::raii::DescriptorPool(device_.device, vk::DescriptorPoolCreateInfo({}, 1, sizes));
+        // The plain handle: the pool gives it back.
+        const vk::DescriptorSetAllocateInfo info(*descriptors_, *layout_.set);
+        set_ = (*device_.device).allocateDescriptorSets(info, *device_.device.getDispatcher())[0];
+    }
+
+    void prepareImages()
+    {
+        std::vector<std::uint8_t> texels;
+        for (std::uint32_t i = 0; i < kMapSize * kMapSize; ++i) {
+            const double a = 0.4 * double(i % kMapSize), b = 0.3 * double(i / kMapSize);
+            for (const double c : {0.3 * std::sin(a), 0.3 * std::sin(b), 0.9, 1.0})
+                texels.push_back(static_cast<std::uint8_t>(std::lround((c * 0.5 + 0.5) * 255)));
+        }
+        const Buffer staging = makeBuffer(device_, vk::BufferUsageFlagBits::eTransferSrc, texels.data(), texels.size());
+        using L = vk::ImageLayout;
+        commands_.begin({vk::CommandBufferUsageFlagBits::eOneTimeSubmit});
+        transition(commands_, *map_.image, L::eUndefined, L::eTransferDstOptimal);
+        const vk::BufferImageCopy copy(0, 0, 0, {vk::ImageAspectFlagBits::eColor, 0, 0, 1}, {},
+                                       {kMapSize, kMapSize, 1});
+        commands_.copyBufferToImage(*staging.buffer, *map_.image, L::eTransferDstOptimal, copy);
+        transition(commands_, *map_.image, L::eTransferDstOptimal, L::eShaderReadOnlyOptimal);
+        submit();
+    }
+
+    void submit()
+    {
+        commands_.end();
+        queue_.submit(vk::SubmitInfo({}, {}, *commands_), *fence_);
+        if (device_.device.waitForFences(*fence_, VK_TRUE, UINT64_MAX) != vk::Result::eSuccess)
+            throw std::runtime_error("the device did not finish drawing");
+        device_.device.resetFences(*fence_);
+    }
+
+    Device& device_;
+    vk::raii::Queue queue_{nullptr};
+    vk::raii::CommandPool pool_{nullptr};
+    vk::raii::CommandBuffer commands_{nullptr};
+    vk::raii::Fence fence_{nullptr};
+    vk::raii::QueryPool queries_{nullptr};
+    Layout layout_;
+    Picture target_, map_;
+    vk::raii::Sampler sampler_{nullptr};
+    Buffer uniforms_;
+    vk::raii::DescriptorPool descriptors_{nullptr};
+    vk::DescriptorSet set_;
+    TimingCase what_;
+    std::map<int, std::vector<vk::raii::Pipeline>> pipelines_; // by samples a pixel
+};
+
+double median(std::vector<double> values)
+{
+    const auto middle = values.begin() + std::ptrdiff_t(values.size() / 2);
+    std::nth_element(values.begin(), middle, values.end());
+    return *middle;
+}
+
+constexpr char kLate[] = "no time was left";
+
+double secondsSince(std::chrono::steady_clock::time_point start)
+{
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+// Throws where all repetitions would take longer than these seconds, going by the first, which warms up.
+void timeCase(Timer& timer, const std::vector<const Row*>& rows, const TimingCase& what, const Grid& grid, int repeats,
+              double seconds, DeviceTiming& result)
+{
+    timer.use(what, rows, grid);
+    const auto start = std::chrono::steady_clock::now();
+    std::vector<std::vector<double>> times(rows.size());
+    const double pixels = double(what.side) * what.side * what.layers;
+    for (int repeat = -1; repeat < repeats; ++repeat) {
+        for (std::size_t i = 0; i < rows.size(); ++i) {
+            const double t = timer.draw(i, rows[i]->stored, grid);
+            if (repeat >= 0)
+                times[i].push_back(t / pixels * 1e6);
+        }
+        if (repeat < 0 && secondsSince(start) * (repeats + 1) > seconds)
+            throw std::runtime_error(kLate);
+    }
+    result.cases.push_back(what);
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+        result.rows[i].nanosecondsPerMillionPixels.push_back(median(times[i]));
+        result.rows[i].repeats.push_back(std::move(times[i]));
+        result.rows[i].vertices.push_back(provokes(rows[i]->stored) ? grid.provokingVertexCount : grid.vertexCount);
+    }
+}
+
+void timeAll(Device& device, const std::vector<const Row*>& rows, const TimingOptions& options, DeviceTiming& result)
+{
+    const auto start = std::chrono::steady_clock::now();
+    open(device);
+    Timer timer(device);
+    for (const Row* row : rows)
+        result.rows.push_back({row->name, {}, {}, {}});
+    std::pair<int, int> made;
+    Grid grid;
+    for (const TimingCase& what : options.cases) {
+        try {
+            if (secondsSince(start) > options.seconds)
+                throw std::runtime_error(kLate);
+            if (std::pair(what.leg, what.side) != made) {
+                grid = {};
+                made = {};
+                grid = makeGrid(device, what.leg, what.side);
+                made = {what.leg, what.side};
+            }
+            timeCase(timer, rows, what, grid, options.repeats, options.seconds - secondsSince(start), result);
+        } catch (const vk::DeviceLostError&) {
+            throw;
+        } catch (const std::exception& e) {
+            result.skipped.push_back({what, reason(e)});
+        }
+    }
+    if (result.cases.empty() && !result.skipped.empty())
+        throw std::runtime_error(result.skipped.front().why);
+}
+
+} // namespace
+
+const std::vector<int>& triangleLegs()
+{
+    static const std::vector<int> legs = {4, 16, 64, 256};
+    return legs;
+}
+
+std::vector<TimingCase> usualCases()
+{
+    std::vector<TimingCase> cases;
+    for (const int leg : triangleLegs())
+        cases.push_back({leg});
+    return cases;
+}
+
+Result<std::vector<DeviceTiming>> timeRows(const std::vector<const Row*>& rows, const TimingOptions& options)
+{
+    try {
+        const Instance instance = openInstance();
+        std::vector<DeviceTiming> result;
+        for (Device& device : listDevices(instance)) {
+            if (!wanted(device.name, options.devices) || result.size() >= options.most)
+                continue;
+            DeviceTiming timing;
+            timing.name = device.name;
+            timing.driver = device.driver;
+            timing.cpu = device.cpu;
+            if (!device.missing.empty())
+                timing.silence = device.missing;
+            else if (device.nanoseconds <= 0)
+                timing.silence = "the device has no timestamps";
+            else if (device.cpu && !options.cpuDevices)
+                timing.silence = "draws on the processor; --time-cpu-devices times it too";
+            else
+                try {
+                    timeAll(device, rows, options, timing);
+                } catch (const std::exception& e) {
+                    timing.rows.clear();
+                    timing.silence = reason(e);
+                }
+            result.push_back(std::move(timing));
+        }
+        return result;
+    } catch (const std::exception& e) {
+        return unavailableError("Vulkan cannot be used: " + reason(e));
+    }
+}
+
+} // namespace cotan::cost

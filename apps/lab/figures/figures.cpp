@@ -1,0 +1,171 @@
+#include "figures/figures.hpp"
+
+#include <algorithm>
+#include <fstream>
+#include <iterator>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "cotan/image.hpp"
+#include "figure.hpp"
+#include "files/output.hpp"
+#include "files/report/page.hpp"
+#include "stage.hpp"
+#include "studio.hpp"
+
+namespace cotan::figures {
+
+namespace {
+
+struct FigureInfo {
+    std::string_view name; // as FiguresOptions::only has it, and the first word of its files
+    Figure (*make)(Studio& studio);
+};
+
+constexpr FigureInfo kFigures[] = {
+    {"2.6.3", makeTeapotFigure},
+    {"2.6.4", makePatchFigure},
+    {"2.6.5", makePlaneFigure},
+    {"tutorial", makeTutorialFigure},
+    {"normal-matrices", makeNormalMatrixFigure},
+    {"mirrored", makeMirroredFigure},
+    {"targets", makeTargetsFigure},
+    {"decode", makeDecodeFigure},
+    {"faceting", makeFacetingFigure},
+    {"furnace", makeFurnaceFigure},
+    {"sparkle", makeSparkleFigure},
+};
+
+// The figures of these names, in the order of the table; all if there are none.
+Result<std::vector<FigureInfo>> chosen(const std::vector<std::string>& only)
+{
+    std::vector<FigureInfo> figures;
+    for (const std::string& word : only)
+        if (std::ranges::find(kFigures, word, &FigureInfo::name) == std::end(kFigures))
+            return usageError(
+                fmt::format("options.only: expected names from {}; found '{}'", fmt::join(figureNames(), ", "), word));
+    for (const FigureInfo& info : kFigures)
+        if (only.empty() || std::ranges::find(only, info.name) != only.end())
+            figures.push_back(info);
+    return figures;
+}
+
+std::string readBytes(const std::filesystem::path& file)
+{
+    std::ifstream stream(file, std::ios::binary);
+    return std::string(std::istreambuf_iterator<char>(stream), {});
+}
+
+PageTable tableOf(const Figure& figure)
+{
+    PageTable table{figure.measured, {"degrees", "mean", "95 %", "largest"}, {}};
+    for (const Measure& m : figure.measures)
+        table.rows.push_back({m.name, fmt::format("{:.2f}", m.degrees.mean),
+                              fmt::format("{:.2f}", m.degrees.percentile95), fmt::format("{:.1f}", m.degrees.maximum)});
+    return table;
+}
+
+Json reportOf(std::string_view name, const Figure& figure)
+{
+    Json json = {{"name", name}, {"title", figure.title}};
+    json["pictures"] = Json::array();
+    for (const Panel& panel : figure.panels)
+        json["pictures"].push_back(fmt::format("{}-{}.png", name, panel.file));
+    json["measured"] = figure.measured;
+    json["angles"] = Json::object();
+    for (const Measure& m : figure.measures)
+        json["angles"][m.name] = toJson(m.degrees);
+    for (const Number& n : figure.numbers)
+        json["numbers"][n.name] = n.value;
+    return json;
+}
+
+// Writes a figure's pictures and describes it for the page.
+Result<PageFigure> written(const std::filesystem::path& folder, const FiguresOptions& o, std::string_view name,
+                           const Figure& figure)
+{
+    PageFigure page;
+    page.name = name;
+    page.title = figure.title;
+    page.text = figure.text;
+    page.command = fmt::format("cotan figures --only {} -o figures{}", name, o.command);
+    page.sliders = figure.sliders;
+    if (!figure.measures.empty())
+        page.tables.push_back(tableOf(figure));
+    for (const Panel& panel : figure.panels) {
+        const std::string file = fmt::format("{}-{}.png", name, panel.file);
+        if (Status done = writeImage(folder / file, panel.image); !done)
+            return done.error();
+        page.panels.push_back(
+            {file, panel.label, panel.caption, readBytes(folder / file), panel.image.width, panel.image.height});
+    }
+    return page;
+}
+
+Page emptyPage(const std::string& device)
+{
+    Page page;
+    page.title = "Normal mapping without precomputed tangents: the figures";
+    page.text = {
+        "Figures 2.6.3 to 2.6.5 of C. Schueler's chapter of 2006 and others that its follow-up of 2013 and common "
+        "tutorials ask for, drawn anew and measured: every picture has beside it, in degrees, how far its normals are "
+        "from "
+        "what is right. Drag a slider to compare."};
+    page.footer = fmt::format("Drawn on {}.", device);
+    return page;
+}
+
+// Two panels of each figure, on one sheet.
+Image overviewOf(const std::vector<Figure>& figures, const FiguresOptions& o)
+{
+    std::vector<const Image*> panels;
+    for (const Figure& figure : figures)
+        for (const std::size_t panel : {figure.overview.first, figure.overview.second})
+            panels.push_back(&figure.panels[panel].image);
+    const int columns = panels.size() > 8 ? 6 : std::min(4, int(panels.size()));
+    return contactSheet(panels, columns, std::min(o.width, 240), std::min(o.height, 180));
+}
+
+} // namespace
+
+std::vector<std::string_view> figureNames()
+{
+    std::vector<std::string_view> names;
+    for (const FigureInfo& info : kFigures)
+        names.push_back(info.name);
+    return names;
+}
+
+Result<Json> drawFigures(Painter& painter, const std::filesystem::path& folder, const FiguresOptions& o)
+{
+    const auto figures = chosen(o.only);
+    if (!figures)
+        return figures.error();
+    Studio studio(painter, o.threads, o.width, o.height);
+    Page page = emptyPage(painter.device());
+    Json report = Json::array();
+    std::vector<Figure> made;
+    CountedSteps steps(o.progress, figures->size());
+    for (const FigureInfo& info : *figures) {
+        made.push_back(info.make(studio));
+        if (studio.error())
+            return *studio.error();
+        auto onPage = written(folder, o, info.name, made.back());
+        if (!onPage)
+            return onPage.error();
+        page.figures.push_back(std::move(*onPage));
+        report.push_back(reportOf(info.name, made.back()));
+        if (!steps.step())
+            return stoppedError();
+        if (o.made)
+            o.made(info.name, made.back().title);
+    }
+    if (Status done = writeImage(folder / "overview.png", overviewOf(made, o)); !done)
+        return done.error();
+    if (Status done = writeFileWhole(folder / "index.html", toHtml(page)); !done)
+        return done.error();
+    return report;
+}
+
+} // namespace cotan::figures

@@ -1,0 +1,12 @@
+// The commands of cotan-lab. Their options are those that the tool declares.
+#pragma once
+
+#include "lab_options.hpp"
+
+namespace cotan::app {
+
+Status runAccuracy(const AccuracyCommandOptions& options);
+Status runFigures(const FiguresCommandOptions& options);
+Status runCost(const CostCommandOptions& options);
+
+} // namespace cotan::app

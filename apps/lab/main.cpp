@@ -1,0 +1,22 @@
+// cotan-lab: what `cotan accuracy`, `figures` and `cost` do. The tool starts it with its own words, so it calls itself
+// cotan.
+#include "common.hpp"
+#include "lab.hpp"
+#include "program.hpp"
+
+namespace {
+
+int runCommandLine(std::vector<std::string> words)
+{
+    using namespace cotan::app;
+    cotan::Arguments tool("cotan", "Normal mapping without precomputed tangents: accuracy, figures, costs.",
+                          "cotan " COTAN_VERSION);
+    addCostCommand(tool, runCost);
+    addAccuracyCommand(tool, runAccuracy);
+    addFiguresCommand(tool, runFigures);
+    return finish(tool.run(std::move(words), print));
+}
+
+} // namespace
+
+int main(int argc, char** argv) { return cotan::app::runProgram(argc, argv, runCommandLine); }

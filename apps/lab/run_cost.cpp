@@ -1,0 +1,80 @@
+#include "lab.hpp"
+
+#include <filesystem>
+#include <optional>
+
+#include "cost/cards.hpp"
+#include "cost/rows.hpp"
+#include "files/bytes.hpp"
+#include "files/output.hpp"
+#include "loading.hpp"
+#include "report/cost_tables.hpp"
+
+namespace cotan::app {
+
+namespace {
+
+constexpr std::size_t kMaxCardBytes = 64 << 20;
+
+} // namespace
+
+Status runCost(const CostCommandOptions& o)
+{
+    std::filesystem::path chart = o.output;
+    if (!o.output.empty())
+        chart.replace_extension(".svg");
+    if (Status planned = beginOutputs(
+            o,
+            {{"-o", o.output}, {"-o, the chart", chart.string()}, {"--csv", o.csv}, {"--write-cards", o.writeCards}});
+        !planned)
+        return planned;
+    std::string cards;
+    if (!o.cards.empty()) {
+        const auto bytes = readFileBytes(o.cards, kMaxCardBytes);
+        if (!bytes)
+            return bytes.error();
+        cards.assign(reinterpret_cast<const char*>(bytes->data()), bytes->size());
+    }
+    const auto report = withProgress(o, 1, "pricing", [&](Progress progress) {
+        return cost::price({.frames = o.frames,
+                            .devices = o.devices,
+                            .families = o.families,
+                            .cards = std::move(cards),
+                            .name = o.name,
+                            .timing = !o.noTiming,
+                            .timeCpuDevices = o.timeCpuDevices,
+                            .repeats = o.repeats,
+                            .progress = std::move(progress)});
+    });
+    if (!report)
+        return inWords(report.error());
+    // Tables without machine code do not take the place of older ones that may have it.
+    if (!report->codeSilence.empty())
+        for (const std::filesystem::path& file : {std::filesystem::path(o.output), std::filesystem::path(o.csv),
+                                                  std::filesystem::path(o.json), std::filesystem::path(o.writeCards)})
+            if (std::filesystem::is_regular_file(file))
+                return unavailableError(
+                    fmt::format("{}; {} is there and stays as it is", report->codeSilence, file.string()));
+    const auto picture = o.output.empty() ? std::nullopt : costChart(*report);
+    const std::string tables = toMarkdown(*report, picture ? chart.filename().string() : "");
+    if (picture)
+        if (Status written = writeFileWhole(chart, *picture); !written)
+            return written;
+    if (!o.output.empty()) {
+        if (Status written = writeTables(o.output, tables); !written)
+            return written;
+    } else if (o.json != "-") {
+        print(tables);
+    }
+    if (!o.csv.empty())
+        if (Status written = writeFileWhole(o.csv, toCsv(*report)); !written)
+            return written;
+    if (!o.writeCards.empty())
+        if (Status written = writeFileWhole(o.writeCards, cost::cardsToCsv(report->code)); !written)
+            return written;
+    if (Status written = writeReport(o, toJson(*report)); !written)
+        return written;
+    return report->codeSilence.empty() ? Status(Done{}) : unavailableError(report->codeSilence);
+}
+
+} // namespace cotan::app

@@ -1,0 +1,68 @@
+#include <algorithm>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "figures/figures.hpp"
+#include "lab.hpp"
+#include "loading.hpp"
+#include "parse.hpp"
+
+namespace cotan::app {
+
+namespace {
+
+// What the page adds to the command line of a figure.
+std::string commandOf(const FiguresCommandOptions& o)
+{
+    std::string command;
+    if (o.size != kFigureSize)
+        command += " --size " + o.size;
+    if (o.device != "auto")
+        command += " --device \"" + o.device + "\"";
+    return command;
+}
+
+} // namespace
+
+Status runFigures(const FiguresCommandOptions& o)
+{
+    if (o.output.empty())
+        return usageError("figures needs -o FOLDER");
+    const auto size = parseSize(o.size);
+    if (!size)
+        return size.error();
+    const auto only = splitAtCommas(o.only);
+    const auto names = figures::figureNames();
+    for (const std::string& word : only)
+        if (std::ranges::find(names, word) == names.end())
+            return notOneOf("--only", names, word);
+    if (Status planned = beginOutputs(o, plannedIn("-o", o.output, {"index.html", "overview.png"})); !planned)
+        return planned;
+    const auto painter = openDevice(o.device, o);
+    if (!painter)
+        return painter.error();
+    if (Status made = makeFolder(o.output); !made)
+        return made;
+    const auto figures = withProgress(o, 1, "drawing figures", [&](Progress progress) {
+        return figures::drawFigures(
+            **painter, o.output,
+            {.only = only,
+             .width = size->first,
+             .height = size->second,
+             .threads = o.threads,
+             .command = commandOf(o),
+             .made = [&](std::string_view name, const std::string& title) { say(o, "{}: {}", name, title); },
+             .progress = std::move(progress)});
+    });
+    if (!figures)
+        return inWords(figures.error());
+    say(o, "page: {}", (o.output / "index.html").string());
+    return writeReport(o,
+                       {{"command", "figures"},
+                        {"device", (*painter)->device()},
+                        {"size", {size->first, size->second}},
+                        {"figures", *figures}});
+}
+
+} // namespace cotan::app

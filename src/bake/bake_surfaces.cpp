@@ -1,0 +1,286 @@
+#include "bake/bake_surfaces.hpp"
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cmath>
+#include <mutex>
+#include <span>
+
+#include <fmt/format.h>
+
+#include <glm/geometric.hpp>
+
+#include "bake/surface/uv_raster.hpp"
+#include "baker.hpp"
+#include "core/loops.hpp"
+#include "repeated.hpp"
+
+namespace cotan {
+
+namespace {
+
+constexpr double kMostRows = 4e7; // of texels under all triangles, and two a texel
+
+using StateCounts = std::array<std::size_t, 256>; // how many texels are in each combination of TexelState
+
+struct Counts {
+    std::size_t rays = 0;
+    StateCounts states{};
+};
+
+// Bakes the texels of blocks of rows. One for each thread: keeps its memory.
+class BlockBaker {
+public:
+    BlockBaker(const LowSurface& low, const Baker& baker, const UvRaster& raster, const BakeOptions& options,
+               Baked& out)
+        : low_(low), baker_(baker), raster_(raster), options_(options), out_(out)
+    {
+    }
+
+    // Bakes rows from `first` to before `last`, whose samples are a block of the raster, and counts its texels and
+    // rays.
+    void bake(int block, int first, int last, Counts& counts)
+    {
+        raster_.firsts(block, samples_);
+        base_ = std::size_t(first) * std::size_t(out_.width);
+        const std::size_t texels = std::size_t(last - first) * std::size_t(out_.width);
+        sums_.assign(texels, glm::vec3(0));
+        found_.assign(texels, 0);
+        packet_ = 0;
+        suspicious_ = false;
+        for (std::size_t i = 0; i < samples_.places.size(); i += kLanes) {
+            const std::size_t count = std::min(kLanes, samples_.places.size() - i);
+            counts.rays += bakePacket({&samples_.texels[i], count}, {&samples_.places[i], count});
+        }
+        for (const glm::ivec2& sample : samples_.again)
+            mark(texelOf(sample), texelTwice);
+        for (std::size_t i = 0; i < texels; ++i) {
+            if (found_[i] > 0)
+                out_.values[base_ + i] = finished(sums_[i], found_[i]);
+            ++counts.states[out_.states[base_ + i]];
+        }
+    }
+
+private:
+    struct Traced { // what a packet found
+        Probes probes;
+        Hits hits;
+        std::span<const glm::ivec2> samples;
+    };
+
+    // Of the texel that a sample belongs to.
+    std::size_t texelOf(glm::ivec2 sample) const
+    {
+        const glm::ivec2 texel = options_.samples > 1 ? sample / options_.samples : sample;
+        return std::size_t(texel.y) * std::size_t(out_.width) + std::size_t(texel.x);
+    }
+    void mark(std::size_t texel, int flag) { out_.states[texel] = std::uint8_t(out_.states[texel] | flag); }
+
+    // Returns how many rays were traced.
+    std::size_t bakePacket(std::span<const glm::ivec2> samples, std::span<const UvPlace> places)
+    {
+        Traced& traced = traced_[packet_ % traced_.size()];
+        Probes& probes = traced.probes;
+        Hits& hits = traced.hits;
+        traced.samples = samples;
+        pointsOf(low_, places, points_);
+        baker_.aim(points_, places, probes);
+        std::size_t rays = baker_.find(places, probes, hits);
+        rays += baker_.valuesOf(points_, probes, hits, samples, values_);
+        Lanes<int> further{};
+        rays += baker_.somethingFurther(probes, hits, further);
+        rays += askForNearer();
+        for (std::size_t i = 0; i < samples.size(); ++i) {
+            const std::size_t texel = texelOf(samples[i]);
+            int flags = places[i].covers ? texelCovered : texelTouched;
+            if (hits.found(i)) {
+                const glm::vec3 value = values_.at(i);
+                sums_[texel - base_] += value;
+                ++found_[texel - base_];
+                if (options_.kind == BakeKind::normal && value.z < 0)
+                    flags |= texelNegative;
+            } else {
+                flags |= further[i] ? texelMissed | texelFurther : texelMissed;
+            }
+            mark(texel, flags);
+        }
+        return rays;
+    }
+
+    // Marks texels on which another surface lies nearer. That costs a ray: asked are packets that found something far
+    // off; of the others every fourth, the three before one that says yes, and all after it until one says no. Returns
+    // how many rays were traced.
+    std::size_t askForNearer()
+    {
+        const std::size_t every = traced_.size(), now = packet_++;
+        if (!suspicious_ && now % every != 0 && !baker_.standsOff(traced_[now % every].hits))
+            return 0;
+        const bool before = suspicious_;
+        std::size_t rays = 0;
+        suspicious_ = markNearer(traced_[now % every], rays);
+        for (std::size_t back = 1; suspicious_ && !before && back < every && back <= now; ++back)
+            markNearer(traced_[(now - back) % every], rays);
+        return rays;
+    }
+    bool markNearer(const Traced& traced, std::size_t& rays)
+    {
+        Lanes<int> nearer{};
+        rays += baker_.somethingNearer(traced.probes, traced.hits, nearer);
+        bool any = false;
+        for (std::size_t i = 0; i < traced.samples.size(); ++i)
+            if (nearer[i]) {
+                any = true;
+                mark(texelOf(traced.samples[i]), texelNearer);
+            }
+        return any;
+    }
+
+    // From the sum over samples that found something.
+    glm::vec3 finished(glm::vec3 sum, int count) const
+    {
+        if (count == 1 && options_.kind != BakeKind::objectNormal)
+            return sum;
+        const glm::vec3 mean = sum / float(count);
+        if (!showsNormals(options_.kind))
+            return mean;
+        const float length = glm::length(mean);
+        return length > 1e-6f ? mean / length : glm::vec3(0);
+    }
+
+    const LowSurface& low_;
+    const Baker& baker_;
+    const UvRaster& raster_;
+    const BakeOptions& options_;
+    Baked& out_;
+    UvFirsts samples_;
+    std::size_t base_ = 0;            // the block's first texel
+    std::vector<glm::vec3> sums_;     // over samples
+    std::vector<std::uint8_t> found_; // how many samples of each texel found something
+    LowPoints points_;
+    std::array<Traced, 4> traced_; // the last packets
+    std::size_t packet_ = 0;       // how many of the block came before
+    bool suspicious_ = false;      // the last one that was asked has something nearer
+    Lanes3 values_;
+};
+
+// The low surface's triangles without those that have the same uv as two earlier ones: the first of them is baked, the
+// second says that a texel is claimed twice.
+std::vector<std::uint32_t> indicesToBake(const LowSurface& low)
+{
+    std::vector<std::uint32_t> indices = low.indices;
+    const auto uv = [&](std::uint32_t v) { return glm::vec3(low.texcoords[v], 0); };
+    const std::vector<std::uint8_t> repeated = repeatedTriangles(low.triangleCount(), [&](std::size_t f) {
+        const std::uint32_t* const c = &low.indices[3 * f];
+        return CornersOfTriangle{{uv(c[0]), uv(c[1]), uv(c[2])}};
+    });
+    for (std::size_t f = 0; f < repeated.size(); ++f)
+        if (repeated[f] > 1)
+            std::fill_n(indices.begin() + std::ptrdiff_t(3 * f), 3, low.indices[3 * f]); // without area: not drawn
+    return indices;
+}
+
+// Refuses triangles that lie over one another in so many rows of texels that finding each texel's first takes too long:
+// those of one layer are in few more rows than there are texels.
+Status checkRows(const UvTriangles& triangles, glm::dvec2 size)
+{
+    double rows = 0;
+    for (std::size_t i = 0; i + 2 < triangles.indices.size(); i += 3) {
+        double low = 1e30, high = -1e30;
+        for (std::size_t k = 0; k < 3; ++k) {
+            const double v = double(triangles.texcoords[triangles.indices[i + k]].y) * size.y;
+            low = std::min(low, v);
+            high = std::max(high, v);
+        }
+        if (const bool drawn = high > low; drawn)
+            rows += std::min(high - low, size.y);
+    }
+    const double most = kMostRows + 2 * size.x * size.y;
+    if (rows > most)
+        return inputError(fmt::format("low: its triangles lie over one another in {:.3g} rows of texels; expected at "
+                                      "most {:.3g}: fewer, or a smaller map",
+                                      rows, most));
+    return Done{};
+}
+
+void countTexels(const StateCounts& states, BakeStatistics& s)
+{
+    for (std::size_t state = 0; state < states.size(); ++state) {
+        const std::size_t texels = states[state];
+        s.texels += texels;
+        s.covered += (state & texelCovered) != 0 ? texels : 0;
+        s.touched += (state & texelTouched) != 0 && (state & texelCovered) == 0 ? texels : 0;
+        s.missed += (state & texelMissed) != 0 && (state & texelCovered) != 0 ? texels : 0;
+        s.further += (state & texelFurther) != 0 && (state & texelCovered) != 0 ? texels : 0;
+        s.nearer += (state & texelNearer) != 0 && (state & texelCovered) != 0 ? texels : 0;
+        s.negative += (state & texelNegative) != 0 ? texels : 0;
+        s.twice += (state & texelTwice) != 0 ? texels : 0;
+    }
+}
+
+void countTriangles(const LowSurface& low, BakeStatistics& statistics)
+{
+    for (std::size_t f = 0; f < low.triangleCount(); ++f) {
+        const double area = edgesOf(low.positions, low.texcoords, low.cornersOf(f)).uvArea2();
+        statistics.mirroredTriangles += area > 0; // v runs down: charts that are not mirrored turn the other way
+        statistics.degenerateTriangles += !(std::abs(area) > 0);
+    }
+}
+
+} // namespace
+
+Result<Baked> bake(const LowSurface& low, const HighSurface& high, const BakeOptions& given, const Progress& progress)
+{
+    BakeOptions options = given;
+    if (Status ready = measureRayStarts(low, high, options); !ready)
+        return ready.error();
+    if (!options.cage.empty() && options.cage.size() != low.positions.size())
+        return inputError(fmt::format("cage: expected {} vertices, as many as the low mesh has; found {}",
+                                      low.positions.size(), options.cage.size()));
+    if (options.frame != low.frame)
+        return usageError(fmt::format("options.frame: expected {}, which the low surface was made for; found {}",
+                                      name(low.frame), name(options.frame)));
+    if (options.starts && options.starts->directions.size() != low.positions.size())
+        return usageError("options.starts: made for another low surface");
+    const auto start = std::chrono::steady_clock::now();
+    Baked out;
+    out.width = options.width;
+    out.height = options.height;
+    out.values.assign(std::size_t(options.width) * std::size_t(options.height), glm::vec3(0));
+    out.states.assign(out.values.size(), 0);
+    const std::vector<std::uint32_t> indices = indicesToBake(low);
+    const UvTriangles triangles{low.texcoords, indices};
+    const glm::ivec2 size(options.width * options.samples, options.height * options.samples);
+    if (Status fits = checkRows(triangles, glm::dvec2(size)); !fits)
+        return fits.error();
+    const UvRaster raster(triangles, size.x, size.y, options.tile);
+    const Baker baker(low, high, options);
+    std::mutex counting;
+    CountedSteps done(progress, std::size_t(options.height)); // rows
+    withThreads(options.threads, [&] {
+        const int rows = UvRaster::kBlockRows / options.samples; // of texels in a block of samples
+        parallelRanges(0, raster.blocks(), 1, [&](int begin, int end) {
+            BlockBaker baking(low, baker, raster, options, out);
+            Counts counts;
+            for (int block = begin; block != end && !done.stopped(); ++block) {
+                const int first = block * rows, last = std::min(first + rows, options.height);
+                baking.bake(block, first, last, counts);
+                for (int y = first; y < last; ++y)
+                    done.step();
+            }
+            const std::lock_guard lock(counting);
+            out.statistics.rays += counts.rays;
+            countTexels(counts.states, out.statistics);
+        });
+    });
+    if (done.stopped())
+        return stoppedError();
+    BakeStatistics& s = out.statistics;
+    countTriangles(low, s);
+    s.rayDistance = baker.distance();
+    s.rayStart = options.starts ? options.starts->farthest : 0;
+    s.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    return out;
+}
+
+} // namespace cotan

@@ -1,0 +1,310 @@
+#include "cotan/convert.hpp"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "bake/convert/drop_tangents.hpp"
+#include "bake/convert/map_jobs.hpp"
+#include "cotan/gltf.hpp"
+#include "cotan/image.hpp"
+#include "gltf/json/lookup.hpp"
+#include "image/component_types.hpp"
+
+namespace cotan {
+
+namespace {
+
+constexpr double kSeen = 0.5;     // degrees on average over a map: below, nobody sees a difference
+constexpr double kMostRows = 4e7; // of texels under all triangles together
+
+class ModelConverter {
+public:
+    ModelConverter(const GltfDocument& document, const ConvertModelOptions& options)
+        : options_(options), document_(document)
+    {
+    }
+
+    Status run()
+    {
+        const auto named = namedFrame(document_);
+        if (!named)
+            return named.error();
+        if (*named && **named != options_.frames.from)
+            return inputError(fmt::format("{}: its materials say that the normal maps are for the frame {}; expected "
+                                          "that as the frame to convert from, found {}",
+                                          gltfPath(document_).string(), name(**named), name(options_.frames.from)));
+        named_ = named->has_value();
+        const auto jobs = mapJobs(document_, report_.notes);
+        if (!jobs)
+            return jobs.error();
+        report_.unread = unreadNormalMaps(document_);
+        for (const UnreadMap& map : report_.unread)
+            report_.notes.push_back(fmt::format(
+                "{}: a normal map in {} is not read here; it stays as it is, and so do the tangents that it "
+                "needs: {}",
+                map.name, map.format, map.advice));
+        if (Status fits = checkMemory(*jobs); !fits)
+            return fits;
+        for (const MapJob& job : *jobs)
+            surfaces_ += surfacesOf(job);
+        if (jobs->empty() && report_.unread.empty()) // else their notes say why
+            report_.notes.push_back("no primitive has a normal map and uv: nothing to convert");
+        for (std::size_t k = 0; k < jobs->size(); ++k) {
+            const Progress share = partOf(options_.progress, k, jobs->size());
+            auto map = convertMap((*jobs)[k], share);
+            if (!map)
+                return map.error();
+            if (share && !share(1))
+                return stoppedError();
+            if (options_.mapDone)
+                options_.mapDone(*map);
+            report_.maps.push_back(std::move(*map));
+        }
+        for (const MapJob& job : *jobs)
+            for (const MapPlace& place : options_.keepMaps ? std::vector<MapPlace>{} : job.places)
+                nameFrame(document_, place.material, options_.frames.to);
+        if (Status settled = settleTangents(); !settled)
+            return settled;
+        const bool changed =
+            std::any_of(report_.maps.begin(), report_.maps.end(), [](const ConvertedMap& m) { return !m.kept; });
+        if (changed && options_.frames.to != Frame::mikktspace)
+            report_.notes.push_back(
+                fmt::format("the maps are now for the frame {}; readers that make MikkTSpace tangents where TANGENT is "
+                            "missing, as glTF asks, will show them wrongly",
+                            name(options_.frames.to)));
+        return Done{};
+    }
+
+    GltfDocument& document() { return document_; }
+    ConvertModelReport& report() { return report_; }
+
+private:
+    std::string fieldOf(const MapJob& job) const
+    {
+        const std::filesystem::path& file = gltfPath(document_);
+        return file.empty() ? job.name : fmt::format("{}: {}", file.string(), job.name);
+    }
+
+    Status checkMemory(const std::vector<MapJob>& jobs) const
+    {
+        for (const MapJob& job : jobs)
+            if (const std::size_t bytes = bytesOf(job, options_.frames); options_.memory > 0 && bytes > options_.memory)
+                return inputError(fmt::format("{}: the triangles that read it take {} MiB, the limit is {} MiB",
+                                              fieldOf(job), bytes >> 20, options_.memory >> 20));
+        return Done{};
+    }
+
+    struct Expansions {
+        Expansion read, written;
+    };
+
+    // How the uses of a map read it, as the engines do that are converted for, and how it is to be written.
+    Expansions expansionsOf(const MapJob& job) const
+    {
+        const bool ofCoat =
+            std::ranges::any_of(job.places, [](const MapPlace& place) { return place.slot == NormalSlot::coat; });
+        const Expansion written = ofCoat ? Expansion::exact : options_.expansion;
+        const bool said = std::ranges::any_of(job.places, [&](const MapPlace& place) {
+            return gltf::expansionOf(rootOf(document_)["materials"][place.material]) == Expansion::biased;
+        });
+        return {said ? Expansion::biased : written, written};
+    }
+
+    // What readers of a new map must know.
+    void sayExpansion(const MapJob& job, Expansion expansion)
+    {
+        for (const MapPlace& place : job.places)
+            if (place.slot == NormalSlot::surface)
+                setExpansion(rootOf(document_)["materials"][place.material], expansion);
+    }
+
+    // Converts one image and puts it back.
+    Result<ConvertedMap> convertMap(const MapJob& job, const Progress& share)
+    {
+        const std::string field = fieldOf(job);
+        const auto bytes = gltfImageBytes(document_, job.image, options_.limits);
+        if (!bytes)
+            return bytes.error();
+        auto map = decodeImage(*bytes, field, options_.limits);
+        if (!map)
+            return map.error();
+        // The materials have been asked; an image says it where they say nothing.
+        if (const auto named = frameFromName(map->frame); named && !named_ && *named != options_.frames.from)
+            return inputError(
+                fmt::format("{}: the image says that it is for the frame {}; expected that as the frame to "
+                            "convert from, found {}",
+                            field, map->frame, name(options_.frames.from)));
+        completeNormals(*map);
+        ConvertedMap done{job.image, job.name, surfacesOf(job), map->width, map->height};
+        auto uses = usesOf(document_, job, options_.frames);
+        if (!uses)
+            return uses.error();
+        const Expansions expansions = expansionsOf(job);
+        for (MapUse& use : *uses)
+            use.stored.expansion = expansions.read;
+        done.alsoElsewhere = job.alsoElsewhere;
+        done.bytesBefore = done.bytesAfter = bytes->size();
+        done.format = pictureFormat(*bytes);
+        // Where the old map serves as well as a rounded new one, it stays, byte for byte.
+        done.figures.unconverted = errorAsItIs(*map, *uses);
+        done.kept = options_.keepMaps || done.figures.unconverted.count == 0
+            || (options_.bits == 0 && fitsAsItIs(done.figures.unconverted));
+        if (options_.keepMaps && done.figures.unconverted.mean > kSeen)
+            report_.notes.push_back(fmt::format("{}: as it is, read with {}, it is off by {:.1f} degrees on average",
+                                                job.name, name(options_.frames.to), done.figures.unconverted.mean));
+        if (done.kept)
+            return done;
+        if (const double rows = rowsOf(*uses, map->height); !(rows <= kMostRows))
+            return inputError(
+                fmt::format("{}: its triangles are in {:.3g} rows of its texels, each in its own; expected at "
+                            "most {:.3g}: fewer triangles that repeat the map, or a smaller map",
+                            field, rows, kMostRows));
+        done.bits = options_.bits != 0 ? options_.bits : map->type == PixelType::unorm8 ? 8 : 16;
+        CountedSteps rows(share, std::size_t(map->height));
+        Reencoded r = reencode(*map, *uses, options_.frames, done.bits, options_.threads, &rows, expansions.written);
+        if (rows.stopped())
+            return stoppedError();
+        r.image.frame = name(options_.frames.to);
+        auto file = encoded(r.image, *bytes);
+        if (!file)
+            return file.error();
+        const Spread unconverted = done.figures.unconverted;
+        done.figures = r;
+        if (file->format != "PNG") {
+            const auto stored = decodeImage(file->bytes, field, options_.limits);
+            if (!stored)
+                return stored.error();
+            std::vector<const MapUse*> all;
+            for (const MapUse& use : *uses)
+                all.push_back(&use);
+            const Spread lossy = mapError(*map, *stored, all, options_.frames, expansions.written);
+            if (lossy.mean <= std::max(kSeen, 0.5 * unconverted.mean)) {
+                done.figures.error = lossy;
+            } else { // else converting would be for nothing
+                auto png = encodePng(r.image);
+                if (!png)
+                    return png.error();
+                *file = {*std::move(png), "PNG", "image/png", 0,
+                         fmt::format("{} of quality {} would be off by {:.2f} degrees on average, PNG is by {:.2f}",
+                                     file->format, file->quality, lossy.mean, r.error.mean)};
+            }
+        }
+        done.bytesAfter = file->bytes.size();
+        done.format = file->format;
+        done.quality = file->quality;
+        if (!file->whyNot.empty())
+            report_.notes.push_back(fmt::format("{}: {}, so the new map is PNG: {} bytes, before {}", job.name,
+                                                file->whyNot, done.bytesAfter, done.bytesBefore));
+        replaceMap(document_, job, std::move(file->bytes), file->mime, report_.notes);
+        sayExpansion(job, expansions.written);
+        noteWhatStaysOff(done);
+        return done;
+    }
+
+    // As the old file is, or as the caller encodes.
+    Result<EncodedLike> encoded(const Image& image, std::span<const std::byte> old) const
+    {
+        // WebP that may be left out has a picture beside it for readers without; the new one has to do for all.
+        const auto* const required = gltf::member(rootOf(document_), "extensionsRequired");
+        const bool webp = pictureFormat(old) == "WebP";
+        const bool fallsBack =
+            webp && (!required || std::ranges::find(*required, "EXT_texture_webp") == required->end());
+        if (!options_.encode && !fallsBack)
+            return encodeLike(image, old);
+        auto png = options_.encode ? options_.encode(image) : encodePng(image);
+        if (!png)
+            return png.error();
+        return EncodedLike{*std::move(png), "PNG", "image/png", 0,
+                           fallsBack ? "the model does not require that its readers know WebP" : ""};
+    }
+
+    // How far the old map is off when it is read with the new frame.
+    Spread errorAsItIs(const Image& map, const std::vector<MapUse>& uses) const
+    {
+        std::vector<const MapUse*> all;
+        for (const MapUse& use : uses)
+            all.push_back(&use);
+        return mapErrors(map, map, all, {&options_.frames, 1}, {}, pointsOfEach(surfaces_)).front();
+    }
+
+    // Rows of texels under all triangles, those of a surface once.
+    static double rowsOf(const std::vector<MapUse>& uses, int height)
+    {
+        double rows = 0;
+        for (std::size_t i = 0; i < uses.size(); ++i)
+            if (i == 0 || uses[i].surface.shared != uses[i - 1].surface.shared)
+                rows += rowsUnder(uses[i].surface, height);
+        return rows;
+    }
+
+    void noteWhatStaysOff(const ConvertedMap& map)
+    {
+        const ReencodeFigures& r = map.figures;
+        const double share = double(r.disagreeing) / double(std::max<std::size_t>(r.covered, 1));
+        if (share * r.disagreement.mean > kSeen)
+            report_.notes.push_back(fmt::format(
+                "{}: on {:.0f} % of it several places share a texel and want it different, {:.1f} degrees off "
+                "on average at the worst of them: no one map fits; give such parts texels of their own",
+                map.name, 100 * share, r.disagreement.mean));
+        else if (r.error.mean > kSeen)
+            report_.notes.push_back(
+                fmt::format("{}: converted, it is still off by {:.1f} degrees on average: its texels are too large for "
+                            "how the surface changes under them",
+                            map.name, r.error.mean));
+    }
+
+    Status settleTangents()
+    {
+        if (readsTangents(options_.frames.to)) {
+            report_.tangents = TangentsAfter::given;
+            const auto given = giveTangents(
+                document_,
+                {.frame = options_.frames.to, .replace = true, .mappedOnly = true, .threads = options_.threads});
+            if (!given)
+                return given.error();
+            report_.primitivesGiven = given->generated;
+            return Done{};
+        }
+        if (options_.keepTangents) {
+            report_.tangents = TangentsAfter::kept;
+            report_.notes.push_back("TANGENT stays, and a reader that follows it will show the converted maps wrongly");
+            return Done{};
+        }
+        auto dropped = dropTangents(document_, options_.frames, report_.notes);
+        if (!dropped)
+            return dropped.error();
+        report_.dropped = std::move(*dropped);
+        return Done{};
+    }
+
+    const ConvertModelOptions& options_;
+    GltfDocument document_; // a copy, so that an error leaves the caller's as it was
+    ConvertModelReport report_;
+    std::size_t surfaces_ = 0; // of all maps
+    bool named_ = false;       // the materials say for which frame their maps are
+};
+
+} // namespace
+
+Result<ConvertModelReport> convertModel(GltfDocument& document, const ConvertModelOptions& options)
+{
+    for (const Frame frame : {options.frames.from, options.frames.to})
+        if (dependsOnView(frame))
+            return usageError(
+                fmt::format("convert: the frame {} depends on the view: no map can be made for it", name(frame)));
+    if (options.bits != 0 && options.bits != 8 && options.bits != 16)
+        return usageError(
+            fmt::format("convert: expected 8 or 16 bits, or 0 for those of the old maps; found {}", options.bits));
+    if (options.keepMaps && (options.keepTangents || readsTangents(options.frames.to)))
+        return usageError(
+            fmt::format("convert: where maps stay tangents go; expected a frame that reads none, found {}",
+                        options.keepTangents ? "keepTangents" : name(options.frames.to)));
+    ModelConverter converter(document, options);
+    if (Status done = converter.run(); !done)
+        return done.error();
+    document = std::move(converter.document());
+    return std::move(converter.report());
+}
+
+} // namespace cotan

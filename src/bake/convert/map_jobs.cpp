@@ -1,0 +1,323 @@
+#include "bake/convert/map_jobs.hpp"
+
+#include <algorithm>
+#include <map>
+#include <memory>
+#include <set>
+
+#include <fmt/format.h>
+
+#include "cotan/image.hpp"
+#include "gltf/json/lookup.hpp"
+#include "gltf/json/placed.hpp"
+
+namespace cotan {
+
+using Json = nlohmann::ordered_json;
+
+namespace {
+
+// The images that materials read in other slots than those of normal maps.
+std::set<int> imagesReadElsewhere(const Json& root)
+{
+    std::set<std::size_t> textures;
+    for (std::size_t m = 0; m < countOf(root, "materials"); ++m)
+        textures.merge(texturesBesideNormalMaps(root["materials"][m]));
+    std::set<int> images;
+    for (const std::size_t t : textures)
+        if (t < countOf(root, "textures"))
+            images.insert(textureAt(root, int(t)).image);
+    return images;
+}
+
+// Makes the image, which is a PNG now, a texture's own, and takes those that extensions name in its place.
+void dropOtherForms(Json& root, std::size_t index, std::size_t image, std::vector<std::string>& notes)
+{
+    Json& texture = root["textures"][index];
+    texture["source"] = image;
+    if (!texture.contains("extensions") || !texture["extensions"].is_object())
+        return;
+    Json kept = Json::object();
+    std::vector<std::string> dropped;
+    for (const auto& [name, value] : texture["extensions"].items())
+        if (!value.is_object() || !value.contains("source")) {
+            kept[name] = value;
+        } else {
+            dropped.push_back(name);
+            if (value["source"] != image)
+                notes.push_back(fmt::format("textures[{}]: {} taken out, its image is not converted", index, name));
+        }
+    if (kept.empty())
+        texture.erase("extensions");
+    else
+        texture["extensions"] = std::move(kept);
+    for (const std::string& name : dropped)
+        if (std::ranges::none_of(root["textures"], [&](const Json& t) { return gltf::extension(t, name); }))
+            takeOffExtension(root, name);
+}
+
+// A texture whose image is WebP, which readers without EXT_texture_webp cannot read. The document uses and requires it.
+void nameWebp(Json& root, std::size_t texture, std::size_t image)
+{
+    constexpr const char* kName = "EXT_texture_webp";
+    root["textures"][texture].erase("source");
+    root["textures"][texture]["extensions"][kName]["source"] = image;
+    for (const char* list : {"extensionsUsed", "extensionsRequired"})
+        if (std::ranges::find(root[list], kName) == root[list].end())
+            root[list].push_back(kName);
+}
+
+// The factor on the slopes; 0 of a coat that is not there.
+double strengthOf(const Json& material, const gltf::TextureUse& map, NormalSlot slot)
+{
+    const Json* const coat = gltf::extension(material, "KHR_materials_clearcoat");
+    return slot == NormalSlot::coat && coat->value("clearcoatFactor", 0.0) <= 0 ? 0 : map.scale;
+}
+
+std::string imageName(const Json& root, std::size_t image)
+{
+    const std::string name = root["images"][image].value("name", root["images"][image].value("uri", std::string()));
+    return name.empty() || name.starts_with("data:") ? fmt::format("image {}", image) : name;
+}
+
+const char* whatOf(NormalSlot slot) { return slot == NormalSlot::coat ? "its coat's normal map" : "its normal map"; }
+
+// The primitive's mesh with the uv of its own normal map as set 0 and those of a coat's, where asked for, as set 1.
+// Without triangles or the uv of the map: no mesh, and `why`.
+Result<Mesh> meshFor(const GltfDocument& document, std::size_t m, std::size_t p, MapPlace place, std::string& why)
+{
+    const NormalSlot slot = place.slot;
+    auto geometry = gltfGeometry(document, m, p, NormalSlot::surface, place.material);
+    if (!geometry)
+        return geometry.error();
+    Mesh mesh = gltfMesh(std::move(*geometry));
+    if (slot == NormalSlot::coat) {
+        auto coat = gltfGeometry(document, m, p, slot, place.material);
+        if (!coat)
+            return coat.error();
+        mesh.texcoords[1] = std::move(gltfMesh(std::move(*coat)).texcoords[0]);
+    }
+    if (mesh.indices.empty())
+        why = "no triangles";
+    else if (mesh.texcoords[slot == NormalSlot::coat ? 1 : 0].empty())
+        why = std::string("no uv for ") + whatOf(slot);
+    return mesh;
+}
+
+// The surface on which a map is read; slot: which the mesh is for (meshFor).
+MappedSurface surfaceFor(const std::shared_ptr<const Mesh>& mesh, NormalSlot slot, const FrameSet& frames)
+{
+    const glm::dmat3 asItStands(1);
+    return slot == NormalSlot::coat
+        ? makeCoatSurface(mesh, Texture{}, Texture{.image = 0, .texcoord = 1, .sampler = {}}, asItStands, frames)
+        : makeSurface(mesh, Texture{}, asItStands, frames);
+}
+
+// One primitive with one of its materials, added to the job of a normal map of that material.
+Status addUse(const GltfDocument& document, std::size_t m, std::size_t p, MapPlace place, bool foreign,
+              const std::vector<glm::dmat3>& placed, std::map<std::size_t, MapJob>& jobs,
+              std::vector<std::string>& notes)
+{
+    const Json& root = rootOf(document);
+    const gltf::TextureUse map = normalMapOf(root, place.material, place.slot);
+    if (map.texture < 0)
+        return Done{};
+    if (foreign) {
+        notes.push_back(fmt::format("{}: {} is in a format that is not read here; left as it is", primitiveField(m, p),
+                                    whatOf(place.slot)));
+        return Done{};
+    }
+    std::string why;
+    const auto mesh = meshFor(document, m, p, place, why);
+    if (!mesh)
+        return mesh.error();
+    if (!why.empty()) {
+        notes.push_back(
+            fmt::format("{}: {}; {} is not converted for it", primitiveField(m, p), why, whatOf(place.slot)));
+        return Done{};
+    }
+    const gltf::Texture texture = textureAt(root, map.texture);
+    const Sampler sampler = samplerOf(root, texture);
+    const auto image = std::size_t(texture.image);
+    MapJob& job = jobs[image];
+    job.image = image;
+    job.name = imageName(root, image);
+    if (std::ranges::find(job.places, place) == job.places.end())
+        job.places.push_back(place);
+    MapReader& reader = job.readers.emplace_back();
+    reader.mesh = m;
+    reader.primitive = p;
+    reader.place = place;
+    reader.strength = strengthOf(root["materials"][place.material], map, place.slot);
+    reader.wrapU = sampler.wrapU;
+    reader.wrapV = sampler.wrapV;
+    reader.placed = placed;
+    reader.vertices = mesh->vertexCount();
+    reader.triangles = mesh->triangleCount();
+    reader.stored = !mesh->tangents.empty();
+    return Done{};
+}
+
+} // namespace
+
+std::vector<MapPlace> foreignNormalMaps(const GltfDocument& document)
+{
+    const Json& root = rootOf(document);
+    std::map<int, bool> images = {{-1, true}};
+    std::vector<MapPlace> foreign;
+    for (std::size_t m = 0; m < countOf(root, "materials"); ++m)
+        for (const NormalSlot slot : kNormalSlots) {
+            const gltf::TextureUse map = normalMapOf(root, m, slot);
+            if (map.texture < 0)
+                continue;
+            const int image = textureAt(root, map.texture).image;
+            if (!images.contains(image)) {
+                const auto bytes = gltfImageBytes(document, std::size_t(image));
+                images[image] = bytes && !foreignFormat(*bytes).empty();
+            }
+            if (images[image])
+                foreign.push_back({m, slot});
+        }
+    return foreign;
+}
+
+namespace {
+
+// The image that stands in a texture, or that an extension names which is not read; -1 where there is none.
+int anyImage(const Json& root, int texture)
+{
+    if (const int image = textureAt(root, texture).image; image >= 0)
+        return image;
+    const Json& json = root["textures"][std::size_t(texture)];
+    if (json.contains("extensions"))
+        for (const Json& extension : json["extensions"])
+            if (extension.is_object() && extension.contains("source") && extension["source"].is_number_unsigned()
+                && extension["source"] < countOf(root, "images"))
+                return extension["source"];
+    return -1;
+}
+
+} // namespace
+
+std::vector<UnreadMap> unreadNormalMaps(const GltfDocument& document)
+{
+    const Json& root = rootOf(document);
+    std::set<int> images;
+    for (const MapPlace& place : foreignNormalMaps(document))
+        images.insert(anyImage(root, normalMapOf(root, place.material, place.slot).texture));
+    std::vector<UnreadMap> unread;
+    for (const int image : images)
+        if (image >= 0)
+            if (const auto bytes = gltfImageBytes(document, std::size_t(image))) {
+                const std::string format = foreignFormat(*bytes);
+                unread.push_back(
+                    {std::size_t(image), imageName(root, std::size_t(image)),
+                     format.empty() ? "an unknown format" : format,
+                     format.starts_with("KTX2")
+                         ? "make it PNG with \"gltf-transform ktxdecompress IN.glb OUT.glb\", convert, and "
+                           "pack it again"
+                         : "make it PNG or JPEG, and convert again"});
+            }
+    return unread;
+}
+
+Result<std::vector<MapJob>> mapJobs(const GltfDocument& document, std::vector<std::string>& notes)
+{
+    const Json& root = rootOf(document);
+    const auto placed = gltfPlacings(root);
+    const std::vector<MapPlace> foreign = foreignNormalMaps(document);
+    std::map<std::size_t, MapJob> jobs;
+    const Status status = forEachPrimitive(root, [&](std::size_t m, std::size_t p) -> Status {
+        for (const std::size_t material : materialsOf(root, root["meshes"][m]["primitives"][p])) {
+            for (const NormalSlot slot : kNormalSlots) {
+                const MapPlace place{material, slot};
+                const bool unread = std::binary_search(foreign.begin(), foreign.end(), place);
+                if (Status added = addUse(document, m, p, place, unread, placed[m], jobs, notes); !added)
+                    return added;
+            }
+        }
+        return Done{};
+    });
+    if (!status)
+        return status.error();
+    const std::set<int> elsewhere = imagesReadElsewhere(root);
+    for (std::size_t t = 0; t < countOf(root, "textures"); ++t)
+        if (const auto job = jobs.find(std::size_t(textureAt(root, int(t)).image)); job != jobs.end())
+            job->second.textures.push_back(t);
+    std::vector<MapJob> result;
+    for (auto& [image, job] : jobs) {
+        job.alsoElsewhere = elsewhere.contains(int(image));
+        result.push_back(std::move(job));
+    }
+    return result;
+}
+
+std::size_t surfacesOf(const MapJob& job)
+{
+    std::size_t count = 0;
+    for (const MapReader& reader : job.readers)
+        count += reader.placed.size();
+    return count;
+}
+
+Result<std::vector<MapUse>> usesOf(const GltfDocument& document, const MapJob& job, const FramePair& frames)
+{
+    std::vector<MapUse> uses;
+    for (const MapReader& r : job.readers) {
+        std::string why;
+        auto mesh = meshFor(document, r.mesh, r.primitive, r.place, why);
+        if (!mesh)
+            return mesh.error();
+        const MappedSurface surface =
+            surfaceFor(std::make_shared<const Mesh>(*std::move(mesh)), r.place.slot, framesRead(frames, r.stored));
+        for (const glm::dmat3& linear : r.placed)
+            uses.push_back({placedBy(surface, linear), Convention{}, r.strength, r.wrapU, r.wrapV});
+    }
+    return uses;
+}
+
+std::size_t bytesOf(const MapJob& job, const FramePair& frames)
+{
+    constexpr std::size_t kVertex = sizeof(glm::vec3) * 2 + sizeof(glm::vec2);
+    std::size_t kept = 0, most = 0;
+    for (const MapReader& r : job.readers) {
+        const SurfaceBytes bytes = surfaceBytes(r.vertices, r.triangles, framesRead(frames, r.stored));
+        kept += (kVertex + (r.stored ? sizeof(glm::vec4) : 0)) * r.vertices + 3 * sizeof(std::uint32_t) * r.triangles;
+        kept += bytes.kept;
+        most = std::max(most, bytes.making);
+    }
+    std::size_t rasters = 0; // once all surfaces are made
+    for (const MapReader& r : job.readers)
+        rasters +=
+            kRasterBytes * r.triangles + sizeof(glm::vec2) * r.vertices + 3 * sizeof(std::uint32_t) * r.triangles;
+    return kept + std::max(most, rasters);
+}
+
+void replaceMap(GltfDocument& document, const MapJob& job, std::vector<std::byte> bytes, const std::string& mime,
+                std::vector<std::string>& notes)
+{
+    const bool webp = mime == "image/webp";
+    if (!job.alsoElsewhere) {
+        replaceGltfImage(document, job.image, std::move(bytes), mime);
+        for (const std::size_t t : job.textures) {
+            dropOtherForms(rootOf(document), t, job.image, notes);
+            if (webp)
+                nameWebp(rootOf(document), t, job.image);
+        }
+        return;
+    }
+    const std::size_t image = addGltfImage(document, std::move(bytes), mime, job.name);
+    std::map<std::size_t, std::size_t> copies;
+    for (const MapPlace place : job.places) {
+        Json& index = normalSlotOf(rootOf(document), place.material, place.slot)["index"];
+        const std::size_t texture = index.get<std::size_t>();
+        if (!copies.contains(texture))
+            copies[texture] = copyGltfTexture(document, texture, image);
+        index = copies[texture];
+    }
+    for (const auto& [old, copy] : copies)
+        if (webp)
+            nameWebp(rootOf(document), copy, image);
+}
+
+} // namespace cotan

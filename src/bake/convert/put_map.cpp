@@ -1,0 +1,135 @@
+#include "cotan/convert.hpp"
+
+#include <set>
+
+#include <fmt/format.h>
+
+#include "bake/convert/drop_tangents.hpp"
+#include "cotan/gltf.hpp"
+#include "cotan/image.hpp"
+#include "files/extension.hpp"
+#include "gltf/json/lookup.hpp"
+
+namespace cotan {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+std::size_t appendTo(Json& root, const char* collection, Json item)
+{
+    root[collection].push_back(std::move(item));
+    return root[collection].size() - 1;
+}
+
+Result<std::size_t> materialNamed(const Json& root, const std::string& name)
+{
+    std::vector<std::size_t> found;
+    for (std::size_t m = 0; m < countOf(root, "materials"); ++m)
+        if (root["materials"][m].value("name", "") == name)
+            found.push_back(m);
+    if (found.size() != 1)
+        return inputError(fmt::format("document: expected one material of the name '{}' to put the map in; found {}",
+                                      name, found.size()));
+    return found.front();
+}
+
+// The materials of all primitives; those that had none get one.
+std::set<std::size_t> allMaterials(Json& root)
+{
+    std::set<std::size_t> materials;
+    std::optional<std::size_t> unnamed;
+    for (Json& mesh : root["meshes"])
+        for (Json& primitive : mesh["primitives"]) {
+            if (!primitive.contains("material")) {
+                if (!unnamed)
+                    unnamed = appendTo(root, "materials", Json{{"name", "baked"}});
+                primitive["material"] = *unnamed;
+            }
+            materials.insert(primitive["material"].get<std::size_t>());
+        }
+    return materials;
+}
+
+// Makes the materials read the image; the uv set and transform of a map that was there stay, since the bake read them.
+void putMap(GltfDocument& document, const std::set<std::size_t>& materials, std::vector<std::byte> png)
+{
+    Json& root = rootOf(document);
+    const std::size_t image = addGltfImage(document, std::move(png), "image/png", "baked normals");
+    const std::size_t texture = appendTo(root, "textures", Json{{"source", image}});
+    std::set<std::size_t> old;
+    for (const std::size_t m : materials) {
+        Json& slot = root["materials"][m]["normalTexture"];
+        if (slot.contains("index"))
+            old.insert(slot["index"].get<std::size_t>());
+        slot["index"] = texture;
+        slot.erase("scale");
+    }
+    const std::set<std::size_t> used = texturesReadBy(root["materials"]);
+    for (const std::size_t t : old) // textures cannot go, but what nobody reads need not keep its picture in the file
+        if (!used.contains(t))
+            root["textures"][t] = Json{{"source", image}};
+}
+
+// TANGENT as readers of the frame need it.
+Status settleTangents(GltfDocument& document, const PutMapOptions& options, std::vector<std::string>& notes)
+{
+    if (!readsTangents(options.frame)) {
+        const auto dropped = dropTangents(document, {.to = options.frame}, notes);
+        return dropped ? Status(Done{}) : dropped.error();
+    }
+    if (options.keepTangents)
+        return Done{};
+    const auto given = giveTangents(document, {.frame = options.frame, .replace = true, .mappedOnly = true});
+    return given ? Status(Done{}) : given.error();
+}
+
+} // namespace
+
+Status putNormalMap(GltfDocument& document, std::vector<std::byte> png, const PutMapOptions& options,
+                    std::vector<std::string>& notes)
+{
+    std::set<std::size_t> materials;
+    if (options.material) {
+        const auto chosen = materialNamed(rootOf(document), *options.material);
+        if (!chosen)
+            return chosen.error();
+        materials = {*chosen};
+    } else {
+        materials = allMaterials(rootOf(document));
+    }
+    putMap(document, materials, std::move(png));
+    for (const std::size_t material : materials) {
+        nameFrame(document, material, options.frame);
+        setExpansion(rootOf(document)["materials"][material], options.expansion);
+    }
+    if (Status settled = settleTangents(document, options, notes); !settled)
+        return settled;
+    if (options.frame != Frame::mikktspace)
+        notes.push_back(fmt::format(
+            "the map is for the frame {}; readers that make MikkTSpace tangents where TANGENT is missing, as "
+            "glTF asks, will show it wrongly",
+            name(options.frame)));
+    return Done{};
+}
+
+Result<GltfWritten> writeModelWithMap(const Scene& scene, const std::filesystem::path& model, const Image& map,
+                                      const PutMapOptions& options, const std::filesystem::path& output)
+{
+    const std::string extension = lowerExtension(model);
+    auto document = extension == ".gltf" || extension == ".glb" ? openGltfDocument(model) : gltfDocumentOf(scene);
+    if (!document)
+        return document.error();
+    auto png = encodePng(map);
+    if (!png)
+        return png.error();
+    std::vector<std::string> notes;
+    if (Status put = putNormalMap(*document, std::move(*png), options, notes); !put)
+        return put.error();
+    auto written = writeGltf(*document, output);
+    if (written)
+        written->notes.insert(written->notes.begin(), notes.begin(), notes.end());
+    return written;
+}
+
+} // namespace cotan

@@ -1,0 +1,262 @@
+#include "bake/convert/reencode.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
+
+#include "bake/convert/solve_texel.hpp"
+#include "bake/lint/texel.hpp"
+#include "bake/surface/nearest_texels.hpp"
+#include "core/loops.hpp"
+#include "place_finder.hpp"
+#include "scene/normal_format.hpp"
+#include "scene/texture_sample.hpp"
+#include "tally.hpp"
+
+namespace cotan {
+
+namespace {
+
+using convert::Place;
+using convert::PlaceFinder;
+
+// Along green: 1 where it points along +v, else -1.
+double greenOf(const MapUse& use) { return greenAlongV(use.stored) ? 1 : -1; }
+
+glm::dmat3 matrixOf(const f64::cotan_frame& f, const MapUse& use)
+{
+    return {f.t * use.strength, f.b * (use.strength * greenOf(use)), f.n};
+}
+
+struct RowCounts {
+    std::size_t covered = 0, padded = 0, several = 0, disagreeing = 0, belowHorizon = 0;
+    convert::Tally moved, disagreement;
+};
+
+class Reencoder {
+public:
+    Reencoder(const Image& map, std::span<const MapUse> uses, const FramePair& frames, int bits,
+              std::optional<Expansion> expansion)
+        : map_(map), uses_(uses), frames_(frames), finder_(uses, map.width, map.height), rows_(std::size_t(map.height)),
+          owner_(map.pixelCount(), kNoTexel)
+    {
+        Convention stored = uses.empty() ? Convention{} : uses.front().stored;
+        plain_ = toFormat<f64::cotan_normal_format>(stored, map.type);
+        expansion_ = stored.expansion = expansion.value_or(stored.expansion);
+        written_ = toFormat<f64::cotan_normal_format>(stored, 1, bits);
+        plain_.green = written_.green = 1;
+        result_.image = makeImage(map.width, map.height, bits == 16 ? PixelType::unorm16 : PixelType::unorm8, map.name);
+        nearest_.resize(std::size_t(map.height));
+    }
+
+    Reencoded run(CountedSteps* rows)
+    {
+        auto overRows = [&](const auto& work) { parallelFor(0, map_.height, work); };
+        overRows([&](int y) {
+            if (rows && rows->stopped())
+                return;
+            solveRow(y);
+            if (rows)
+                rows->step();
+        });
+        if (rows && rows->stopped())
+            return std::move(result_);
+        spreadNearest(owner_, map_.width, map_.height, AskFirst::beside);
+        markNeeded();
+        overRows([&](int y) { findPlaces(y); });
+        overRows([&](int y) { padRow(y); });
+        RowCounts all;
+        for (const RowCounts& r : rows_) { // in order: sums are the same however many threads there are
+            all.moved.add(r.moved);
+            all.disagreement.add(r.disagreement);
+            result_.covered += r.covered;
+            result_.padded += r.padded;
+            result_.several += r.several;
+            result_.disagreeing += r.disagreeing;
+            result_.belowHorizon += r.belowHorizon;
+        }
+        result_.moved = all.moved.spread();
+        result_.disagreement = all.disagreement.spread();
+        std::vector<const MapUse*> shown;
+        for (const MapUse& use : uses_)
+            shown.push_back(&use);
+        result_.unconverted = mapError(map_, map_, shown, frames_);
+        result_.error = mapError(map_, result_.image, shown, frames_, expansion_);
+        return std::move(result_);
+    }
+
+private:
+    // The stored direction, along (red, green, blue), whatever green means.
+    glm::dvec3 oldTexel(int x, int y) const { return f64::cotan_decode(storedTexel(map_, x, y), plain_); }
+
+    Demand demandAt(const Place& p, glm::dvec3 old) const
+    {
+        const MapUse& use = uses_[p.use];
+        const f64::cotan_frame from =
+            frameAt(use.surface, frames_.from, frames_.fromTangents, p.triangle, p.barycentric);
+        const f64::cotan_frame to = frameAt(use.surface, frames_.to, frames_.toTangents, p.triangle, p.barycentric);
+        const glm::dvec3 m(old.x * use.strength, old.y * use.strength * greenOf(use), old.z);
+        // `mikktspace` hands back its n, not unit, where the sum vanishes.
+        return {matrixOf(to, use), f64::cotan_normalize_or(f64::cotan_apply(from, m), to.n)};
+    }
+
+    void write(int x, int y, glm::dvec3 texel)
+    {
+        const glm::dvec3 stored = f64::cotan_encode_texel(texel, written_);
+        const std::size_t at = (std::size_t(y) * std::size_t(map_.width) + std::size_t(x)) * 4;
+        for (int k = 0; k < 3; ++k)
+            set(at + std::size_t(k), stored[k]);
+        copyAlpha(at);
+    }
+
+    void set(std::size_t component, double value)
+    {
+        if (result_.image.type == PixelType::unorm16)
+            result_.image.words()[component] = std::uint16_t(std::lround(std::clamp(value, 0.0, 1.0) * 65535));
+        else
+            result_.image.bytes8()[component] = std::uint8_t(std::lround(std::clamp(value, 0.0, 1.0) * 255));
+    }
+
+    void copyAlpha(std::size_t at)
+    {
+        const int x = int(at / 4 % std::size_t(map_.width)), y = int(at / 4 / std::size_t(map_.width));
+        set(at + 3, atTexel(map_, x, y, [](const auto* c, int most) { return double(c[3]) / most; }));
+    }
+
+    void keep(int x, int y)
+    {
+        glm::dvec3 stored = storedTexel(map_, x, y);
+        for (int k = 0; k < 3 && plain_.expansion != written_.expansion; ++k)
+            stored[k] = f64::cotan_compress(f64::cotan_expand(stored[k], plain_.expansion), written_.expansion);
+        const std::size_t at = (std::size_t(y) * std::size_t(map_.width) + std::size_t(x)) * 4;
+        for (int k = 0; k < 3; ++k)
+            set(at + std::size_t(k), stored[k]);
+        copyAlpha(at);
+    }
+
+    void solveRow(int y)
+    {
+        std::vector<std::vector<Place>> texels;
+        finder_.row(y, texels);
+        RowCounts& counts = rows_[std::size_t(y)];
+        std::vector<Demand> demands;
+        for (int x = 0; x < map_.width; ++x) {
+            const std::vector<Place>& places = texels[std::size_t(x)];
+            if (places.empty())
+                continue;
+            const glm::dvec3 old = oldTexel(x, y);
+            demands.clear();
+            for (const Place& p : places)
+                demands.push_back(demandAt(p, old));
+            const bool any =
+                std::any_of(demands.begin(), demands.end(), [](const Demand& d) { return invertible(d.frame); });
+            if (!any) {
+                keep(x, y);
+                continue; // and nothing to spread from
+            }
+            const glm::dvec3 texel = solveTexel(demands, old);
+            write(x, y, texel);
+            owner_[std::size_t(y) * std::size_t(map_.width) + std::size_t(x)] =
+                std::uint32_t(std::size_t(y) * std::size_t(map_.width) + std::size_t(x));
+            if (places.front().covers)
+                count(counts, demands, old, texel);
+            else
+                ++counts.padded;
+        }
+    }
+
+    static double worst(const std::vector<Demand>& demands, glm::dvec3 texel)
+    {
+        double degrees = 0;
+        for (const Demand& d : demands)
+            degrees = std::max(degrees, invertible(d.frame) ? degreesOff(d, texel) : 0);
+        return degrees;
+    }
+
+    static void count(RowCounts& c, const std::vector<Demand>& demands, glm::dvec3 old, glm::dvec3 texel)
+    {
+        ++c.covered;
+        c.several += demands.size() > 1;
+        c.belowHorizon += texel.z <= 0;
+        const double conflict = worst(demands, texel);
+        if (conflict > kDisagree) {
+            ++c.disagreeing;
+            c.disagreement.add(conflict);
+        }
+        c.moved.add(degreesOff({glm::dmat3(1), glm::normalize(old)}, texel));
+    }
+
+    // Which texels lend their place to others; only their places are kept.
+    void markNeeded()
+    {
+        std::vector<bool> needed(owner_.size());
+        for (std::size_t i = 0; i < owner_.size(); ++i)
+            if (owner_[i] != kNoTexel && owner_[i] != i)
+                needed[owner_[i]] = true;
+        for (std::size_t i = 0; i < needed.size(); ++i)
+            if (needed[i])
+                nearest_[i / std::size_t(map_.width)].push_back({int(i % std::size_t(map_.width)), {}});
+    }
+
+    void findPlaces(int y)
+    {
+        auto& lent = nearest_[std::size_t(y)];
+        if (lent.empty())
+            return;
+        std::vector<std::vector<Place>> texels;
+        finder_.row(y, texels);
+        for (Lent& l : lent)
+            l.place = texels[std::size_t(l.x)].front();
+    }
+
+    void padRow(int y)
+    {
+        for (int x = 0; x < map_.width; ++x) {
+            const std::size_t i = std::size_t(y) * std::size_t(map_.width) + std::size_t(x);
+            if (owner_[i] == i)
+                continue;
+            const glm::dvec3 old = oldTexel(x, y);
+            if (owner_[i] == kNoTexel || !(old.z > 0)) {
+                keep(x, y);
+                continue;
+            }
+            const auto& row = nearest_[owner_[i] / std::size_t(map_.width)];
+            const int column = int(owner_[i] % std::size_t(map_.width));
+            const auto lent =
+                std::lower_bound(row.begin(), row.end(), column, [](const Lent& l, int c) { return l.x < c; });
+            const Demand demand = demandAt(lent->place, old);
+            write(x, y, solveTexel({&demand, 1}, old));
+            ++rows_[std::size_t(y)].padded;
+        }
+    }
+
+    struct Lent {
+        int x = 0;
+        Place place;
+    };
+
+    const Image& map_;
+    std::span<const MapUse> uses_;
+    FramePair frames_;
+    f64::cotan_normal_format plain_{}, written_{}; // of the map and the result, without what differs between the uses
+    Expansion expansion_ = Expansion::exact;       // of the result
+    PlaceFinder finder_;
+    std::vector<RowCounts> rows_;
+    std::vector<std::uint32_t> owner_;
+    std::vector<std::vector<Lent>> nearest_; // per row, by column
+    Reencoded result_;
+};
+
+} // namespace
+
+Reencoded reencode(const Image& map, std::span<const MapUse> uses, const FramePair& frames, int bits, int threads,
+                   CountedSteps* rows, std::optional<Expansion> expansion)
+{
+    Reencoded result;
+    withThreads(threads, [&] { result = Reencoder(map, uses, frames, bits, expansion).run(rows); });
+    return result;
+}
+
+} // namespace cotan

@@ -1,0 +1,177 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
+
+#include "bake/lint/spread.hpp"
+#include "cotan/tangents.hpp"
+#include "cotan/vector.hpp"
+#include "lint_parts.hpp"
+
+namespace cotan::lint {
+
+namespace {
+
+// One triangle's side of an edge between welded vertices.
+struct Side {
+    std::uint32_t high = 0;   // the edge's vertex with the larger number
+    std::uint32_t corner = 0; // the edge's first corner in its triangle
+    std::size_t triangle() const { return corner / 3; }
+};
+
+// The sides of edges, listed by the edge's vertex with the smaller number.
+class SidesByVertex {
+public:
+    explicit SidesByVertex(const MappedSurface& s) : indices_(s.shared->mesh->indices)
+    {
+        const Mesh& mesh = *s.shared->mesh;
+        first_ = firstEqualVertices({mesh.positions, mesh.normals, s.shared->uv, mesh.indices});
+        if (first_.empty())
+            return;
+        begin_.assign(first_.size() + 1, 0);
+        eachSide([&](std::uint32_t low, std::uint32_t) { ++begin_[low + 1]; });
+        for (std::size_t v = 1; v < begin_.size(); ++v)
+            begin_[v] += begin_[v - 1];
+        corners_.resize(begin_.back());
+        eachSide([&](std::uint32_t low, std::uint32_t corner) { corners_[begin_[low]++] = corner; });
+        // Every vertex's beginning has become its end, which is the next one's beginning.
+    }
+
+    // Calls use(a, b) for every edge that exactly two triangles share.
+    template<class Use> void eachPair(const Use& use) const
+    {
+        std::vector<Side> sides;
+        std::uint32_t from = 0;
+        for (std::size_t low = 0; low < first_.size(); ++low) {
+            sides.clear();
+            for (std::uint32_t i = from; i < begin_[low]; ++i)
+                sides.push_back({higher(corners_[i]), corners_[i]});
+            from = begin_[low];
+            std::sort(sides.begin(), sides.end(), [](const Side& a, const Side& b) {
+                return std::array{a.high, a.corner} < std::array{b.high, b.corner};
+            });
+            for (std::size_t i = 0; i < sides.size();) {
+                std::size_t end = i + 1;
+                while (end < sides.size() && sides[end].high == sides[i].high)
+                    ++end;
+                if (end == i + 2)
+                    use(sides[i], sides[i + 1]);
+                i = end;
+            }
+        }
+    }
+
+private:
+    std::uint32_t vertexOf(std::uint32_t corner) const { return first_[indices_[corner]]; }
+    static std::uint32_t following(std::uint32_t corner) { return corner / 3 * 3 + (corner + 1) % 3; }
+    std::uint32_t higher(std::uint32_t corner) const { return std::max(vertexOf(corner), vertexOf(following(corner))); }
+
+    template<class Use> void eachSide(const Use& use) const
+    {
+        for (std::uint32_t c = 0; c < indices_.size(); ++c)
+            if (const std::uint32_t a = vertexOf(c), b = vertexOf(following(c)); a != b)
+                use(std::min(a, b), c);
+    }
+
+    const std::vector<std::uint32_t>& indices_;
+    std::vector<std::uint32_t> first_, begin_, corners_;
+};
+
+// The middle of an edge in its triangle.
+glm::dvec3 middle(const Side& side)
+{
+    glm::dvec3 weights(0);
+    weights[int(side.corner % 3)] = 0.5;
+    weights[int((side.corner + 1) % 3)] = 0.5;
+    return weights;
+}
+
+constexpr int kDirections = 8;
+
+// Texels tilted by kTestTilt.
+const std::array<glm::dvec3, kDirections>& tilted()
+{
+    static const auto texels = [] {
+        std::array<glm::dvec3, kDirections> made;
+        const double tilt = glm::radians(kTestTilt);
+        for (int k = 0; k < kDirections; ++k) {
+            const double azimuth = 2 * std::numbers::pi * k / kDirections;
+            made[std::size_t(k)] = {std::sin(tilt) * std::cos(azimuth), std::sin(tilt) * std::sin(azimuth),
+                                    std::cos(tilt)};
+        }
+        return made;
+    }();
+    return texels;
+}
+
+// The arc sine of x from 0 to 0.5, as exact as a double: a rational function instead of a call, since an edge takes
+// sixteen. Source: fdlibm, e_asin.c.
+double arcSine(double x)
+{
+    const double t = x * x;
+    const double p = t
+        * (1.66666666666666657415e-01
+           + t
+               * (-3.25565818622400915405e-01
+                  + t
+                      * (2.01212532134862925881e-01
+                         + t
+                             * (-4.00555345006794114027e-02
+                                + t * (7.91534994289814532176e-04 + t * 3.47933107596021167570e-05)))));
+    const double q = 1
+        + t
+            * (-2.40339491173441421878e+00
+               + t * (2.02094576023350569471e+00 + t * (-6.88283971605453293030e-01 + t * 7.70381505559019352791e-02)));
+    return x + x * (p / q);
+}
+
+// Degrees between two vectors, by the chord between them at length one; exact near zero, too.
+double degreesByChord(glm::dvec3 a, glm::dvec3 b)
+{
+    const double aa = glm::dot(a, a), bb = glm::dot(b, b);
+    const glm::dvec3 difference = a * (1 / std::sqrt(aa)) - b * (1 / std::sqrt(bb));
+    const double half = std::sqrt(glm::dot(difference, difference)) / 2;
+    return half <= 0.5 ? glm::degrees(2 * arcSine(half)) : degreesBetween(a, b); // also where one has no direction
+}
+
+void addSteps(const f64::cotan_frame& a, const f64::cotan_frame& b, double weight, SpreadCounter& steps)
+{
+    for (const glm::dvec3& m : tilted())
+        steps.add(degreesByChord(a.t * m.x + a.b * m.y + a.n * m.z, b.t * m.x + b.b * m.y + b.n * m.z), weight);
+}
+
+} // namespace
+
+double degreesBetween(glm::dvec3 a, glm::dvec3 b) { return glm::degrees(angleBetween(a, b)); }
+
+EdgeSteps edgeSteps(const MappedSurface& s, std::size_t mostEdges)
+{
+    EdgeSteps result;
+    if (!s.hasUv())
+        return result;
+    std::vector<std::int8_t> orientations(s.triangleCount());
+    for (std::size_t i = 0; i < orientations.size(); ++i)
+        orientations[i] = std::int8_t(orientationOf(s, i));
+    const std::size_t edges = s.triangleCount() * 3 / 2; // of a closed mesh; others have fewer pairs
+    const std::size_t every = std::max<std::size_t>((edges + mostEdges - 1) / mostEdges, 1);
+    SpreadCounter cotangent, orthonormal;
+    SidesByVertex(s).eachPair([&](const Side& a, const Side& b) {
+        const int orientation = orientations[a.triangle()];
+        if (orientation == 0 || orientation != orientations[b.triangle()])
+            return;
+        if (result.edges++ % every != 0)
+            return;
+        const SurfaceSpot atA = spotAt(s, a.triangle(), middle(a)), atB = spotAt(s, b.triangle(), middle(b));
+        const double weight = (areaOf(atA.edges) + areaOf(atB.edges)) / (3.0 * kDirections);
+        addSteps(frameOf(atA, Frame::cotangent), frameOf(atB, Frame::cotangent), weight, cotangent);
+        addSteps(frameOf(atA, Frame::orthonormal), frameOf(atB, Frame::orthonormal), weight, orthonormal);
+    });
+    result.cotangent = cotangent.spread();
+    result.orthonormal = orthonormal.spread();
+    return result;
+}
+
+} // namespace cotan::lint

@@ -1,0 +1,326 @@
+#include "cotan/lint.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <map>
+#include <memory>
+
+#include <fmt/format.h>
+#include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
+
+#include "bake/lint/map_fit.hpp"
+#include "bake/lint/texel.hpp"
+#include "lint_parts.hpp"
+#include "scene/bounds.hpp"
+#include "scene/meant_frame.hpp"
+#include "scene/placings.hpp"
+#include "scene/scene_check.hpp"
+
+namespace cotan {
+
+namespace {
+
+constexpr double kFieldOfView = 45; // degrees, vertical
+constexpr double kLines = 1080;     // of the picture
+constexpr double kHalfDegree = 0.5;
+
+// How instances move a mesh, alike ones once; as it stands if there is none.
+std::vector<std::vector<glm::dmat3>> placings(const Scene& scene)
+{
+    std::vector<std::vector<glm::dmat3>> result(scene.meshes.size());
+    for (const Instance& i : scene.instances)
+        addPlacing(result[std::size_t(i.mesh)], glm::dmat3(glm::dmat4(i.toWorld)));
+    placeUnshown(result);
+    return result;
+}
+
+// Where a sphere around everything just fits into the picture.
+double fittingDistance(const Scene& scene)
+{
+    const Bounds box = bounds(scene);
+    if (box.empty())
+        return 1;
+    const double radius = glm::length(glm::dvec3(box.high) - glm::dvec3(box.low)) / 2;
+    return radius > 0 ? radius / std::sin(glm::radians(kFieldOfView / 2)) : 1;
+}
+
+// What float derivatives of uv cost: about 1 degree times uv * 1e-6 / footprint, the footprint in
+// uv (docs/explanation/theory.md, "Rounding"). Both are proportional to 1 / distance.
+void addPrecision(PrimitiveLint& p, double distance)
+{
+    const double footprintPerDistance = 2 * std::tan(glm::radians(kFieldOfView / 2)) / kLines * p.uv.gradient;
+    if (!(footprintPerDistance > 0))
+        return;
+    const double error = std::max(p.uv.largestUv, 1.0) * 1e-6 / footprintPerDistance;
+    p.precision = std::min(error / distance, 180.0);
+    p.closest = error / kHalfDegree;
+}
+
+std::string whyNotJudged(const PrimitiveLint& p, const Image& map)
+{
+    if (p.unread)
+        return map.name.empty() ? "its pixels were not read" : map.name + " was not read";
+    if (!p.hasUv)
+        return "no uv";
+    return p.readings.front().error.count == 0 ? "no triangle has area, also in uv" : "";
+}
+
+template<class Make> void eachAdvised(FrameSpreads& spreads, const Make& make)
+{
+    spreads.orthonormal = make(Frame::orthonormal);
+    spreads.cotangent = make(Frame::cotangent);
+    spreads.smooth = make(Frame::smooth);
+}
+
+// The frame that a material's maps are for: the one that the file names, or else glTF's.
+Frame madeFor(const Material& material) { return material.normalFrame.value_or(Frame::mikktspace); }
+
+// What lint reads at vertices: the maps' own frame, and the one of those that may be advised that needs it.
+FrameSet framesOfLint(const Material& material)
+{
+    FrameSet frames = frameSet({Frame::mikktspace, Frame::smooth});
+    return frames.set(std::size_t(madeFor(material)));
+}
+
+// Tells how much is done, in triangles, and remembers a wish to stop.
+struct Told {
+    const Progress& progress;
+    double all = 1, done = 0;
+    bool stopped = false;
+
+    // Returns whether to go on.
+    bool add(double triangles)
+    {
+        done += triangles;
+        stopped = stopped || (progress && !progress(std::min(done / all, 1.0)));
+        return !stopped;
+    }
+};
+
+// Shares of the time of one mesh: its surface, each of three looks at one of its placings, and what is done for all
+// meshes together in three steps.
+constexpr double kOfSurface = 0.4, kOfLook = 0.15, kOfWhole = 0.05;
+
+// Not whole where `told` has said to stop; tells three looks of that many triangles.
+PrimitiveLint lintPrimitive(const Scene& scene, const Mesh& mesh, const MappedSurface& surface, double distance,
+                            std::size_t pointCount, Told& told, double triangles)
+{
+    const Material& material = scene.materials[std::size_t(mesh.material)];
+    PrimitiveLint p;
+    p.mesh = mesh.name;
+    p.material = material.name;
+    p.tangentsFor = material.tangentsFor;
+    const std::vector<MeshPoint> points = pointsOver(surface, pointCount);
+    if (!p.tangentsFor.empty())
+        eachAdvised(p.turned, [&](Frame frame) {
+            return directionTurn(surface, points, {.from = Frame::mikktspace, .to = frame});
+        });
+    const Texture& coat = material.coat.normalMap;
+    if (coat.present() && !hasPixels(scene.images[std::size_t(coat.image)])) { // it is not converted
+        p.tangentsFor = "KHR_materials_clearcoat";
+        p.turned = {};
+    }
+    p.madeFor = madeFor(material);
+    p.triangles = mesh.triangleCount();
+    p.hasUv = surface.hasUv();
+    p.uv = lint::uvQuality(surface);
+    if (!told.add(kOfLook * triangles))
+        return p;
+    p.steps = lint::edgeSteps(surface);
+    p.stored = lint::storedTangents(surface);
+    if (!told.add(kOfLook * triangles))
+        return p;
+    if (material.greenReversed) // w of the file, not of the scene
+        p.stored.reversedW = 1 - p.stored.reversedW;
+    addPrecision(p, distance);
+    const int image = material.normalMap.image;
+    if (material.normalMap.present() && std::size_t(image) < scene.images.size()) {
+        p.image = image;
+        if (p.hasUv && hasPixels(scene.images[std::size_t(image)]))
+            p.readings = lint::readings(surface, points, madeFor(material), material, scene.images[std::size_t(image)]);
+        p.unread = !hasPixels(scene.images[std::size_t(image)]);
+        p.notJudged = whyNotJudged(p, scene.images[std::size_t(image)]);
+    }
+    told.add(kOfLook * triangles);
+    return p;
+}
+
+// Primitives that read the same normal map share its texels; one without a map stands alone. A mesh that
+// is placed several times counts once.
+void addOverlaps(LintReport& report, const std::vector<MapUse>& uses)
+{
+    std::map<int, std::pair<std::vector<const MappedSurface*>, std::vector<UvQuality*>>> groups;
+    auto& primitives = report.primitives;
+    for (std::size_t i = 0; i < uses.size(); ++i) {
+        if (primitives[i].placing > 0)
+            continue;
+        const int key = primitives[i].image >= 0 ? primitives[i].image : -1 - int(i);
+        groups[key].first.push_back(&uses[i].surface);
+        groups[key].second.push_back(&primitives[i].uv);
+    }
+    // Of very many groups each gets a coarser raster: all together take no more than 64 fine ones.
+    const double part = std::sqrt(64 / std::max(double(groups.size()), 64.0));
+    for (const auto& [key, group] : groups)
+        lint::countOverlaps(group.first, group.second, int(512 * part));
+    for (std::size_t i = 0; i < uses.size(); ++i)
+        if (primitives[i].placing > 0) {
+            primitives[i].uv.overlapping = primitives[i - 1].uv.overlapping;
+            primitives[i].uv.overlappingMirrored = primitives[i - 1].uv.overlappingMirrored;
+        }
+}
+
+void addMaps(LintReport& report, const Scene& scene)
+{
+    std::vector<bool> done(scene.images.size());
+    for (const Material& m : scene.materials) {
+        const int image = m.normalMap.image;
+        if (!m.normalMap.present() || std::size_t(image) >= scene.images.size() || done[std::size_t(image)])
+            continue;
+        done[std::size_t(image)] = true;
+        const Image& map = scene.images[std::size_t(image)];
+        GreenEvidence e{image, map.name, m.normalFormat.greenUp != m.greenReversed, {}};
+        if (hasPixels(map))
+            e.verdict = maps::greenOf(map);
+        report.maps.push_back(std::move(e));
+    }
+}
+
+// A clear coat's map, as a primitive reads it.
+struct CoatUse {
+    int image = -1;
+    MapUse use;
+};
+
+// The frames that the normal maps of the images are for: that of the first material with each.
+std::map<int, Frame> framesOfImages(const Scene& scene)
+{
+    std::map<int, Frame> frames;
+    for (const Material& m : scene.materials)
+        for (const Texture* const texture : {&m.normalMap, &m.coat.normalMap})
+            frames.emplace(texture->image, madeFor(m));
+    return frames;
+}
+
+// How each map would do as it is with the frames that may be advised.
+void addFits(LintReport& report, const Scene& scene, const std::vector<MapUse>& uses, const std::vector<CoatUse>& coats)
+{
+    std::map<int, std::vector<const MapUse*>> readers;
+    for (std::size_t i = 0; i < uses.size(); ++i)
+        if (report.primitives[i].image >= 0)
+            readers[report.primitives[i].image].push_back(&uses[i]);
+    for (const CoatUse& coat : coats)
+        readers[coat.image].push_back(&coat.use);
+    const TangentOrigin from = lint::distrustStored(report) ? TangentOrigin::generated : TangentOrigin::stored;
+    const std::map<int, Frame> frames = framesOfImages(scene);
+    for (const auto& [image, users] : readers) {
+        const Image& map = scene.images[std::size_t(image)];
+        MapFit fit{{}, image, map.name};
+        std::vector<const MapUse*> shown;
+        std::copy_if(users.begin(), users.end(), std::back_inserter(shown),
+                     [](const MapUse* u) { return u->surface.hasUv(); });
+        if (hasPixels(map)) {
+            std::vector<FramePair> pairs;
+            FrameSpreads order; // of the frames, as eachAdvised has it
+            const Frame made = frames.at(image);
+            eachAdvised(order, [&](Frame frame) {
+                pairs.push_back({made, frame, from, TangentOrigin::generated});
+                return Spread{};
+            });
+            const std::vector<Spread> errors = mapErrors(map, map, shown, pairs, {}, pointsOfEach(uses.size()));
+            std::size_t next = 0;
+            eachAdvised(fit, [&](Frame) { return errors[next++]; });
+        }
+        report.fits.push_back(std::move(fit));
+    }
+}
+
+} // namespace
+
+std::size_t lintBytes(const Scene& scene)
+{
+    std::size_t kept = 0, most = 0;
+    for (const Mesh& mesh : scene.meshes) {
+        const FrameSet frames = framesOfLint(scene.materials[std::size_t(mesh.material)]);
+        const SurfaceBytes bytes = surfaceBytes(mesh.vertexCount(), mesh.triangleCount(), frames);
+        kept += bytes.kept + kRasterBytes * mesh.triangleCount();
+        most = std::max(most, bytes.making);
+    }
+    return kept + most;
+}
+
+LintReport lintScene(const Scene& scene, const LintOptions& options)
+{
+    return *lintScene(scene, {.distance = options.distance}, {});
+}
+
+Result<LintReport> lintScene(const Scene& scene, const LintOptions& options, const Progress& progress)
+{
+    LintReport report;
+    if (const Status sound = checkScene(scene, "scene", {.finite = false, .pixels = false}); !sound) {
+        report.recommendation = report.defects = "Nothing was looked at: " + sound.error().message + ".";
+        return report;
+    }
+    if (const std::size_t bytes = lintBytes(scene); options.memory > 0 && bytes > options.memory)
+        return inputError(fmt::format("{}: its triangles take {} MiB to judge, the limit is {} MiB", scene.name,
+                                      bytes >> 20, options.memory >> 20));
+    report.distance = options.distance > 0 ? options.distance : fittingDistance(scene);
+    std::vector<MapUse> uses;
+    std::vector<CoatUse> coats;
+    const auto placed = placings(scene);
+    std::size_t triangles = 0;
+    for (const Mesh& mesh : scene.meshes)
+        triangles += mesh.triangleCount();
+    Told told{progress, double(std::max<std::size_t>(triangles, 1))};
+    std::size_t surfaces = 0;
+    for (const auto& ways : placed)
+        surfaces += std::min(ways.size(), kMostPlacings);
+    const std::size_t points = pointsOfEach(surfaces);
+    for (std::size_t i = 0; i < scene.meshes.size(); ++i) {
+        const Mesh& mesh = scene.meshes[i];
+        const Material& material = scene.materials[std::size_t(mesh.material)];
+        const Sampler& sampler = material.normalMap.sampler;
+        const std::shared_ptr<const Mesh> held(std::shared_ptr<void>(), &mesh); // the scene outlives the surfaces
+        const glm::dmat3 asItStands(1);
+        const MappedSurface own = makeSurface(held, material.normalMap, asItStands, framesOfLint(material));
+        MappedSurface ofCoat;
+        if (material.coat.normalMap.present())
+            ofCoat =
+                makeCoatSurface(held, material.normalMap, material.coat.normalMap, asItStands, framesOfLint(material));
+        const std::size_t count = std::min(placed[i].size(), kMostPlacings);
+        const double share = double(mesh.triangleCount()) / double(std::max<std::size_t>(count, 1));
+        if (!told.add(kOfSurface * double(mesh.triangleCount())))
+            return stoppedError();
+        for (std::size_t k = 0; k < count; ++k) {
+            uses.push_back({placedBy(own, placed[i][k]), material.normalFormat, double(material.normalScale),
+                            sampler.wrapU, sampler.wrapV});
+            PrimitiveLint p = lintPrimitive(scene, mesh, uses.back().surface, report.distance, points, told, share);
+            if (told.stopped)
+                return stoppedError();
+            p.placing = k;
+            p.placings = placed[i].size();
+            report.primitives.push_back(std::move(p));
+            if (const Texture& coat = material.coat.normalMap; coat.present())
+                coats.push_back({coat.image,
+                                 {placedBy(ofCoat, placed[i][k]), material.coat.normalFormat,
+                                  double(material.coat.normalScale), coat.sampler.wrapU, coat.sampler.wrapV}});
+        }
+    }
+    addOverlaps(report, uses);
+    if (!told.add(kOfWhole * told.all))
+        return stoppedError();
+    addMaps(report, scene);
+    if (!told.add(kOfWhole * told.all))
+        return stoppedError();
+    addFits(report, scene, uses, coats);
+    told.done = told.all; // also where there are no triangles
+    if (!told.add(0))
+        return stoppedError();
+    if (const auto named = namedFrame(scene))
+        report.named = named->frame;
+    lint::recommend(report);
+    return report;
+}
+
+} // namespace cotan

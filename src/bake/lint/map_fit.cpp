@@ -1,0 +1,150 @@
+#include "bake/lint/map_fit.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "bake/lint/spread.hpp"
+#include "bake/lint/texel.hpp"
+#include "lint_parts.hpp"
+#include "scene/normal_format.hpp"
+
+namespace cotan {
+
+namespace {
+
+constexpr std::size_t kMostPoints = 65536; // over all uses of a map, while each has kLeast
+constexpr std::size_t kLeast = 64;
+constexpr std::size_t kMostUses = kMostPoints / kLeast; // of more, evenly chosen ones are measured
+
+// The normal that a frame makes of a map at a place.
+glm::dvec3 normalOf(const Image& map, const MapUse& use, const Convention& stored, Frame frame, TangentOrigin tangents,
+                    const MeshPoint& p)
+{
+    Texture texture;
+    texture.sampler.wrapU = use.wrapU;
+    texture.sampler.wrapV = use.wrapV;
+    const auto format = toFormat<f64::cotan_normal_format>(stored, map.type, use.strength);
+    const glm::dvec3 m = decodedAt(map, texture, format, uvAt(use.surface, p.triangle, p.barycentric));
+    const f64::cotan_frame f = frameAt(use.surface, frame, tangents, p.triangle, p.barycentric);
+    return f64::cotan_normalize_or(f64::cotan_apply(f, m), f.n);
+}
+
+double mappedArea(const MappedSurface& s, std::size_t triangle)
+{
+    return orientationOf(s, triangle) != 0 ? areaOf(s, triangle) : 0;
+}
+
+// A generated frame that is read at the vertices.
+void addGenerated(FrameSet& set, Frame frame, TangentOrigin tangents, bool stored)
+{
+    const bool ofFile = readsTangents(frame) && tangents == TangentOrigin::stored && stored;
+    if (readsVertices(frame) && !ofFile)
+        set.set(std::size_t(frame));
+}
+
+} // namespace
+
+// In the triangles by the sequence of the plastic number (R2).
+std::vector<MeshPoint> pointsOver(const MappedSurface& s, std::size_t count, double* area)
+{
+    double total = 0;
+    for (std::size_t i = 0; i < s.triangleCount(); ++i)
+        total += mappedArea(s, i);
+    if (area)
+        *area = total;
+    std::vector<MeshPoint> points;
+    if (!(total > 0))
+        return points;
+    std::size_t triangle = 0;
+    double upTo = mappedArea(s, 0); // of this triangle and all before it
+    for (std::size_t k = 0; k < count; ++k) {
+        const double at = (double(k) + 0.5) / double(count) * total;
+        while (triangle + 1 < s.triangleCount() && upTo <= at)
+            upTo += mappedArea(s, ++triangle);
+        double a = std::fmod(0.5 + 0.7548776662466927 * double(k), 1.0);
+        double b = std::fmod(0.5 + 0.5698402909980532 * double(k), 1.0);
+        if (a + b > 1) {
+            a = 1 - a;
+            b = 1 - b;
+        }
+        points.push_back({triangle, glm::dvec3(1 - a - b, a, b)});
+    }
+    return points;
+}
+
+std::vector<Spread> mapErrors(const Image& before, const Image& after, const std::vector<const MapUse*>& uses,
+                              std::span<const FramePair> frames, std::optional<Expansion> expansionAfter,
+                              std::size_t most)
+{
+    const std::size_t each = std::clamp(kMostPoints / std::max<std::size_t>(uses.size(), 1), kLeast, kPointsOfSurface);
+    const std::size_t count = std::min(each, most);
+    std::vector<std::vector<std::pair<double, double>>> errors(frames.size());
+    const std::size_t step = (uses.size() + kMostUses - 1) / kMostUses;
+    for (std::size_t k = 0; k < uses.size(); k += step) {
+        const MapUse* const use = uses[k];
+        if (!(std::abs(use->strength) > kFlattened))
+            continue;
+        double area = 0;
+        const std::vector<MeshPoint> points = pointsOver(use->surface, count, &area);
+        Convention stored = use->stored; // of `after`
+        stored.expansion = expansionAfter.value_or(stored.expansion);
+        for (const MeshPoint& p : points)
+            for (std::size_t i = 0; i < frames.size(); ++i)
+                errors[i].emplace_back(
+                    lint::degreesBetween(normalOf(before, *use, use->stored, frames[i].from, frames[i].fromTangents, p),
+                                         normalOf(after, *use, stored, frames[i].to, frames[i].toTangents, p)),
+                    area / double(count));
+    }
+    std::vector<Spread> spreads;
+    for (auto& of : errors)
+        spreads.push_back(spreadOf(std::move(of)));
+    return spreads;
+}
+
+std::size_t pointsOfEach(std::size_t surfaces)
+{
+    constexpr std::size_t kAll = 128 * kPointsOfSurface, kFewest = 16;
+    return std::clamp(kAll / std::max<std::size_t>(surfaces, 1), kFewest, kPointsOfSurface);
+}
+
+Spread mapError(const Image& before, const Image& after, const std::vector<const MapUse*>& uses,
+                const FramePair& frames, std::optional<Expansion> expansionAfter)
+{
+    return mapErrors(before, after, uses, {&frames, 1}, expansionAfter).front();
+}
+
+Spread directionTurn(const MappedSurface& surface, const std::vector<MeshPoint>& points, const FramePair& frames)
+{
+    std::vector<std::pair<double, double>> turns;
+    for (const MeshPoint& p : points) {
+        const auto way = [&](Frame frame, TangentOrigin tangents) {
+            const f64::cotan_frame f = frameAt(surface, frame, tangents, p.triangle, p.barycentric);
+            const glm::dvec3 n = f64::cotan_normalize_or(f.n, glm::dvec3(0));
+            return f64::cotan_direction_on_surface(n, f.t, f.b, {1, 0}, n);
+        };
+        const glm::dvec3 from = way(frames.from, frames.fromTangents), to = way(frames.to, frames.toTangents);
+        if (from == glm::dvec3(0) || to == glm::dvec3(0))
+            return {};
+        turns.emplace_back(lint::degreesBetween(from, glm::dot(from, to) < 0 ? -to : to), 1);
+    }
+    return spreadOf(std::move(turns));
+}
+
+Spread directionTurn(const MappedSurface& surface, const FramePair& frames)
+{
+    return directionTurn(surface, pointsOver(surface, kPointsOfSurface), frames);
+}
+
+FrameSet framesRead(const FramePair& frames, bool stored)
+{
+    FrameSet set;
+    addGenerated(set, frames.from, frames.fromTangents, stored);
+    addGenerated(set, frames.to, frames.toTangents, stored);
+    return set;
+}
+
+bool directionStays(const Spread& turn) { return turn.percentile95 <= kTurnedDirection; }
+
+bool fitsAsItIs(const Spread& off) { return !(off.percentile95 > kAsRounding); }
+
+} // namespace cotan

@@ -1,0 +1,163 @@
+// What a camera sees of the detailed surface, to judge maps by.
+#include <cmath>
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include "baker.hpp"
+#include "core/loops.hpp"
+#include "scene/camera_axes.hpp"
+
+namespace cotan {
+
+namespace {
+
+constexpr float kApart = 0.001f;   // of the low surface's diagonal: other surfaces
+constexpr int kMostLayers = 32;    // on one line
+constexpr float kUpright = -1e-3f; // cosine down to which a front faces outwards
+
+glm::vec3 rayThrough(const View& view, const Camera& c, int x, int y)
+{
+    const CameraAxes axes = cameraAxes(c);
+    const glm::vec3 forward(axes.forward), right(axes.right), up(axes.up);
+    const float t = std::tan(c.verticalFieldOfView / 2);
+    const float aspect = float(view.width) / float(view.height);
+    const float px = (float(x) + 0.5f) / float(view.width) * 2 - 1, py = 1 - (float(y) + 0.5f) / float(view.height) * 2;
+    return glm::normalize(forward + right * (px * t * aspect) + up * (py * t));
+}
+
+// A pixel as both surfaces have it.
+class Looking {
+public:
+    Looking(const LowSurface& low, const HighSurface& high, const BakeOptions& options, const LowTree& tree)
+        : low_(low), high_(high), options_(options), tree_(tree), baker_(low, high, options)
+    {
+        glm::vec3 from(1e30f), to(-1e30f);
+        for (const std::uint32_t i : low.indices) {
+            from = glm::min(from, low.positions[i]);
+            to = glm::max(to, low.positions[i]);
+        }
+        diagonal_ = glm::length(to - from);
+        limit_ = options.maxDistance > 0 ? options.maxDistance
+            : options.starts             ? options.starts->limit
+                                         : 0.1f * diagonal_;
+    }
+
+    glm::vec3 normalOf(const Hit& hit, glm::vec3 direction) const
+    {
+        const glm::vec3 n = high_.normalOf(hit, options_.highNormals, direction);
+        return options_.highMaps && showsNormals(options_.kind)
+            ? options_.highMaps->normalAt(hit.instance, hit.triangle, double(hit.b1), double(hit.b2), n)
+            : n;
+    }
+
+    struct Answer {
+        bool known = false, other = false;
+        glm::vec3 normal{0};
+    };
+    // For a ray from the eye.
+    Answer ask(glm::vec3 eye, glm::vec3 ray) const
+    {
+        const LowTree::Met seen = tree_.first({eye, ray, 0, 1e30f});
+        if (!seen.found || seen.triangle >= low_.triangleCount() || glm::dot(tree_.face(seen.triangle), ray) >= 0)
+            return {};
+        const UvPlace place{seen.triangle, seen.b1, seen.b2, true};
+        LowPoints point;
+        Probes probe;
+        pointsOf(low_, {&place, 1}, point);
+        baker_.aim(point, {&place, 1}, probe);
+        const glm::vec3 at = probe.point.at(0), way = probe.direction.at(0);
+        if (!(glm::dot(way, way) > 0))
+            return {};
+        const float from = openDistance(tree_, seen.triangle, at, way, 1e-4f * diagonal_, limit_);
+        float passed = 0;
+        for (int layer = 0; layer < kMostLayers; ++layer) {
+            const float left = from + limit_ - passed;
+            const glm::vec3 start = at + way * (from - passed);
+            const Hit hit = left > 0 ? high_.trace({start, -way, 0, left}) : Hit{};
+            if (!hit.found)
+                return {};
+            const bool counts = probe.only[0] == Probes::kAny || probe.only[0] == hit.instance;
+            if (counts && glm::dot(hit.front, way) > 0 && glm::dot(hit.front, probe.normal.at(0)) > kUpright
+                && sees(eye, start - way * hit.distance, hit.front))
+                return judge(place, probe, from - passed - hit.distance, normalOf(hit, way));
+            passed += hit.distance + 1e-5f * diagonal_;
+        }
+        return {};
+    }
+
+private:
+    bool sees(glm::vec3 eye, glm::vec3 point, glm::vec3 front) const
+    {
+        const glm::vec3 way = point - eye;
+        const float distance = glm::length(way);
+        return glm::dot(front, way) < 0
+            && !high_.blocked({eye, way / distance, 0, distance - std::min(kApart * diagonal_, 0.5f * distance)});
+    }
+    // Whether the baker takes the surface that lies `off` in front.
+    Answer judge(const UvPlace& place, const Probes& probe, float off, glm::vec3 normal) const
+    {
+        Hits hits;
+        baker_.find({&place, 1}, probe, hits);
+        return {true, !hits.found(0) || std::abs(hits.distance[0] - off) > kApart * diagonal_, normal};
+    }
+
+    const LowSurface& low_;
+    const HighSurface& high_;
+    const BakeOptions& options_;
+    const LowTree& tree_;
+    Baker baker_;
+    float diagonal_ = 0, limit_ = 0;
+};
+
+void put(Image& image, std::size_t i, glm::vec3 n)
+{
+    float* pixel = image.floats() + 4 * i;
+    pixel[0] = n.x;
+    pixel[1] = n.y;
+    pixel[2] = n.z;
+    pixel[3] = 1;
+}
+
+} // namespace
+
+Result<SeenHigh> seeHigh(const LowSurface& low, const HighSurface& high, const BakeOptions& given, const View& view)
+{
+    BakeOptions options = given;
+    if (Status ready = measureRayStarts(low, high, options); !ready)
+        return ready.error();
+    std::shared_ptr<const LowTree> tree = options.starts ? options.starts->tree : nullptr;
+    if (!tree) {
+        auto made =
+            LowTree::make(low.positions, low.indices, shownBy(low.triangleInstance, options.matched), options.threads);
+        if (!made)
+            return made.error();
+        tree = std::make_shared<const LowTree>(std::move(*made));
+    }
+    SeenHigh seen{makeImage(view.width, view.height, PixelType::float32, "high surface"),
+                  makeImage(view.width, view.height, PixelType::float32, "expected normals"),
+                  {},
+                  0,
+                  0};
+    seen.other.assign(std::size_t(view.width) * std::size_t(view.height), 0);
+    const Looking looking(low, high, options, *tree);
+    parallelFor(0, view.height, [&](int y) {
+        for (int x = 0; x < view.width; ++x) {
+            const std::size_t i = std::size_t(y) * std::size_t(view.width) + std::size_t(x);
+            const glm::vec3 ray = rayThrough(view, view.camera, x, y);
+            if (const Hit hit = high.trace({view.camera.eye, ray, 0, 1e30f}); hit.found)
+                put(seen.normals, i, looking.normalOf(hit, ray));
+            const Looking::Answer answer = looking.ask(view.camera.eye, ray);
+            if (answer.known)
+                put(seen.expected, i, answer.normal);
+            seen.other[i] = answer.other ? 1 : 0;
+        }
+    });
+    for (std::size_t i = 0; i < seen.other.size(); ++i) {
+        seen.compared += seen.expected.floats()[4 * i + 3] > 0;
+        seen.others += seen.other[i];
+    }
+    return seen;
+}
+
+} // namespace cotan

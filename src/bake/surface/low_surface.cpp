@@ -1,0 +1,149 @@
+#include "bake/surface/low_surface.hpp"
+
+#include <span>
+#include <string>
+
+#include <glm/geometric.hpp>
+#include <glm/mat3x3.hpp>
+#include <glm/matrix.hpp>
+
+#include "cotan/covector.hpp"
+#include "cotan/tangents.hpp"
+#include "scene/texture_uv.hpp"
+
+namespace cotan {
+
+namespace {
+
+glm::vec3 normalizedOrZero(glm::vec3 v)
+{
+    const float length = glm::length(v);
+    return length > 0 ? v / length : v;
+}
+
+// Appends one mesh as an instance places it.
+void append(LowSurface& surface, const Mesh& mesh, const Texture& map, const glm::mat4& toWorld, std::uint32_t instance,
+            bool storedTangents)
+{
+    const auto base = std::uint32_t(surface.positions.size());
+    const glm::mat3 linear(toWorld);
+    const LinearMap<float> placing(linear);
+    const float determinant = placing.determinant();
+    const glm::mat3 covectors = placing.planeMatrix();
+    // Where lengths do not change, neither do the numbers: what is baked is what the shader reads.
+    const bool rigid = covectors == linear;
+    for (std::size_t v = 0; v < mesh.vertexCount(); ++v) {
+        surface.positions.push_back(glm::vec3(toWorld * glm::vec4(mesh.positions[v], 1)));
+        surface.normals.push_back(rigid ? linear * mesh.normals[v] : normalizedOrZero(covectors * mesh.normals[v]));
+    }
+    const std::vector<glm::vec2> uv = textureUv(map, mesh);
+    surface.texcoords.insert(surface.texcoords.end(), uv.begin(), uv.end());
+    for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
+        std::uint32_t corner[3] = {mesh.indices[i], mesh.indices[i + 1], mesh.indices[i + 2]};
+        if (determinant < 0) // a mirrored instance turns its triangles round
+            std::swap(corner[1], corner[2]);
+        for (std::uint32_t c : corner) {
+            surface.indices.push_back(base + c);
+            if (storedTangents) {
+                const glm::vec4 t = tangentAlongV(mesh.tangents[c]);
+                const glm::vec3 turned = rigid ? linear * glm::vec3(t) : normalizedOrZero(linear * glm::vec3(t));
+                surface.tangents.push_back(glm::vec4(turned, determinant < 0 ? -t.w : t.w));
+            }
+        }
+        surface.triangleInstance.push_back(instance);
+    }
+}
+
+void deriveCotangents(LowSurface& s)
+{
+    SplitCotangents made = splitSmoothCotangents({s.positions, s.normals, s.texcoords, s.indices});
+    const auto gather = [&](auto& values) { values = gathered(std::span(std::as_const(values)), made.split); };
+    gather(s.positions);
+    gather(s.normals);
+    gather(s.texcoords);
+    s.indices = std::move(made.split.indices);
+    s.cotangentsU = std::move(made.cotangents.u);
+    s.cotangentsV = std::move(made.cotangents.v);
+}
+
+void deriveTangents(LowSurface& s)
+{
+    s.tangents = generateTangents(s.frame, {s.positions, s.normals, s.texcoords, s.indices});
+    for (glm::vec4& t : s.tangents)
+        t = tangentAlongV(t);
+}
+
+template<class TextFrame> CotangentFrame<double> typed(const TextFrame& f)
+{
+    return {Covector3d(f.t), Covector3d(f.b), Covector3d(f.n)};
+}
+
+} // namespace
+
+Result<LowSurface> makeLowSurface(const Scene& scene, int material, Frame frame, TangentOrigin tangents)
+{
+    if (dependsOnView(frame))
+        return usageError("the frame " + std::string(name(frame)) + " depends on the view: no map can be made for it");
+    LowSurface surface;
+    surface.frame = frame;
+    bool allStored = readsTangents(frame) && tangents == TangentOrigin::stored;
+    auto chosen = [&](const Mesh& mesh) { return material < 0 || mesh.material == material; };
+    for (const Instance& instance : scene.instances) {
+        const Mesh& mesh = scene.meshes[std::size_t(instance.mesh)];
+        if (chosen(mesh) && !mesh.indices.empty())
+            allStored = allStored && !mesh.tangents.empty();
+    }
+    for (std::size_t i = 0; i < scene.instances.size(); ++i) {
+        const Mesh& mesh = scene.meshes[std::size_t(scene.instances[i].mesh)];
+        if (!chosen(mesh) || mesh.indices.empty())
+            continue;
+        const Texture& map = scene.materials[std::size_t(mesh.material)].normalMap;
+        if (mesh.texcoords[uvSetOf(map)].empty())
+            return inputError(scene.name + ": mesh '" + mesh.name + "' has no texture coordinates (uv set "
+                              + std::to_string(uvSetOf(map)) + ")");
+        append(surface, mesh, map, scene.instances[i].toWorld, std::uint32_t(i), allStored);
+    }
+    if (surface.indices.empty())
+        return inputError(scene.name + ": expected triangles; found none");
+    if (readsCotangents(frame))
+        deriveCotangents(surface);
+    else if (readsTangents(frame) && !allStored)
+        deriveTangents(surface);
+    return surface;
+}
+
+Differences<double> differencesOf(const LowSurface& s, std::uint32_t triangle)
+{
+    const TriangleEdges e = edgesOf(s.positions, s.texcoords, s.cornersOf(triangle));
+    const double determinant = e.uvArea2();
+    if (determinant == 0 || info(s.frame).source == FrameSource::triangle)
+        return {Vector3d(e.p1), Vector3d(e.p2), e.uv1, e.uv2};
+    return {Vector3d((e.p1 * e.uv2.y - e.p2 * e.uv1.y) / determinant),
+            Vector3d((e.p2 * e.uv1.x - e.p1 * e.uv2.x) / determinant),
+            {1, 0},
+            {0, 1}};
+}
+
+LowPoint pointOf(const LowSurface& s, std::uint32_t triangle, double b1, double b2)
+{
+    const std::size_t first = 3 * std::size_t(triangle);
+    const Corners at = s.cornersOf(triangle), inOrder{first, first + 1, first + 2};
+    const glm::dvec3 weights(1 - b1 - b2, b1, b2);
+    LowPoint p;
+    p.position = atCorners(s.positions, at, weights);
+    const glm::dvec3 raw = atCorners(s.normals, at, weights);
+    const double length = glm::length(raw);
+    p.normal = length > 0 ? raw / length : raw;
+    if (readsCotangents(s.frame)) {
+        p.frame = typed(evaluateCotangents(s.frame, raw, atCorners(s.cotangentsU, at, weights),
+                                           atCorners(s.cotangentsV, at, weights)));
+    } else if (readsTangents(s.frame)) {
+        const glm::dvec3 t(atCorners(s.tangents, inOrder, weights));
+        p.frame = typed(evaluateTangents(s.frame, raw, t, double(s.tangents[first].w)));
+    } else {
+        p.frame = makeFrame(s.frame, Covector3d(p.normal), differencesOf(s, triangle));
+    }
+    return p;
+}
+
+} // namespace cotan

@@ -1,0 +1,183 @@
+// cotan.h: baking, from arrays and from models.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstring>
+
+#include "call.hpp"
+#include "cotan/bake.hpp"
+#include "models_api.hpp"
+#include "pictures.hpp"
+#include "scene/normal_format.hpp"
+#include "scene/stored_green.hpp"
+
+using namespace cotan;
+using namespace cotan::c;
+
+namespace {
+
+BakeKind kindOf(std::string_view wanted)
+{
+    constexpr std::array<std::pair<std::string_view, BakeKind>, 4> kKinds = {{{"normal", BakeKind::normal},
+                                                                              {"object-normal", BakeKind::objectNormal},
+                                                                              {"height", BakeKind::height},
+                                                                              {"occlusion", BakeKind::occlusion}}};
+    for (const auto& [name, kind] : kKinds)
+        if (name == wanted)
+            return kind;
+    fail(ErrorKind::usage,
+         "options.kind: expected normal, object-normal, height or occlusion, found '" + std::string(wanted) + "'");
+}
+
+// How normals of the detailed side are found.
+void readHigh(const cotan_bake_options& o, BakeModelOptions& options, HighModel& high)
+{
+    using N = HighNormals;
+    const std::string_view wanted = o.high_normals ? o.high_normals : "smooth";
+    options.ownMaps = wanted == "map";
+    options.bake.highNormals = wanted == "curved" ? N::curved : wanted == "face" ? N::face : N::smooth;
+    if (wanted != "smooth" && options.bake.highNormals == N::smooth && !options.ownMaps)
+        fail(ErrorKind::usage,
+             "options.high_normals: expected smooth, curved, face or map, found '" + std::string(wanted) + "'");
+    if (!options.ownMaps && (o.high_map_count > 0 || o.high_frame || o.high_convention))
+        fail(ErrorKind::usage,
+             "options.high_normals: expected map where a map, frame or convention is given, found '"
+                 + std::string(wanted) + "'");
+    options.highFrame = frameOr(o.high_frame, Frame::mikktspace, "options.high_frame");
+    if (o.high_convention)
+        options.highFormat = inScene(conventionOf(o.high_convention, "options.high_convention"));
+    require(o.high_map_count == 0 || o.high_maps, "options.high_maps: expected an array, found null");
+    for (std::size_t i = 0; i < o.high_map_count; ++i)
+        high.maps.push_back(imageOf(o.high_maps[i], ("options.high_maps[" + std::to_string(i) + "]").c_str()));
+}
+
+BakeModelOptions bakeOptionsOf(const cotan_bake_options& o, const cotan_picture& map)
+{
+    BakeModelOptions options;
+    require(std::isfinite(o.max_distance) && o.max_distance >= 0, "options.max_distance: expected 0 or more");
+    require(std::isfinite(o.extrusion) && o.extrusion >= 0, "options.extrusion: expected 0 or more");
+    const std::string_view search = o.search ? o.search : "first";
+    require(search == "first" || search == "nearest", "options.search: expected first or nearest");
+    require(std::isfinite(o.cage_reach) && o.cage_reach >= 0, "options.cage_reach: expected 0 or more");
+    require(o.threads >= 0, "options.threads: expected 0 or more");
+    require(o.padding >= -1, "options.padding: expected -1 or more");
+    require(o.occlusion_rays >= 0 && o.occlusion_rays <= 1 << 16, "options.occlusion_rays: expected 0 to 65536");
+    require(o.material >= 0, "options.material: expected 0 or more");
+    const std::string_view tangents = o.tangents ? o.tangents : "generated";
+    require(tangents == "stored" || tangents == "generated", "options.tangents: expected stored or generated");
+    BakeOptions& b = options.bake;
+    b.kind = kindOf(o.kind ? o.kind : "normal");
+    b.frame = frameOr(o.frame, Frame::mikktspace, "options.frame");
+    b.width = map.width;
+    b.height = map.height;
+    b.samples = o.samples != 0 ? o.samples : 1;
+    b.search = search == "nearest" ? BakeSearch::nearest : BakeSearch::first;
+    b.extrusion = o.extrusion;
+    b.maxDistance = o.max_distance;
+    b.cageReach = o.cage_reach;
+    b.occlusionRays = o.occlusion_rays != 0 ? o.occlusion_rays : 64;
+    b.threads = o.threads;
+    options.tiles = {o.tile != 0 ? o.tile : 1001};
+    options.material = o.material - 1;
+    options.tangents = tangents == "stored" ? TangentOrigin::stored : TangentOrigin::generated;
+    options.cage = o.cage ? &o.cage->scene : nullptr;
+    options.matchByName = o.match_by_name != 0;
+    options.padding = o.padding;
+    options.stored.type = typeOf(map, "map");
+    options.stored.dither = o.dither != 0;
+    options.stored.format =
+        inScene(storableAs(o.convention ? o.convention : "gltf", "options.convention", options.stored.type));
+    options.mask = o.mask;
+    return options;
+}
+
+void checkMask(const cotan_picture& mask, const cotan_picture& map)
+{
+    checkedPicture(&mask, "options.mask");
+    if (mask.bits != 8 || mask.width != map.width || mask.height != map.height)
+        fail(ErrorKind::usage, "options.mask: expected 8 bits and the size of the map");
+}
+
+// Errors of bakeModel begin with the field of its own structs.
+Error inOurWords(Error error)
+{
+    constexpr std::pair<std::string_view, std::string_view> kFields[] = {
+        {"options.bake: expected a width", "map: expected a width"},
+        {"options.bake: expected 1, 2 or 4 samples", "options.samples: expected 1, 2 or 4 samples"},
+        {"options.bake.frame:", "options.frame:"},
+        {"options.highFrame:", "options.high_frame:"},
+        {"options.maxDistance:", "options.max_distance:"},
+        {"options.cageReach:", "options.cage_reach:"},
+        {"options.matchByName:", "options.match_by_name:"},
+        {"options.tiles:", "options.tile:"},
+        {"high.maps:", "options.high_maps:"},
+    };
+    for (const auto& [theirs, ours] : kFields)
+        if (error.message.starts_with(theirs)) {
+            error.message.replace(0, theirs.size(), ours);
+            break;
+        }
+    return error;
+}
+
+// Bakes and gives what came of it.
+void bakeInto(const Scene& low, HighModel high, const cotan_bake_options* given, cotan_picture* map,
+              cotan_bake_result* result, cotan_bytes** warnings)
+{
+    const cotan_picture& out = checkedPicture(map, "map");
+    const cotan_bake_options o = optionsOf(given, "options");
+    if (result)
+        requireSize(result->size, offsetof(cotan_bake_result, further), "result");
+    if (o.mask)
+        checkMask(*o.mask, out);
+    BakeModelOptions options = bakeOptionsOf(o, out);
+    readHigh(o, options, high);
+    if (options.material >= int(low.materials.size()))
+        fail(ErrorKind::usage,
+             "options.material: expected 0 to " + std::to_string(low.materials.size()) + ", found "
+                 + std::to_string(o.material));
+    auto done = bakeModel(low, std::move(high), options, progressOf(o.progress, o.user));
+    if (!done)
+        throw Failure{inOurWords(done.error())};
+    const BakedModel baked = *std::move(done);
+    giveText(joined(baked.warnings), warnings);
+    put(baked.maps[0].image, out);
+    if (o.mask)
+        put(baked.maps[0].mask, *o.mask);
+    if (result) {
+        const BakeStatistics& s = baked.maps[0].statistics;
+        const std::size_t size = result->size;
+        const cotan_bake_result all{size,   s.texels,      s.covered, s.missed, s.negative, s.twice,
+                                    s.rays, s.rayDistance, s.further, s.nearer, s.rayStart};
+        std::memcpy(result, &all, std::min(size, sizeof all)); // older callers have a shorter one
+    }
+}
+
+} // namespace
+
+cotan_status cotan_bake(const cotan_mesh* low, const cotan_mesh* high, const cotan_bake_options* options,
+                        cotan_picture* map, cotan_bake_result* result, char* message, size_t message_size)
+{
+    return call(message, message_size, [&] {
+        const cotan_mesh &simple = checkedMesh(low, "low", true), &detailed = checkedMesh(high, "high", false);
+        HighModel model;
+        model.scenes.push_back(sceneOf({meshOf(detailed)}, "high"));
+        bakeInto(sceneOf({meshOf(simple)}, "low"), std::move(model), options, map, result, nullptr);
+    });
+}
+
+cotan_status cotan_bake_models(const cotan_model* low, size_t high_count, const cotan_model* const* high,
+                               const cotan_bake_options* options, cotan_picture* map, cotan_bake_result* result,
+                               cotan_bytes** warnings, char* message, size_t message_size)
+{
+    return call(message, message_size, [&] {
+        Scene simple = sceneOf(low, "low");
+        restoreDeclaredGreen(simple); // the new map is for the tangents as they are stored
+        require(high || high_count == 0, "high: expected models, found null");
+        HighModel model;
+        for (std::size_t i = 0; i < high_count; ++i)
+            model.scenes.push_back(sceneOf(high[i], ("high[" + std::to_string(i) + "]").c_str()));
+        bakeInto(simple, std::move(model), options, map, result, warnings);
+    });
+}

@@ -1,0 +1,231 @@
+// cotan.h: a model's maps made for another frame, in memory, in one step or in two.
+#include <algorithm>
+#include <span>
+
+#include "bake/convert_report.hpp"
+#include "cotan/convert.hpp"
+#include "cotan/gltf.hpp"
+#include "gltf/json/lookup.hpp"
+#include "json_text.hpp"
+#include "model_files.hpp"
+
+using namespace cotan;
+using namespace cotan::c;
+
+struct cotan_conversion {
+    struct Picture {
+        Image image;
+        Bytes placeholder; // in the document until the PNG file is there
+        bool given = false;
+    };
+    GltfDocument document;
+    ConvertModelReport report;
+    std::vector<Picture> pictures;
+};
+
+namespace {
+
+Json convertJson(const ConvertModelReport& report)
+{
+    Json json = {{"maps", Json::array()},
+                 {"unread_maps", Json::array()},
+                 {"tangents", tangentsJson(report)},
+                 {"notes", report.notes}};
+    for (const ConvertedMap& map : report.maps)
+        json["maps"].push_back(toJson(map));
+    for (const UnreadMap& map : report.unread)
+        json["unread_maps"].push_back(
+            {{"image", map.image}, {"name", map.name}, {"format", map.format}, {"advice", map.advice}});
+    return json;
+}
+
+void fill(const ConvertModelReport& report, cotan_convert_result& r)
+{
+    const std::size_t size = r.size;
+    r = {};
+    r.size = size;
+    r.worst_degrees_before = r.worst_degrees_after = -1;
+    const auto take = [](double& worst, const Spread& map) {
+        if (map.count > 0)
+            worst = std::max(worst, map.mean);
+    };
+    for (const ConvertedMap& map : report.maps) {
+        const Spread &before = map.figures.unconverted, &after = map.kept ? before : map.figures.error;
+        ++(map.kept ? r.maps_kept : r.maps_converted);
+        take(r.worst_degrees_before, before);
+        take(r.worst_degrees_after, after);
+    }
+    r.primitives_given = report.primitivesGiven;
+    r.tangent_bytes_dropped = report.dropped.bytes;
+}
+
+ConvertModelOptions optionsFor(const cotan_convert_options& o, const ModelFiles& source)
+{
+    require(o.threads >= 0, "options.threads: expected 0 or more");
+    ConvertModelOptions convert;
+    convert.frames = {frameOr(o.from, Frame::mikktspace, "options.from"),
+                      frameOr(o.to, o.keep_maps != 0 ? Frame::orthonormal : Frame::cotangent, "options.to"),
+                      o.generate_tangents != 0 ? TangentOrigin::generated : TangentOrigin::stored,
+                      TangentOrigin::generated};
+    convert.bits = o.bits;
+    convert.keepTangents = o.keep_tangents != 0;
+    convert.keepMaps = o.keep_maps != 0;
+    if (convert.keepMaps && readsTangents(convert.frames.to))
+        fail(ErrorKind::usage,
+             "options.to: expected a frame without tangents for maps that are kept, found "
+                 + std::string(name(convert.frames.to)));
+    require(!convert.keepMaps || convert.bits == 0, "options.bits: expected 0 where maps are kept");
+    const std::string_view expansion = o.expansion ? o.expansion : "biased";
+    require(expansion == "biased" || expansion == "exact", "options.expansion: expected biased or exact");
+    convert.expansion = expansion == "biased" ? Expansion::biased : Expansion::exact;
+    convert.threads = o.threads;
+    convert.limits = source.limits();
+    convert.encode = source.encoder();
+    convert.progress = progressOf(o.progress, o.user);
+    return convert;
+}
+
+// Where the caller names none: the frame that the document names.
+void chooseFrom(const cotan_convert_options& o, const GltfDocument& document, ConvertModelOptions& convert)
+{
+    if (!o.from)
+        convert.frames.from = valueOf(namedFrame(document)).value_or(convert.frames.from);
+}
+
+// Bytes that no file has twice.
+Bytes placeholderOf(std::size_t number)
+{
+    const std::string text = "a picture that cotan_conversion_set gives: " + std::to_string(number);
+    return copied(text.data(), text.size());
+}
+
+cotan_conversion::Picture& pictureAt(cotan_conversion* conversion, std::size_t number)
+{
+    require(conversion, "conversion: expected one, found null");
+    if (number >= conversion->pictures.size())
+        fail(ErrorKind::usage,
+             "number: expected less than " + std::to_string(conversion->pictures.size()) + ", found "
+                 + std::to_string(number));
+    return conversion->pictures[number];
+}
+
+// The same document with all that it needs inside, so that the caller's functions are asked no more.
+GltfDocument closedDocument(const GltfDocument& document, const LoadLimits& limits)
+{
+    LoadLimits inside = limits;
+    inside.readFile = [bytes = valueOf(glbBytes(document, limits))](const std::string&) {
+        return Result<Bytes>(bytes);
+    };
+    inside.decode = {};
+    return valueOf(openGltfDocument("model.glb", inside));
+}
+
+void replacePlaceholder(GltfDocument& document, const Bytes& placeholder, const Bytes& png)
+{
+    for (std::size_t i = 0; i < countOf(rootOf(document), "images"); ++i)
+        if (const auto bytes = gltfImageBytes(document, i); bytes && *bytes == placeholder)
+            replaceGltfImage(document, i, png, "image/png");
+}
+
+// Those that have new pictures, in their order.
+std::vector<ConvertedMap*> convertedMaps(ConvertModelReport& report)
+{
+    std::vector<ConvertedMap*> converted;
+    for (ConvertedMap& map : report.maps)
+        if (!map.kept)
+            converted.push_back(&map);
+    return converted;
+}
+
+} // namespace
+
+cotan_status cotan_convert_gltf(const void* model, size_t model_size, const cotan_model_files* files,
+                                const cotan_convert_options* options, cotan_convert_result* result, cotan_bytes** glb,
+                                cotan_bytes** json, char* message, size_t message_size)
+{
+    return call(message, message_size, [&] {
+        const cotan_convert_options o = optionsOf(options, "options");
+        require(glb, "glb: expected a place, found null");
+        if (result)
+            checked(result, "result");
+        const ModelFiles source(model, model_size, files);
+        ConvertModelOptions convert = optionsFor(o, source);
+        GltfDocument document = valueOf(openGltfDocument(source.name(), convert.limits));
+        chooseFrom(o, document, convert);
+        const ConvertModelReport report = valueOf(convertModel(document, convert));
+        auto made = std::make_unique<cotan_bytes>(cotan_bytes{valueOf(glbBytes(std::move(document), convert.limits))});
+        giveText("cotan-convert-result", convertJson(report), json);
+        *glb = made.release();
+        if (result)
+            fill(report, *result);
+    });
+}
+
+cotan_status cotan_convert_begin(const void* model, size_t model_size, const cotan_model_files* files,
+                                 const cotan_convert_options* options, cotan_convert_result* result,
+                                 cotan_conversion** conversion, char* message, size_t message_size)
+{
+    return call(message, message_size, [&] {
+        const cotan_convert_options o = optionsOf(options, "options");
+        require(conversion, "conversion: expected a place, found null");
+        if (result)
+            checked(result, "result");
+        const ModelFiles source(model, model_size, files);
+        ConvertModelOptions convert = optionsFor(o, source);
+        auto made = std::make_unique<cotan_conversion>();
+        convert.encode = [&](const Image& image) -> Result<Bytes> {
+            made->pictures.push_back({image, placeholderOf(made->pictures.size())});
+            return made->pictures.back().placeholder;
+        };
+        made->document = valueOf(openGltfDocument(source.name(), convert.limits));
+        chooseFrom(o, made->document, convert);
+        made->report = valueOf(convertModel(made->document, convert));
+        made->document = closedDocument(made->document, convert.limits);
+        if (result)
+            fill(made->report, *result);
+        *conversion = made.release();
+    });
+}
+
+size_t cotan_conversion_count(const cotan_conversion* conversion)
+{
+    return conversion ? conversion->pictures.size() : 0;
+}
+
+cotan_status cotan_conversion_picture(const cotan_conversion* conversion, size_t number, cotan_picture* picture,
+                                      char* message, size_t message_size)
+{
+    return call(message, message_size, [&] {
+        checked(picture, "picture");
+        *picture = pictureOf(pictureAt(const_cast<cotan_conversion*>(conversion), number).image);
+    });
+}
+
+cotan_status cotan_conversion_set(cotan_conversion* conversion, size_t number, const void* png, size_t png_size,
+                                  char* message, size_t message_size)
+{
+    return call(message, message_size, [&] {
+        cotan_conversion::Picture& picture = pictureAt(conversion, number);
+        require(png && png_size > 0, "png: expected bytes, found none");
+        require(!picture.given, "number: expected a picture that has no PNG file yet");
+        replacePlaceholder(conversion->document, picture.placeholder, copied(png, png_size));
+        convertedMaps(conversion->report)[number]->bytesAfter = png_size;
+        picture.given = true;
+    });
+}
+
+cotan_status cotan_convert_end(cotan_conversion* conversion, cotan_bytes** glb, cotan_bytes** json, char* message,
+                               size_t message_size)
+{
+    return call(message, message_size, [&] {
+        require(conversion && glb, "conversion and glb: expected both, found null");
+        require(std::all_of(conversion->pictures.begin(), conversion->pictures.end(),
+                            [](const auto& p) { return p.given; }),
+                "conversion: expected the PNG files of all pictures");
+        auto made = std::make_unique<cotan_bytes>(cotan_bytes{valueOf(glbBytes(conversion->document))});
+        giveText("cotan-convert-result", convertJson(conversion->report), json);
+        *glb = made.release();
+    });
+}
+
+void cotan_conversion_free(cotan_conversion* conversion) { delete conversion; }

@@ -1,0 +1,211 @@
+// cotan.h: frames and tangents.
+#include <array>
+#include <span>
+
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
+
+#include "call.hpp"
+#include "cotan/frame.hpp"
+#include "cotan/tangents.hpp"
+#include "meshes.hpp"
+
+using namespace cotan;
+using namespace cotan::c;
+
+namespace {
+
+glm::vec3 vec3At(const float* array, std::size_t i) { return {array[3 * i], array[3 * i + 1], array[3 * i + 2]}; }
+
+Frame frameFromDifferences(const char* name)
+{
+    const auto frame = frameFromName(word(name, "frame"));
+    if (!frame || readsVertices(*frame))
+        fail(ErrorKind::usage, "frame: expected one that is made from differences, found '" + std::string(name) + "'");
+    return *frame;
+}
+
+// Calls work(i, frame there) for every place.
+template<class Work> void forEachPlace(const char* frame, const cotan_places* given, Work work)
+{
+    const Frame kind = frameFromDifferences(frame);
+    const cotan_places& p = checked(given, "places");
+    require(p.count == 0 || (p.normals && p.dpdx && p.dpdy && p.duvdx && p.duvdy),
+            "places: expected five arrays, found null");
+    for (std::size_t i = 0; i < p.count; ++i) {
+        Differences<float> d;
+        d.dpdx = Vector3f(vec3At(p.dpdx, i));
+        d.dpdy = Vector3f(vec3At(p.dpdy, i));
+        d.duvdx = {p.duvdx[2 * i], p.duvdx[2 * i + 1]};
+        d.duvdy = {p.duvdy[2 * i], p.duvdy[2 * i + 1]};
+        work(i, makeFrame(kind, Covector3f(vec3At(p.normals, i)), d));
+    }
+}
+
+void store(float* array, std::size_t i, const glm::vec3& v)
+{
+    array[3 * i] = v.x, array[3 * i + 1] = v.y, array[3 * i + 2] = v.z;
+}
+
+// A frame of the vertices at a place.
+class VertexFrames {
+public:
+    VertexFrames(const char* frame, const cotan_vertex_places* given) : p_(checked(given, "places"))
+    {
+        const auto kind = frameFromName(word(frame, "frame"));
+        if (!kind || !readsVertices(*kind))
+            fail(ErrorKind::usage,
+                 "frame: expected one that is made at the vertices, found '" + std::string(frame) + "'");
+        kind_ = *kind;
+        const bool smooth = readsCotangents(kind_);
+        require(p_.count == 0 || (p_.normals && (smooth ? p_.cotangents_u && p_.cotangents_v : p_.tangents != nullptr)),
+                smooth ? "places: expected normals and two arrays of cotangents, found null"
+                       : "places: expected normals and tangents, found null");
+    }
+
+    std::size_t count() const { return p_.count; }
+
+    f32::cotan_frame at(std::size_t i) const
+    {
+        const glm::vec3 n = vec3At(p_.normals, i);
+        if (readsCotangents(kind_))
+            return evaluateCotangents(kind_, n, vec3At(p_.cotangents_u, i), vec3At(p_.cotangents_v, i));
+        const float* t = p_.tangents + 4 * i;
+        const glm::vec4 tangent = tangentAlongV({t[0], t[1], t[2], t[3]});
+        return evaluateTangents(kind_, n, glm::vec3(tangent), tangent.w);
+    }
+
+private:
+    const cotan_vertex_places& p_;
+    Frame kind_ = Frame::smooth;
+};
+
+// The words of the kinds are not asked of the table of frames, which cotan/tangents would have to carry.
+Frame tangentKind(const char* kind)
+{
+    const std::string_view which = word(kind, "kind");
+    if (which != "vertex" && which != "mikktspace")
+        fail(ErrorKind::usage, "kind: expected mikktspace or vertex, found '" + std::string(which) + "'");
+    return which == "vertex" ? Frame::vertex : Frame::mikktspace;
+}
+
+void storeTangents(const std::vector<glm::vec4>& made, float* tangents)
+{
+    std::memcpy(tangents, made.data(), made.size() * sizeof(glm::vec4));
+}
+
+void storeCotangents(const Cotangents& made, float* u, float* v)
+{
+    std::memcpy(u, made.u.data(), made.u.size() * sizeof(glm::vec3));
+    std::memcpy(v, made.v.data(), made.v.size() * sizeof(glm::vec3));
+}
+
+// Tells of their begin and their end only.
+Result<std::vector<glm::vec4>> vertexTangentsWithProgress(const MeshView& mesh, const Progress& progress)
+{
+    if (progress && !progress(0))
+        return stoppedError();
+    std::vector<glm::vec4> made = vertexTangents(mesh);
+    if (progress && !progress(1))
+        return stoppedError();
+    return made;
+}
+
+} // namespace
+
+int cotan_frame_count(void) { return kFrameCount; }
+
+const char* cotan_frame_name(int frame)
+{
+    return isFrame(frame) ? name(Frame(frame)).data() : nullptr; // literals: they end with a zero
+}
+
+cotan_status cotan_frame_apply(const char* frame, const cotan_places* places, const float* texels, float* normals,
+                               char* message, size_t message_size)
+{
+    return call(message, message_size, [&] {
+        require(texels && normals, "texels and normals: expected arrays, found null");
+        forEachPlace(frame, places, [&](std::size_t i, const CotangentFrame<float>& f) {
+            store(normals, i, perturb(f, vec3At(texels, i)).raw());
+        });
+    });
+}
+
+cotan_status cotan_frame_encode(const char* frame, const cotan_places* places, const float* normals, float* texels,
+                                char* message, size_t message_size)
+{
+    return call(message, message_size, [&] {
+        require(texels && normals, "texels and normals: expected arrays, found null");
+        forEachPlace(frame, places, [&](std::size_t i, const CotangentFrame<float>& f) {
+            store(texels, i, encode(f, Covector3f(vec3At(normals, i))));
+        });
+    });
+}
+
+cotan_status cotan_vertex_frame_apply(const char* frame, const cotan_vertex_places* places, const float* texels,
+                                      float* normals, char* message, size_t message_size)
+{
+    return call(message, message_size, [&] {
+        require(texels && normals, "texels and normals: expected arrays, found null");
+        const VertexFrames frames(frame, places);
+        for (std::size_t i = 0; i < frames.count(); ++i)
+            store(normals, i, f32::cotan_apply(frames.at(i), vec3At(texels, i)));
+    });
+}
+
+cotan_status cotan_vertex_frame_encode(const char* frame, const cotan_vertex_places* places, const float* normals,
+                                       float* texels, char* message, size_t message_size)
+{
+    return call(message, message_size, [&] {
+        require(texels && normals, "texels and normals: expected arrays, found null");
+        const VertexFrames frames(frame, places);
+        for (std::size_t i = 0; i < frames.count(); ++i)
+            store(texels, i, f32::cotan_encode(frames.at(i), vec3At(normals, i)));
+    });
+}
+
+cotan_status cotan_tangents(const char* kind, const cotan_mesh* mesh, int threads, float* tangents, char* message,
+                            size_t message_size)
+{
+    return call(message, message_size, [&] {
+        const Frame frame = tangentKind(kind);
+        require(threads >= 0, "threads: expected 0 or more");
+        require(tangents, "tangents: expected an array, found null");
+        storeTangents(generateTangents(frame, viewOf(mesh), threads), tangents);
+    });
+}
+
+cotan_status cotan_tangents_with_progress(const char* kind, const cotan_mesh* mesh, int threads,
+                                          cotan_progress progress, void* user, float* tangents, char* message,
+                                          size_t message_size)
+{
+    return call(message, message_size, [&] {
+        const Frame frame = tangentKind(kind);
+        require(threads >= 0, "threads: expected 0 or more");
+        require(tangents, "tangents: expected an array, found null");
+        const MeshView view = viewOf(mesh);
+        const Progress told = progressOf(progress, user);
+        storeTangents(valueOf(frame == Frame::vertex ? vertexTangentsWithProgress(view, told)
+                                                     : mikktspaceTangents(view, threads, told)),
+                      tangents);
+    });
+}
+
+cotan_status cotan_smooth_cotangents(const cotan_mesh* mesh, float* u, float* v, char* message, size_t message_size)
+{
+    return call(message, message_size, [&] {
+        require(u && v, "u and v: expected arrays, found null");
+        storeCotangents(smoothCotangents(viewOf(mesh)), u, v);
+    });
+}
+
+cotan_status cotan_smooth_cotangents_with_progress(const cotan_mesh* mesh, int threads, cotan_progress progress,
+                                                   void* user, float* u, float* v, char* message, size_t message_size)
+{
+    return call(message, message_size, [&] {
+        require(threads >= 0, "threads: expected 0 or more");
+        require(u && v, "u and v: expected arrays, found null");
+        storeCotangents(valueOf(smoothCotangents(viewOf(mesh), threads, progressOf(progress, user))), u, v);
+    });
+}

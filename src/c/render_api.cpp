@@ -1,0 +1,101 @@
+// cotan.h: the picture that `cotan render` draws.
+#include "bake/report_words.hpp"
+#include "core/loops.hpp"
+#include "cotan/picture.hpp"
+#include "inspect/statistics.hpp"
+#include "json_text.hpp"
+#include "model_files.hpp"
+#include "picture/words.hpp"
+#include "scene/meant_frame.hpp"
+
+using namespace cotan;
+using namespace cotan::c;
+
+namespace {
+
+struct Wanted {
+    PictureOptions picture;
+    std::string frame{kAutoFrame};
+};
+
+// What the words ask for, checked as the command line checks it.
+Wanted readWords(const cotan_render_options& o)
+{
+    Wanted wanted;
+    Arguments a("render", "", "");
+    addPictureOptions(a, wanted.picture);
+    addFrameOption(a, wanted.frame);
+    addShowOption(a, wanted.picture.show);
+    a.does([] { return Done{}; });
+    require(o.word_count == 0 || o.words, "options.words: expected an array, found null");
+    std::vector<std::string> words;
+    for (std::size_t i = 0; i < o.word_count; ++i)
+        words.emplace_back(word(o.words[i], "options.words"));
+    const auto print = [](const std::string&) {
+        fail(ErrorKind::usage, "options.words: expected what is to be drawn, found --help or --version");
+    };
+    if (const Status read = a.run(std::move(words), print); !read)
+        throw Failure{read.error()};
+    wanted.picture.use = wanted.picture.show != "shaded" ? PictureUse::data
+        : o.floats != 0                                  ? PictureUse::radiance
+                                                         : PictureUse::shown;
+    return wanted;
+}
+
+// The model's bytes in place of a file.
+void readFrom(const ModelFiles& source, PictureOptions& options)
+{
+    if (!options.model.empty() || !options.shape.empty())
+        fail(ErrorKind::usage,
+             "model: expected bytes or a file or a shape, found also '" + options.model + options.shape + "'");
+    const LoadLimits limits = source.limits();
+    options.model = source.name();
+    options.readFile = limits.readFile;
+    options.decode = limits.decode;
+}
+
+Image draw(const Wanted& wanted, const cotan_render_options& o, Json& report)
+{
+    const FrameChoice frame = valueOf(parseFrameChoice(wanted.frame));
+    if (const Status fits = checkLighting(wanted.picture, frame); !fits)
+        throw Failure{fits.error()};
+    Picture picture = valueOf(openPicture(wanted.picture, o.threads, {frame, Frame::exact}));
+    picture.view.frame = picture.frames.front();
+    picture.view.output = outputOf(wanted.picture.show);
+    const auto painter = valueOf(openPicturePainter(wanted.picture, picture));
+    painter->progress = progressOf(o.progress, o.user);
+    report = {{"frame", name(picture.view.frame)}, {"view", wanted.picture.show}, {"device", painter->device()}};
+    report.update(countsOf(picture.scene));
+    if (!painter->note.empty())
+        report["note"] = painter->note;
+    if (const std::string note = frameNote(picture.scene, picture.view.frame); !note.empty())
+        report["frame_note"] = note;
+    Image image =
+        valueOf(drawShow(*painter, picture.scene, picture.view, wanted.picture.show, o.floats != 0,
+                         [&](const AngleStatistics& degrees) { report["error_against_exact"] = toJson(degrees); }));
+    if (const Status laid = layEdges(*painter, picture.view, wanted.picture, picture.edges, image); !laid)
+        throw Failure{laid.error()};
+    return image;
+}
+
+} // namespace
+
+cotan_status cotan_render(const void* model, size_t model_size, const cotan_model_files* files,
+                          const cotan_render_options* options, cotan_image** image, cotan_bytes** json, char* message,
+                          size_t message_size)
+{
+    return call(message, message_size, [&] {
+        require(image, "image: expected a place, found null");
+        const cotan_render_options o = optionsOf(options, "options");
+        require(o.threads >= 0, "options.threads: expected 0 or more");
+        Wanted wanted = readWords(o);
+        const ModelFiles source(model, model_size, files);
+        if (model)
+            readFrom(source, wanted.picture);
+        Json report;
+        auto made = std::make_unique<cotan_image>();
+        withThreads(o.threads, [&] { made->image = draw(wanted, o, report); });
+        giveText("cotan-render-result", report, json);
+        *image = made.release();
+    });
+}

@@ -1,0 +1,41 @@
+// cotan.h: shader text.
+#include "cotan/shader_text.hpp"
+
+#include "call.hpp"
+#include "cotan/convention.hpp"
+
+using namespace cotan;
+using namespace cotan::c;
+
+cotan_status cotan_shader_text(const char* language, const char* frame, const char* convention, char* text,
+                               size_t* text_size, char* message, size_t message_size)
+{
+    return call(message, message_size, [&] {
+        require(text_size, "text_size: expected a place, found null");
+        shader_text::Choice choice;
+        const auto known = shader_text::languageFromName(word(language, "language"));
+        if (!known)
+            fail(ErrorKind::usage,
+                 "language: expected glsl, essl, hlsl, wgsl, msl, cpp or godot, found '" + std::string(language) + "'");
+        const std::string_view words = word(frame, "frame"), name = words.substr(0, words.find(','));
+        const auto which = frameFromName(name);
+        if (!which)
+            fail(ErrorKind::usage, "frame: there is none named '" + std::string(name) + "'");
+        choice.language = *known;
+        choice.frame = *which;
+        if (name.size() < words.size()) { // "triangle,vertex": a comma, then the stage
+            const std::string_view stage = words.substr(name.size() + 1);
+            const auto wanted = shader_text::stageFromName(stage);
+            if (!wanted)
+                fail(ErrorKind::usage,
+                     "stage: expected fragment, vertex, mesh or compute, found '" + std::string(stage) + "'");
+            choice.stage = *wanted;
+        }
+        choice.convention = valueOf(sampledFromWords(word(convention, "convention")), "convention");
+        const shader_text::ShaderText made = valueOf(shader_text::makeShaderText(choice), "shader");
+        const std::size_t needed = made.text.size() + 1;
+        if (text && *text_size >= needed)
+            std::memcpy(text, made.text.c_str(), needed);
+        *text_size = needed;
+    });
+}

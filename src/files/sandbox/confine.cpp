@@ -1,0 +1,218 @@
+#include "files/sandbox/confine.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cmath>
+#include <csignal>
+#include <cstddef>
+#include <vector>
+
+#include <linux/audit.h>
+#include <linux/filter.h>
+#include <linux/landlock.h>
+#include <linux/seccomp.h>
+#include <sys/prctl.h>
+#include <sys/resource.h>
+#include <sys/syscall.h>
+#include <unistd.h>
+
+namespace cotan {
+
+namespace {
+
+void setLimit(int what, rlim_t now, rlim_t most)
+{
+    rlimit limit{};
+    ::getrlimit(__rlimit_resource_t(what), &limit);
+    limit.rlim_max = std::min(limit.rlim_max, most);
+    limit.rlim_cur = std::min(limit.rlim_max, now);
+    ::setrlimit(__rlimit_resource_t(what), &limit);
+}
+
+// Every right to change the file system, and none granted anywhere. Kernels before 5.13 refuse.
+void forbidChanges()
+{
+    const long version = ::syscall(SYS_landlock_create_ruleset, nullptr, 0, LANDLOCK_CREATE_RULESET_VERSION);
+    if (version < 1)
+        return;
+    landlock_ruleset_attr rights{};
+    rights.handled_access_fs = LANDLOCK_ACCESS_FS_WRITE_FILE | LANDLOCK_ACCESS_FS_REMOVE_DIR
+        | LANDLOCK_ACCESS_FS_REMOVE_FILE | LANDLOCK_ACCESS_FS_MAKE_CHAR | LANDLOCK_ACCESS_FS_MAKE_DIR
+        | LANDLOCK_ACCESS_FS_MAKE_REG | LANDLOCK_ACCESS_FS_MAKE_SOCK | LANDLOCK_ACCESS_FS_MAKE_FIFO
+        | LANDLOCK_ACCESS_FS_MAKE_BLOCK | LANDLOCK_ACCESS_FS_MAKE_SYM;
+    if (version >= 3)
+        rights.handled_access_fs |= 1u << 14; // truncation; the headers of Debian 12 have no name for it
+    const long rules = ::syscall(SYS_landlock_create_ruleset, &rights, sizeof rights, 0);
+    if (rules < 0)
+        return;
+    ::syscall(SYS_landlock_restrict_self, rules, 0);
+    ::close(int(rules));
+}
+
+#if defined(__x86_64__)
+constexpr std::uint32_t kArchitecture = AUDIT_ARCH_X86_64;
+constexpr std::uint32_t kForeign = 0x40000000; // calls of the x32 kind
+#elif defined(__aarch64__)
+constexpr std::uint32_t kArchitecture = AUDIT_ARCH_AARCH64;
+constexpr std::uint32_t kForeign = 0x7fffffff;
+#else
+constexpr std::uint32_t kArchitecture = 0; // no filter
+constexpr std::uint32_t kForeign = 0;
+#endif
+
+// What no reader does. Files are Landlock's affair, but for what it leaves out: owners, modes, times.
+constexpr long kForbidden[] = {
+    SYS_execve,
+    SYS_execveat,
+    SYS_ptrace,
+    SYS_process_vm_readv,
+    SYS_process_vm_writev,
+    SYS_kill,
+    SYS_tkill,
+    SYS_rt_sigqueueinfo,
+    SYS_rt_tgsigqueueinfo,
+    SYS_pidfd_open,
+    SYS_pidfd_getfd,
+    SYS_pidfd_send_signal,
+    SYS_socket,
+    SYS_socketpair,
+    SYS_connect,
+    SYS_bind,
+    SYS_listen,
+    SYS_accept,
+    SYS_accept4,
+    SYS_io_uring_setup,
+    SYS_bpf,
+    SYS_perf_event_open,
+    SYS_userfaultfd,
+    SYS_keyctl,
+    SYS_add_key,
+    SYS_request_key,
+    SYS_mount,
+    SYS_umount2,
+    SYS_chroot,
+    SYS_pivot_root,
+    SYS_unshare,
+    SYS_setns,
+    SYS_fchmod,
+    SYS_fchmodat,
+    SYS_fchown,
+    SYS_fchownat,
+    SYS_utimensat,
+    SYS_setxattr,
+    SYS_lsetxattr,
+    SYS_fsetxattr,
+    SYS_removexattr,
+    SYS_lremovexattr,
+    SYS_fremovexattr,
+    SYS_shmget,
+    SYS_shmat,
+    SYS_msgget,
+    SYS_mq_open,
+    SYS_setsid,
+    SYS_setpgid,
+    SYS_ioctl,  // a terminal would take what is put into its input for the user's
+#ifdef SYS_fork // the old calls that newer machines do without
+    SYS_fork,
+    SYS_vfork,
+    SYS_chmod,
+    SYS_chown,
+    SYS_lchown,
+    SYS_utime,
+    SYS_utimes,
+    SYS_futimesat,
+#endif
+};
+
+constexpr std::uint32_t kAllow = SECCOMP_RET_ALLOW, kRefuse = SECCOMP_RET_ERRNO | EPERM;
+
+struct SystemCallFilter {
+    std::vector<sock_filter> code;
+
+    void add(std::uint16_t what, std::uint32_t k, std::uint8_t whenTrue = 0, std::uint8_t whenFalse = 0)
+    {
+        code.push_back({what, whenTrue, whenFalse, k});
+    }
+    void load(std::size_t offset) { add(BPF_LD | BPF_W | BPF_ABS, std::uint32_t(offset)); }
+    void give(std::uint32_t verdict) { add(BPF_RET | BPF_K, verdict); }
+    // The verdict for one call.
+    void call(long number, std::uint32_t verdict)
+    {
+        add(BPF_JMP | BPF_JEQ | BPF_K, std::uint32_t(number), 0, 1);
+        give(verdict);
+    }
+    // A call that is allowed while `test` holds for the low half of argument i.
+    void callWith(long number, int argument, std::uint16_t test, std::uint32_t value)
+    {
+        add(BPF_JMP | BPF_JEQ | BPF_K, std::uint32_t(number), 0, 4);
+        load(offsetof(seccomp_data, args) + 8 * std::size_t(argument));
+        add(std::uint16_t(BPF_JMP | test | BPF_K), value, 0, 1);
+        give(kAllow);
+        give(kRefuse);
+    }
+};
+
+void forbidCalls()
+{
+    if (kArchitecture == 0)
+        return;
+    SystemCallFilter filter;
+    filter.load(offsetof(seccomp_data, arch));
+    filter.add(BPF_JMP | BPF_JEQ | BPF_K, kArchitecture, 1, 0);
+    filter.give(SECCOMP_RET_KILL_PROCESS);
+    filter.load(offsetof(seccomp_data, nr));
+    filter.add(BPF_JMP | BPF_JGE | BPF_K, kForeign, 0, 1);
+    filter.give(kRefuse);
+    for (const long number : kForbidden)
+        filter.call(number, kRefuse);
+    filter.call(SYS_clone3, SECCOMP_RET_ERRNO | ENOSYS);                // its flags cannot be seen; clone's can
+    filter.callWith(SYS_clone, 0, BPF_JSET, 0x00010000);                // CLONE_THREAD
+    filter.callWith(SYS_tgkill, 0, BPF_JEQ, std::uint32_t(::getpid())); // abort()
+    filter.callWith(SYS_prlimit64, 0, BPF_JEQ, 0);                      // our own
+    filter.give(kAllow);
+    const sock_fprog program{static_cast<unsigned short>(filter.code.size()), filter.code.data()};
+    ::prctl(PR_SET_SECCOMP, SECCOMP_MODE_FILTER, &program);
+}
+
+} // namespace
+
+void dieWith(std::int64_t parent, int signal)
+{
+    ::prctl(PR_SET_PDEATHSIG, signal);
+    if (::getppid() != parent) // it was quicker
+        ::_exit(1);
+}
+
+void leaveNoCore()
+{
+    setLimit(RLIMIT_CORE, 0, 0);
+    ::prctl(PR_SET_DUMPABLE, 0); // cores that go to a program have no limit
+}
+
+void confine()
+{
+    leaveNoCore();
+    setLimit(RLIMIT_FSIZE, 0, 0);
+    setLimit(RLIMIT_STACK, 8 << 20, 8 << 20); // endless recursion ends soon
+    if (::prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0) != 0)
+        return;
+    forbidChanges();
+    if (!kSanitized) // these look at us through another process when we end
+        forbidCalls();
+}
+
+void limitMemory(double megabytes, double most)
+{
+    if (!kSanitized)
+        setLimit(RLIMIT_DATA, rlim_t(megabytes) << 20, rlim_t(most) << 20);
+}
+
+void limitTo(const ReaderBudget& budget, const ReaderBudget& most)
+{
+    const auto seconds = [](const ReaderBudget& b) { return rlim_t(std::ceil(b.seconds * (kSanitized ? 20 : 1))); };
+    limitMemory(budget.megabytes, most.megabytes);
+    setLimit(RLIMIT_CPU, seconds(budget), seconds(most) + 5); // at the lower one a signal says why
+}
+
+} // namespace cotan

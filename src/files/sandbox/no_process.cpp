@@ -1,0 +1,25 @@
+// Where there are no processes.
+#include "files/sandbox/confine.hpp"
+#include "files/sandbox/process.hpp"
+
+namespace cotan {
+
+Result<std::unique_ptr<ReaderProcess>> ReaderProcess::start(ReaderRequest request)
+{
+    return unavailableError(request.name + ": there are no processes here that could read it");
+}
+
+ReaderProcess::~ReaderProcess() = default;
+Status ReaderProcess::await() { return failure(); }
+void ReaderProcess::restartClock() {}
+Error ReaderProcess::failure() { return unavailableError("there are no processes here"); }
+
+void Descriptor::close() {}
+
+void dieWith(std::int64_t, int) {}
+void leaveNoCore() {}
+void limitMemory(double, double) {}
+void confine() {}
+void limitTo(const ReaderBudget&, const ReaderBudget&) {}
+
+} // namespace cotan

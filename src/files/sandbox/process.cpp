@@ -1,0 +1,266 @@
+#include "files/sandbox/process.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <csignal>
+#include <cstring>
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <poll.h>
+#include <sys/socket.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "files/account.hpp"
+#include "files/extension.hpp"
+#include "files/sandbox/spawn.hpp"
+
+namespace cotan {
+
+namespace {
+
+using Seconds = std::chrono::duration<double>;
+
+constexpr double kWallPerProcessor = 15; // other programs want the processor, too
+constexpr std::size_t kSaid = 4096;      // bytes of standard error that are kept
+
+std::string readerName(const ReaderRequest& request)
+{
+    std::string extension = lowerExtension(request.name);
+    std::ranges::transform(extension, extension.begin(), [](unsigned char c) { return std::toupper(c); });
+    const bool known = extension.size() > 1 && extension.size() < 6;
+    const std::string format = known ? extension.substr(1) + " " : "";
+    if (request.kind == ReaderKind::draco)
+        return "the decoder of Draco streams";
+    return fmt::format("the reader of {}{}", format, request.kind == ReaderKind::model ? "files" : "pictures");
+}
+
+// Above the standard three, which the child gets anew.
+Descriptor above(int number)
+{
+    const Descriptor original(number);
+    return Descriptor(::fcntl(number, F_DUPFD_CLOEXEC, 3));
+}
+
+bool makeChannels(Descriptor (&socket)[2], Descriptor (&messages)[2])
+{
+    int pair[2];
+    if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, pair) != 0)
+        return false;
+    socket[0] = above(pair[0]);
+    socket[1] = above(pair[1]);
+    if (::pipe2(pair, O_CLOEXEC) != 0)
+        return false;
+    messages[0] = above(pair[0]);
+    messages[1] = above(pair[1]);
+    return socket[0].get() >= 0 && socket[1].get() >= 0 && messages[0].get() >= 0 && messages[1].get() >= 0
+        && ::fcntl(messages[0].get(), F_SETFL, O_NONBLOCK) == 0;
+}
+
+} // namespace
+
+void Descriptor::close()
+{
+    if (number_ >= 0)
+        ::close(number_);
+    number_ = -1;
+}
+
+std::string printable(std::string text, std::size_t most)
+{
+    if (text.size() > most)
+        text.replace(most, text.size() - most, "...");
+    std::ranges::replace_if(
+        text, [](unsigned char c) { return c < 0x20 || c == 0x7f; }, ' ');
+    return text;
+}
+
+ReaderProcess::ReaderProcess(const ReaderRequest& request)
+    : limits_(request.limits), name_(request.name), reader_(readerName(request)), fileBytes_(request.fileBytes),
+      answer_([this](std::span<std::byte> bytes) { return receive(bytes); },
+              std::uint64_t(budgetFor(limits_, SIZE_MAX, SIZE_MAX).megabytes) << 20),
+      question_([this](std::span<const std::byte> bytes) { return send(bytes); })
+{
+    setDeadline();
+}
+
+ReaderProcess::~ReaderProcess() { kill(); }
+
+Result<std::unique_ptr<ReaderProcess>> ReaderProcess::start(ReaderRequest request)
+{
+    std::unique_ptr<ReaderProcess> started(new ReaderProcess(request));
+    const auto failed = [&](int problem) {
+        return unavailableError(fmt::format("{}: cannot start a process to read it in, {}: {}", request.name,
+                                            request.limits.sandbox.program.string(), std::strerror(problem)));
+    };
+    Descriptor socket[2], messages[2];
+    if (!makeChannels(socket, messages))
+        return failed(errno);
+    std::vector<std::string> words = request.limits.sandbox.arguments;
+    words.emplace_back(kReaderWord);
+    const SpawnRequest child{request.limits.sandbox.program.string(), words, socket[1].get(), messages[1].get()};
+    if (const int problem = spawn(child, started->process_))
+        return failed(problem);
+    socket[1].close(); // while one of the child's ends is ours, it never hangs up
+    messages[1].close();
+    started->socket_ = std::move(socket[0]);
+    started->messages_ = std::move(messages[0]);
+    request.parent = ::getpid();
+    exchangeRequest(started->question_, request);
+    started->question_.flush(); // where nobody listens, nobody answers, and await() says why
+    return started;
+}
+
+Status ReaderProcess::await()
+{
+    for (;;) {
+        ReaderFrame frame = ReaderFrame::error;
+        answer_.choice(frame, ReaderFrame::error);
+        if (frame == ReaderFrame::expect) {
+            std::uint64_t bytes = 0;
+            answer_.number(bytes);
+            decodedBytes_ += std::min(bytes, std::uint64_t(1) << 40);
+            setDeadline();
+        }
+        std::string input;
+        if (frame == ReaderFrame::input)
+            answer_.text(input);
+        if (!answer_.good())
+            return failure();
+        if (Status free = noteInput(input); !input.empty() && !free)
+            return free;
+        if (frame == ReaderFrame::value)
+            return Done{};
+        if (frame == ReaderFrame::error) {
+            Error error;
+            exchangeError(answer_, error);
+            if (error.kind < ErrorKind::usage || error.kind > ErrorKind::limit)
+                answer_.refuse();
+            if (!answer_.good())
+                return failure();
+            return Error{error.kind, printable(std::move(error.message), 4096)};
+        }
+    }
+}
+
+void ReaderProcess::restartClock()
+{
+    began_ = Clock::now();
+    setDeadline();
+}
+
+void ReaderProcess::setDeadline()
+{
+    const double seconds = kWallPerProcessor * budgetFor(limits_, fileBytes_, decodedBytes_).seconds;
+    deadline_ = began_ + std::chrono::duration_cast<Clock::duration>(Seconds(seconds));
+}
+
+void ReaderProcess::listen()
+{
+    std::array<char, 4096> bytes;
+    const ssize_t got = ::read(messages_.get(), bytes.data(), bytes.size());
+    if (got > 0)
+        said_.append(bytes.data(), std::min(std::size_t(got), kSaid - std::min(kSaid, said_.size())));
+    else if (got == 0 || (errno != EINTR && errno != EAGAIN))
+        messages_.close();
+}
+
+// Waits until the socket can be used, or the time is over.
+bool ReaderProcess::ready(short events)
+{
+    for (;;) {
+        const auto left = std::chrono::ceil<std::chrono::milliseconds>(deadline_ - Clock::now());
+        late_ = left.count() <= 0;
+        if (late_)
+            return false;
+        pollfd waiting[2] = {{socket_.get(), events, 0}, {messages_.get(), POLLIN, 0}};
+        const int found = ::poll(waiting, 2, int(std::min<std::int64_t>(left.count(), 1'000'000)));
+        if (found < 0 && errno != EINTR)
+            return false;
+        if (found > 0 && waiting[1].revents != 0)
+            listen();
+        if (found > 0 && waiting[0].revents != 0)
+            return true;
+    }
+}
+
+bool ReaderProcess::send(std::span<const std::byte> bytes)
+{
+    while (!bytes.empty()) {
+        const ssize_t sent = ::send(socket_.get(), bytes.data(), bytes.size(), MSG_DONTWAIT | MSG_NOSIGNAL);
+        if (sent >= 0)
+            bytes = bytes.subspan(std::size_t(sent));
+        else if ((errno != EAGAIN && errno != EINTR) || !ready(POLLOUT))
+            return false;
+    }
+    return true;
+}
+
+std::size_t ReaderProcess::receive(std::span<std::byte> bytes)
+{
+    for (;;) {
+        const ssize_t got = ::recv(socket_.get(), bytes.data(), bytes.size(), MSG_DONTWAIT);
+        if (got >= 0)
+            return std::size_t(got);
+        if ((errno != EAGAIN && errno != EINTR) || !ready(POLLIN))
+            return 0;
+    }
+}
+
+bool ReaderProcess::ended(int& status)
+{
+    const auto listenOn = [&] {
+        pollfd waiting{messages_.get(), POLLIN, 0};
+        while (messages_.get() >= 0 && said_.size() < kSaid && ::poll(&waiting, 1, 0) > 0)
+            listen();
+    };
+    for (;;) {
+        listenOn();
+        const pid_t found = ::waitpid(process_, &status, WNOHANG);
+        if (found != 0 && !(found < 0 && errno == EINTR)) {
+            listenOn(); // its last words
+            process_ = -1;
+            return found > 0; // else somebody else waits for our children
+        }
+        late_ = Clock::now() >= deadline_;
+        if (late_)
+            return false;
+        ::usleep(500);
+    }
+}
+
+void ReaderProcess::kill()
+{
+    if (process_ < 0)
+        return;
+    ::kill(process_, SIGKILL);
+    while (::waitpid(process_, nullptr, 0) < 0 && errno == EINTR)
+        ;
+    process_ = -1;
+}
+
+Error ReaderProcess::failure()
+{
+    const ReaderBudget budget = budgetFor(limits_, fileBytes_, decodedBytes_);
+    const auto line = [&](const std::string& what) {
+        const std::string first = printable(said_.substr(0, said_.find('\n')), 160);
+        return inputError(fmt::format("{}: {} {}{}", name_, reader_, what, first.empty() ? "" : ": " + first));
+    };
+    int status = 0;
+    const bool dead = !late_ && answer_.ended() && ended(status);
+    kill();
+    if (late_ || (dead && WIFSIGNALED(status) && WTERMSIG(status) == SIGXCPU))
+        return line(fmt::format("took too long; the limit is {:.0f} seconds", budget.seconds));
+    if (!answer_.ended())
+        return line("gave an answer that makes no sense");
+    if (dead && WIFEXITED(status) && WEXITSTATUS(status) == kNoMemoryCode)
+        return line(fmt::format("takes too much memory; the limit is {:.0f} MiB", budget.megabytes));
+    if (dead && WIFSIGNALED(status))
+        return line(fmt::format("{} (signal {}, {})", WTERMSIG(status) == SIGKILL ? "was killed" : "crashed",
+                                WTERMSIG(status), ::strsignal(WTERMSIG(status))));
+    return line("ended without an answer");
+}
+
+} // namespace cotan

@@ -1,0 +1,86 @@
+// The parent's side of a sandboxed reader: a child process that is started, asked, timed and ended.
+#pragma once
+
+#include <chrono>
+#include <cstddef>
+#include <memory>
+#include <span>
+#include <string>
+#include <utility>
+
+#include <sys/types.h>
+
+#include "files/sandbox/request.hpp"
+
+namespace cotan {
+
+// An open file of the system.
+class Descriptor {
+public:
+    Descriptor() = default;
+    explicit Descriptor(int number) : number_(number) {}
+    Descriptor(Descriptor&& other) noexcept : number_(other.number_) { other.number_ = -1; }
+    Descriptor& operator=(Descriptor&& other) noexcept
+    {
+        std::swap(number_, other.number_);
+        return *this;
+    }
+    ~Descriptor() { close(); }
+    int get() const { return number_; }
+    void close();
+
+private:
+    int number_ = -1;
+};
+
+class ReaderProcess {
+public:
+    // Starts limits.sandbox.program and sends it the request. Errors: ErrorKind::unavailable where it cannot be
+    // started.
+    static Result<std::unique_ptr<ReaderProcess>> start(ReaderRequest request);
+
+    ~ReaderProcess(); // kills it
+    ReaderProcess(const ReaderProcess&) = delete;
+    ReaderProcess& operator=(const ReaderProcess&) = delete;
+
+    WireIn& answer() { return answer_; }
+    WireOut& question() { return question_; }
+
+    // Waits for a result. Done: what follows in answer() is the value. Errors: the reader's own; failure().
+    Status await();
+
+    // Gives it as much time again, from now.
+    void restartClock();
+
+    // Why answer() is not good. Ends the process.
+    Error failure();
+
+private:
+    explicit ReaderProcess(const ReaderRequest& request);
+
+    using Clock = std::chrono::steady_clock;
+
+    void setDeadline();
+    bool ready(short events);
+    bool send(std::span<const std::byte> bytes);
+    std::size_t receive(std::span<std::byte> bytes);
+    void listen();           // takes what it says on standard error
+    bool ended(int& status); // waits for the process within its time
+    void kill();
+
+    LoadLimits limits_;
+    std::string name_, reader_; // the file, and "the reader of FBX files"
+    std::size_t fileBytes_, decodedBytes_ = 0;
+    pid_t process_ = -1; // -1: none, or waited for
+    Descriptor socket_, messages_;
+    std::string said_;
+    Clock::time_point began_ = Clock::now(), deadline_;
+    bool late_ = false;
+    WireIn answer_;
+    WireOut question_;
+};
+
+// A message of the other process, fit to be printed: one line, no control characters, not endless.
+std::string printable(std::string text, std::size_t most);
+
+} // namespace cotan

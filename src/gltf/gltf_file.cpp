@@ -1,0 +1,266 @@
+#include "gltf_file.hpp"
+
+#include <array>
+#include <optional>
+#include <string_view>
+
+#include "files/bytes.hpp"
+#include "files/extension.hpp"
+#include "files/folder.hpp"
+#include "parse_json.hpp"
+
+namespace cotan {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr std::uint32_t kMagic = 0x46546C67;       // "glTF"
+constexpr std::uint32_t kChunkJson = 0x4E4F534A;   // "JSON"
+constexpr std::uint32_t kChunkBinary = 0x004E4942; // "BIN\0"
+
+std::uint32_t readWord(std::span<const std::byte> bytes, std::size_t at)
+{
+    std::uint32_t word = 0;
+    for (std::size_t i = 0; i < 4; ++i)
+        word |= std::to_integer<std::uint32_t>(bytes[at + i]) << (8 * i);
+    return word;
+}
+
+void checkHeader(std::span<const std::byte> bytes)
+{
+    if (bytes.size() >= 8 && readWord(bytes, 4) == 1)
+        failGltfVersion1("GLB header");
+    if (bytes.size() < 20)
+        failGltf("GLB header: expected at least 20 bytes, found {}", bytes.size());
+    if (readWord(bytes, 4) != 2)
+        failGltf("GLB header: expected version 2, found {}", readWord(bytes, 4));
+    if (readWord(bytes, 8) != bytes.size())
+        failGltf("GLB header: it says that the file has {} bytes, found {}", readWord(bytes, 8), bytes.size());
+}
+
+// Walks the chunks; unknown ones are passed over, as the specification asks.
+void splitChunks(GltfFile& file, GltfWarnings& warnings)
+{
+    const std::span<const std::byte> bytes = file.bytes;
+    checkHeader(bytes);
+    std::size_t at = 12;
+    for (int chunk = 0; at < bytes.size(); ++chunk) {
+        const std::size_t left = bytes.size() - at;
+        if (left < 8)
+            failGltf("GLB chunk {}: expected a header of 8 bytes, found {} bytes", chunk, left);
+        const std::size_t length = readWord(bytes, at);
+        const std::uint32_t type = readWord(bytes, at + 4);
+        if (length > left - 8)
+            failGltf("GLB chunk {}: it says that it has {} bytes, but {} are left", chunk, length, left - 8);
+        if (length % 4 != 0)
+            warnings.add(fmt::format("GLB chunk {}", chunk), "its length is not a multiple of 4");
+        if ((chunk == 0) != (type == kChunkJson))
+            failGltf("GLB chunk {}: expected {}, found type 0x{:08x}", chunk,
+                     chunk == 0 ? "JSON first" : "JSON only once", type);
+        if (chunk == 0)
+            file.text = bytes.subspan(at + 8, length);
+        if (chunk == 1 && type == kChunkBinary)
+            file.binary = bytes.subspan(at + 8, length);
+        at += 8 + length;
+    }
+}
+
+// ---- URIs -----------------------------------------------------------------------------------
+
+int hexDigit(char c)
+{
+    if (c >= '0' && c <= '9')
+        return c - '0';
+    if (c >= 'a' && c <= 'f')
+        return c - 'a' + 10;
+    return c >= 'A' && c <= 'F' ? c - 'A' + 10 : -1;
+}
+
+// "%20" becomes a space. A percent sign that starts no code stands for itself: files named so
+// exist, written by exporters that do not encode.
+std::string decodePercent(std::string_view uri)
+{
+    std::string text;
+    for (std::size_t i = 0; i < uri.size(); ++i) {
+        const bool code = uri[i] == '%' && i + 2 < uri.size() && hexDigit(uri[i + 1]) >= 0 && hexDigit(uri[i + 2]) >= 0;
+        text += code ? static_cast<char>(hexDigit(uri[i + 1]) * 16 + hexDigit(uri[i + 2])) : uri[i];
+        i += code ? 2 : 0;
+    }
+    return text;
+}
+
+// The value of each base64 character, -1 for all others.
+constexpr std::array<signed char, 256> kBase64 = [] {
+    std::array<signed char, 256> values{};
+    values.fill(-1);
+    constexpr std::string_view digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    for (std::size_t i = 0; i < digits.size(); ++i)
+        values[static_cast<unsigned char>(digits[i])] = static_cast<signed char>(i);
+    return values;
+}();
+
+// RFC 4648, padding optional. Nothing if there is any other character or a dangling digit.
+std::optional<std::vector<std::byte>> decodeBase64(std::string_view text)
+{
+    for (int i = 0; i < 2 && text.ends_with('='); ++i)
+        text.remove_suffix(1);
+    if (text.size() % 4 == 1)
+        return std::nullopt;
+    std::vector<std::byte> bytes;
+    bytes.reserve(text.size() / 4 * 3 + 2);
+    std::uint32_t bits = 0;
+    int held = 0;
+    for (const char c : text) {
+        const int digit = kBase64[static_cast<unsigned char>(c)];
+        if (digit < 0)
+            return std::nullopt;
+        bits = bits << 6 | static_cast<std::uint32_t>(digit);
+        held += 6;
+        if (held >= 8) {
+            held -= 8;
+            bytes.push_back(static_cast<std::byte>(bits >> held & 0xff));
+        }
+    }
+    return bytes;
+}
+
+// "data:TYPE/SUBTYPE;base64,..." as RFC 2397 has it; the media type may be left out and may have
+// parameters, each of which needs a name.
+std::vector<std::byte> decodeDataUri(std::string_view uri, const std::string& field)
+{
+    const std::size_t comma = uri.find(',');
+    const std::string_view head = uri.substr(0, comma);
+    if (comma == std::string_view::npos || !head.ends_with(";base64") || head.find(";;") != std::string_view::npos)
+        failGltf("{}: expected data:TYPE;base64,... , found {}...", field, oneLine(std::string(uri.substr(0, 60))));
+    auto bytes = decodeBase64(uri.substr(comma + 1));
+    if (!bytes)
+        failGltf("{}: the data URI is not valid base64", field);
+    return std::move(*bytes);
+}
+
+bool hasScheme(std::string_view uri)
+{
+    const std::size_t end = uri.find_first_of(":/?#");
+    return end != std::string_view::npos && uri[end] == ':';
+}
+
+std::span<const std::byte> bufferFile(GltfFile& file, const fs::path& path, const std::string& field,
+                                      const LoadLimits& limits)
+{
+    auto known = file.bufferFiles.find(path);
+    if (known == file.bufferFiles.end()) {
+        Result<std::vector<std::byte>> bytes = readGltfResource(file, path, limits);
+        if (!bytes)
+            failGltf("{}: {}", field, bytes.error().message);
+        file.size += bytes->size();
+        known = file.bufferFiles.emplace(path, std::move(*bytes)).first;
+    }
+    return known->second;
+}
+
+} // namespace
+
+Result<std::vector<std::byte>> readGltfResource(const GltfFile& file, const fs::path& resource,
+                                                const LoadLimits& limits)
+{
+    if (!file.readFile)
+        return readFileBytes(resource, limits.fileBytes);
+    auto bytes = file.readFile(resource.string());
+    if (bytes && bytes->size() > limits.fileBytes)
+        return inputError(fmt::format("{}: the file has {} bytes, the limit is {}", resource.string(), bytes->size(),
+                                      limits.fileBytes));
+    return bytes;
+}
+
+GltfFile openGltf(const fs::path& path, const LoadLimits& limits, GltfWarnings& warnings)
+{
+    GltfFile file;
+    file.readFile = limits.readFile;
+    Result<std::vector<std::byte>> bytes = readGltfResource(file, path, limits);
+    if (!bytes)
+        throw GltfProblem{bytes.error().message};
+    file.bytes = std::move(*bytes);
+    file.size = file.bytes.size();
+    if (!file.readFile)
+        file.folder = fs::canonical(path.has_parent_path() ? path.parent_path() : fs::path("."));
+    file.isBinary = file.bytes.size() >= 4 && readWord(file.bytes, 0) == kMagic;
+    if (!file.isBinary && lowerExtension(path) == ".glb")
+        failGltf("GLB header: expected the file to begin with \"glTF\"");
+    if (file.isBinary)
+        splitChunks(file, warnings);
+    else
+        file.text = file.bytes;
+    file.json = parseGltfJson(file.text);
+    if (!file.isBinary)
+        file.bytes = {}; // large where buffers are embedded as text
+    file.text = {};
+    return file;
+}
+
+GltfResource resolveGltfUri(const GltfFile& file, std::string_view uri, const std::string& field, bool mayMiss)
+{
+    GltfResource resource;
+    if (uri.starts_with("data:")) {
+        resource.bytes = decodeDataUri(uri, field);
+        return resource;
+    }
+    if (hasScheme(uri))
+        failGltf("{}: expected a file in the model's folder, found \"{}\"", field, oneLine(std::string(uri)));
+    if (file.readFile) {
+        resource.file = decodePercent(uri);
+        return resource;
+    }
+    bool outside = false;
+    const std::optional<fs::path> found = findInFolder(file.folder, decodePercent(uri), outside);
+    if (outside)
+        failGltf("{}: expected a file in the model's folder, found \"{}\", which leads out of it", field,
+                 oneLine(std::string(uri)));
+    if (!found && !mayMiss)
+        failGltf("{}: there is no file \"{}\" in the model's folder", field, oneLine(std::string(uri)));
+    resource.file = found.value_or(fs::path());
+    return resource;
+}
+
+bool isGltfFallback(const gltf::Json& buffer)
+{
+    if (gltf::member(buffer, "uri"))
+        return false;
+    for (const char* const name : {"EXT_meshopt_compression", "KHR_meshopt_compression"})
+        if (const gltf::Json* const packed = gltf::extension(buffer, name))
+            return gltf::valueOr(*packed, "fallback", false);
+    return false;
+}
+
+void loadGltfBuffers(GltfFile& file, const LoadLimits& limits)
+{
+    const gltf::Json* const list = gltf::member(file.json, "buffers");
+    const std::size_t count = list ? list->size() : 0;
+    file.bufferBytes.reserve(count); // spans point into it
+    for (std::size_t i = 0; i < count; ++i) {
+        const std::string field = fmt::format("buffers[{}]", i);
+        const gltf::Json& buffer = (*list)[i];
+        if (isGltfFallback(buffer)) {
+            file.buffers.emplace_back();
+            continue;
+        }
+        const auto length = buffer["byteLength"].get<std::size_t>();
+        std::span<const std::byte> bytes;
+        if (const gltf::Json* const uri = gltf::member(buffer, "uri")) {
+            GltfResource resource = resolveGltfUri(file, uri->get_ref<const std::string&>(), field + ".uri");
+            if (resource.file.empty())
+                bytes = file.bufferBytes.emplace_back(std::move(resource.bytes));
+            else
+                bytes = bufferFile(file, resource.file, field + ".uri", limits);
+        } else if (i == 0 && file.isBinary) {
+            bytes = file.binary;
+        } else {
+            failGltf("{}.uri: missing; only the first buffer of a GLB may go without", field);
+        }
+        if (length > bytes.size())
+            failGltf("{}.byteLength: {} bytes are promised, found {}", field, length, bytes.size());
+        file.buffers.push_back(bytes.first(length));
+    }
+}
+
+} // namespace cotan

@@ -1,0 +1,87 @@
+// A glTF file up to the point where its JSON is known to have the right shape and its buffers are
+// in memory. Nothing here interprets the model.
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "cotan/files.hpp"
+#include "gltf/json/views.hpp"
+#include "problem.hpp"
+
+namespace cotan {
+
+// Where the bytes of a resource come from: a file in the model's folder, or decoded bytes.
+struct GltfResource {
+    std::filesystem::path file; // canonical; empty if the bytes are here
+    std::vector<std::byte> bytes;
+};
+
+inline constexpr const char* kDracoExtension = "KHR_draco_mesh_compression";
+
+// Compressed geometry as the file has it, for who writes the file again: nobody has to compress what nobody changed.
+struct GltfPacked {
+    struct Primitive {
+        std::size_t mesh = 0, primitive = 0;
+        gltf::Json draco;      // what KHR_draco_mesh_compression says
+        int indices = 0;       // the accessor
+        gltf::Json attributes; // by name the accessors
+    };
+    std::vector<Primitive> primitives;
+    std::map<int, gltf::Json> accessors;     // those that the streams fill, as the file has them
+    std::map<std::size_t, gltf::Json> views; // those of meshoptimizer, likewise
+    std::vector<std::string> required;       // which of the extensions the file requires
+};
+
+struct GltfFile {
+    std::function<Result<std::vector<std::byte>>(const std::string&)> readFile; // in place of the disk; LoadLimits
+    std::filesystem::path folder;                                               // canonical; nothing outside is opened
+    std::vector<std::byte> bytes;                                               // the whole file, where it is a GLB
+    std::span<const std::byte> text;                                            // its JSON, until that is parsed
+    std::span<const std::byte> binary; // the BIN chunk of a GLB; empty if there is none
+    bool isBinary = false;
+    std::size_t size = 0; // bytes of the model and, once they are loaded, of its buffer files
+    gltf::Json json;
+    std::vector<std::span<const std::byte>> buffers;                     // one for each buffer, exactly byteLength long
+    std::map<std::filesystem::path, std::vector<std::byte>> bufferFiles; // each is read once
+    std::vector<std::vector<std::byte>> bufferBytes;                     // decoded data URIs
+    std::vector<std::vector<std::byte>> unpackedBytes;                   // of buffers that unpackGltf has made
+    std::size_t unpacked = 0;                                            // how many bytes those are
+    GltfPacked packed;                                                   // what they were made of
+};
+
+// Reads the file, splits a GLB into chunks and parses the JSON. Every length is checked against
+// the file.
+GltfFile openGltf(const std::filesystem::path& path, const LoadLimits& limits, GltfWarnings& warnings);
+
+// The bytes of a resource that is a file, be it on the disk or not.
+Result<std::vector<std::byte>> readGltfResource(const GltfFile& file, const std::filesystem::path& resource,
+                                                const LoadLimits& limits);
+
+// Whether a buffer has no bytes because all its views are compressed: EXT_meshopt_compression's fallback.
+bool isGltfFallback(const gltf::Json& buffer);
+
+// Fills GltfFile::buffers; those of isGltfFallback stay empty. The JSON must have passed checkGltfShape.
+void loadGltfBuffers(GltfFile& file, const LoadLimits& limits);
+
+// What a URI of the model stands for. Data URIs are decoded. Files are looked up in the model's
+// folder; schemes, absolute paths and anything that leads out of the folder, be it by ".." or by a
+// symbolic link, are refused. field: where the URI stands, for messages. mayMiss: a file that does
+// not exist gives an empty resource instead of a failure.
+GltfResource resolveGltfUri(const GltfFile& file, std::string_view uri, const std::string& field, bool mayMiss = false);
+
+// Checks that every member the reader uses has the type, range and length that the glTF 2.0
+// specification asks for, and that every index points at something. Also the version and the
+// required extensions.
+void checkGltfShape(const gltf::Json& root, const LoadLimits& limits, GltfWarnings& warnings);
+
+// The same for what poseGltf reads.
+void checkGltfAnimations(const gltf::Json& root);
+
+} // namespace cotan

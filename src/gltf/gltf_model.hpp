@@ -1,0 +1,77 @@
+// What the parts of the glTF reader share: the structure, the bytes, the limits, and what has been taken of them.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <glm/mat4x4.hpp>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
+
+#include "cotan/files.hpp"
+#include "elements.hpp"
+#include "gltf_file.hpp"
+#include "problem.hpp"
+#include "structure.hpp"
+
+namespace cotan {
+
+struct GltfModel {
+    GltfFile file;
+    LoadLimits limits;
+    GltfWarnings warnings;
+    gltf::Structure structure;
+    std::vector<gltf::ViewBytes> views;    // the buffer views
+    std::vector<gltf::Elements> accessors; // all have passed findGltfAccessors
+    std::size_t verticesTaken = 0;         // against limits.vertices
+    std::size_t trianglesTaken = 0;        // against limits.triangles
+    std::size_t bytesTaken = 0;            // by arrays of vertices and triangles, against gltfAllowance
+};
+
+// Reads what `file`, just opened, holds, within `limits`: checks the JSON, loads the buffers, decodes compressed
+// geometry (unpack.hpp), fills the structure, the views and the accessors, moves the nodes (animate.hpp).
+void readGltfModel(GltfModel& model);
+
+// The bytes that the geometry of this file may take: a part that every file has, and so many times
+// its own size that only what is not in the file, or is read again and again, can go beyond it.
+// (Sixteen: a strip of bytes that becomes triangles with flat normals grows by the most. Four of what was
+// compressed, which has its own limit: bytes become floats.)
+inline std::size_t gltfAllowance(const GltfModel& model)
+{
+    return model.limits.geometryBytes + 16 * model.file.size + 4 * model.file.unpacked;
+}
+
+// Counts bytes before they are allocated. field: for the message where they are too many.
+void takeGltfBytes(GltfModel& model, std::size_t bytes, const std::string& field);
+
+// Fills GltfModel::views and ::accessors. Checks all buffer views, and all accessors with their sparse
+// parts, against the buffers and against the allowance, and refuses NaN and infinity in float accessors
+// other than texture coordinates. The readers below rely on it.
+void findGltfAccessors(GltfModel& model);
+
+// The elements of an accessor. field: for messages, what the accessor is used as. An element type or
+// component type that cannot be used so is refused, and so is an array that goes over the allowance.
+template<class Vector>
+std::vector<Vector> readGltfVectors(GltfModel& model, int accessor, const gltf::Choice& choice,
+                                    const std::string& field)
+{
+    takeGltfBytes(model, choice.size() * sizeof(Vector), field);
+    return gltf::readVectors<Vector>(model.accessors[std::size_t(accessor)], choice, {accessor, field});
+}
+
+// VEC3 (w = 1) or VEC4.
+std::vector<glm::vec4> readGltfColors(GltfModel& model, int accessor, const gltf::Choice& choice,
+                                      const std::string& field);
+std::vector<glm::uvec4> readGltfJoints(GltfModel& model, int accessor, const gltf::Choice& choice,
+                                       const std::string& field);
+// The first `count` float matrices; there may be more.
+std::vector<glm::mat4> readGltfMatrices(GltfModel& model, int accessor, std::size_t count, const std::string& field);
+// Vertex indices, each below vertexCount and none the primitive restart value.
+std::vector<std::uint32_t> readGltfIndices(GltfModel& model, int accessor, std::size_t vertexCount,
+                                           const std::string& field);
+
+} // namespace cotan

@@ -1,0 +1,157 @@
+#include "cotan/gltf.hpp"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "gltf/json/lookup.hpp"
+#include "gltf/json/placed.hpp"
+
+namespace cotan {
+
+using gltf::Json;
+
+namespace {
+
+std::string whyNoTangents(const GltfGeometry& geometry)
+{
+    if (geometry.indices.empty())
+        return "no triangles";
+    if (geometry.normals.empty())
+        return "no NORMAL";
+    if (geometry.texcoords.empty())
+        return fmt::format("no TEXCOORD_{}", geometry.texcoordSet);
+    return {};
+}
+
+Result<GltfPrimitiveGeometry> readPrimitive(const GltfDocument& document, std::size_t m, std::size_t p)
+{
+    auto geometry = gltfGeometry(document, m, p);
+    if (!geometry)
+        return geometry.error();
+    const Json& mesh = rootOf(document)["meshes"][m];
+    GltfPrimitiveGeometry read{m, p, mesh.value("name", fmt::format("mesh {}", m)), std::move(*geometry), {}};
+    if (mesh["primitives"].size() > 1)
+        read.name += fmt::format("/{}", p);
+    read.cannot = whyNoTangents(read.geometry);
+    makeUnit(read.geometry.normals);
+    return read;
+}
+
+bool hasNormalMap(const Json& root, std::size_t m, std::size_t p)
+{
+    const auto materials = materialsOf(root, root["meshes"][m]["primitives"][p]);
+    return std::any_of(materials.begin(), materials.end(), [&](std::size_t k) {
+        return std::ranges::any_of(kNormalSlots,
+                                   [&](NormalSlot slot) { return normalMapOf(root, k, slot).texture >= 0; });
+    });
+}
+
+// Calls visit(geometry, row), with the row filled as far as the file alone fills it, for each primitive that the
+// options ask for; keeps the rows.
+template<class Visit>
+Result<std::vector<PrimitiveTangents>> rowsOf(const GltfDocument& document, const TangentsOptions& options,
+                                              const Visit& visit)
+{
+    if (!readsTangents(options.frame))
+        return usageError(
+            fmt::format("tangents: expected the frame mikktspace or vertex; found {}", name(options.frame)));
+    std::vector<PrimitiveTangents> rows;
+    std::size_t all = 0, done = 0;
+    for (std::size_t m = 0; m < countOf(rootOf(document), "meshes"); ++m)
+        all += rootOf(document)["meshes"][m]["primitives"].size();
+    const Status status = forEachPrimitive(rootOf(document), [&](std::size_t m, std::size_t p) -> Status {
+        if (!options.mappedOnly || hasNormalMap(rootOf(document), m, p)) {
+            const auto read = readPrimitive(document, m, p);
+            if (!read)
+                return read.error();
+            PrimitiveTangents& row =
+                rows.emplace_back(PrimitiveTangents{m, p, read->name, read->geometry.indices.size() / 3,
+                                                    !read->geometry.tangents.empty(), false, read->cannot});
+            visit(*read, row);
+        }
+        if (options.progress && !options.progress(double(++done) / double(all)))
+            return stoppedError();
+        return Done{};
+    });
+    if (!status)
+        return status.error();
+    return rows;
+}
+
+std::vector<glm::vec4> generate(const GltfPrimitiveGeometry& read, const TangentsOptions& options)
+{
+    return generateTangents(options.frame, read.view(), options.threads);
+}
+
+// glTF asks for unit tangents: where MikkTSpace has zero, since directions cancel out, any will do.
+std::vector<glm::vec4> unitForFile(std::vector<glm::vec4> tangents)
+{
+    for (glm::vec4& t : tangents)
+        if (glm::vec3(t) == glm::vec3(0))
+            t.x = 1;
+    return tangents;
+}
+
+} // namespace
+
+Result<std::vector<GltfPrimitiveGeometry>> gltfPrimitives(const GltfDocument& document)
+{
+    std::vector<GltfPrimitiveGeometry> all;
+    const Status status = forEachPrimitive(rootOf(document), [&](std::size_t m, std::size_t p) -> Status {
+        auto read = readPrimitive(document, m, p);
+        if (!read)
+            return read.error();
+        all.push_back(std::move(*read));
+        return Done{};
+    });
+    if (!status)
+        return status.error();
+    return all;
+}
+
+Result<TangentsGiven> giveTangents(GltfDocument& document, const TangentsOptions& options)
+{
+    TangentsGiven given;
+    std::vector<GltfCornerTangents> tangents;
+    auto rows = rowsOf(document, options, [&](const GltfPrimitiveGeometry& read, PrimitiveTangents& row) {
+        if (!row.cannot.empty()) {
+            ++given.skipped;
+        } else if (row.stored && !options.replace) {
+            ++given.kept;
+        } else {
+            row.generated = true;
+            tangents.push_back({row.mesh, row.primitive, unitForFile(generate(read, options))});
+        }
+    });
+    if (!rows)
+        return rows.error();
+    const auto added = setGltfTangents(document, tangents);
+    if (!added)
+        return added.error();
+    given.primitives = std::move(*rows);
+    given.generated = tangents.size();
+    given.verticesAdded = *added;
+    return given;
+}
+
+Result<TangentsCompared> compareTangents(const GltfDocument& document, const TangentsOptions& options)
+{
+    TangentsCompared compared;
+    auto rows = rowsOf(document, options, [&](const GltfPrimitiveGeometry& read, PrimitiveTangents& row) {
+        if (!row.cannot.empty())
+            return;
+        if (!row.stored) {
+            ++compared.without;
+            return;
+        }
+        row.difference = tangentDifference(read.view(), read.geometry.tangents, generate(read, options));
+        append(compared.whole, *row.difference);
+    });
+    if (!rows)
+        return rows.error();
+    compared.primitives = std::move(*rows);
+    return compared;
+}
+
+} // namespace cotan

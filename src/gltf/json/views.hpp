@@ -1,0 +1,180 @@
+// What the JSON of a glTF file says, as plain values: one reading for loading, editing and converting.
+//
+// All functions want an object of a root whose structure openGltfDocument has checked. What is left out has
+// the default of the specification. Numbers of accessors, nodes and so on are indices into the root's
+// collections; -1: there is none.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <glm/mat4x4.hpp>
+#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
+#include <nlohmann/json.hpp>
+
+#include "cotan/scene.hpp"
+
+namespace cotan::gltf {
+
+using Json = nlohmann::ordered_json; // members stay in the order of the file
+
+// ---- JSON -----------------------------------------------------------------------------------
+
+// A member of an object; null where it is missing, and where `object` is none.
+const Json* member(const Json& object, std::string_view name);
+
+// A key of a material's extras: how its normal map stores signed numbers in unsigned ones. "biased": 2c - 1; any other
+// value, and none, is Cotan's default, whose zero is the middle code (docs/reference/conventions.md). A clear coat's
+// map has the default always.
+inline constexpr const char* kUnsignedKey = "cotanUnsigned";
+Expansion expansionOf(const Json& material);
+
+// What an object says under the name of an extension; null where it says nothing, or no object.
+const Json* extension(const Json& object, std::string_view name);
+
+template<class T> T valueOr(const Json& object, std::string_view name, T otherwise)
+{
+    const Json* const found = member(object, name);
+    return found ? found->get<T>() : otherwise;
+}
+
+// ---- numbers in buffers ---------------------------------------------------------------------
+
+enum class ElementType { scalar, vec2, vec3, vec4, mat2, mat3, mat4 };
+
+struct BufferView {
+    std::size_t buffer = 0, offset = 0, length = 0;
+    std::size_t stride = 0; // bytes from element to element; 0: they are packed
+};
+
+struct Sparse {
+    std::size_t count = 0;
+    int indicesView = -1, valuesView = -1;
+    std::size_t indicesOffset = 0, valuesOffset = 0;
+    int indicesType = 0; // component type
+};
+
+struct Accessor {
+    int view = -1; // -1: all zero
+    std::size_t offset = 0;
+    int componentType = 0; // 5120 ... 5126
+    std::size_t count = 0;
+    ElementType type = ElementType::scalar;
+    bool normalized = false;
+    std::optional<Sparse> sparse;
+};
+
+// Bytes of a component; components of an element; bytes of an element, columns of matrices of bytes
+// and shorts padded to four.
+std::size_t componentSize(int componentType);
+std::size_t componentCount(ElementType type);
+std::size_t elementSize(const Accessor& accessor);
+
+BufferView readBufferView(const Json& view);
+Accessor readAccessor(const Json& accessor);
+
+// ---- meshes and nodes -----------------------------------------------------------------------
+
+using Attributes = std::map<std::string, int, std::less<>>; // name to accessor
+
+// The accessor of an attribute.
+int accessorOf(const Attributes& attributes, std::string_view name);
+
+struct Primitive {
+    Attributes attributes;
+    std::vector<Attributes> targets; // morph targets
+    int indices = -1, material = -1;
+    int mode = 4; // 4: triangles, 5: a strip, 6: a fan; below: points and lines
+};
+
+struct Mesh {
+    std::string name;
+    std::vector<Primitive> primitives;
+    std::vector<double> weights; // of morph targets
+};
+
+struct Node {
+    std::string name;
+    int mesh = -1, skin = -1, camera = -1;
+    int light = -1; // KHR_lights_punctual
+    std::vector<int> children;
+    std::vector<double> weights;      // empty: those of the mesh
+    std::optional<glm::dmat4> matrix; // in place of the next three
+    glm::dvec3 translation{0}, scale{1};
+    glm::dvec4 rotation{0, 0, 0, 1}; // x y z w
+    Attributes instances;            // EXT_mesh_gpu_instancing; empty: one
+};
+
+// Joints are nodes.
+struct Skin {
+    int inverseBindMatrices = -1;
+    std::vector<int> joints;
+};
+
+Primitive readPrimitive(const Json& primitive);
+Mesh readMesh(const Json& mesh);
+Node readNode(const Json& node);
+Skin readSkin(const Json& skin);
+
+// rotation: x y z w, of any length; none where it has no length.
+glm::dmat4 composed(const glm::dvec3& translation, const glm::dvec4& rotation, const glm::dvec3& scale);
+
+// Where a node stands in its parent.
+glm::dmat4 localMatrix(const Node& node);
+
+// ---- textures -------------------------------------------------------------------------------
+
+// A texture as a material uses it, KHR_texture_transform applied to uv set and rows (see moveUv).
+struct TextureUse {
+    int texture = -1;
+    int texcoord = 0; // TEXCOORD_n
+    glm::dvec3 uRow{1, 0, 0}, vRow{0, 1, 0};
+    double scale = 1;    // of a normal map
+    double strength = 1; // of an occlusion map
+
+    bool moves() const { return uRow != glm::dvec3(1, 0, 0) || vRow != glm::dvec3(0, 1, 0); }
+};
+
+struct Texture {
+    int sampler = -1;
+    int image = -1;   // its own; where it has none, that of the first of kReadImageExtensions
+    int foreign = -1; // where that is none: an image that another extension names, the first by the extension's name
+};
+
+// Extensions that put an image of another format in the place of a texture's, which is read.
+inline constexpr std::array<std::string_view, 3> kReadImageExtensions{"EXT_texture_webp", "MSFT_texture_dds",
+                                                                      "KHR_texture_basisu"};
+
+struct Image {
+    std::string name;
+    std::optional<std::string_view> uri; // points into the JSON
+    int view = -1;
+};
+
+// material: an object with the slot, or null. slot: "normalTexture" and so on.
+TextureUse readTextureUse(const Json* material, std::string_view slot);
+
+// images: how many there are.
+Texture readTexture(const Json& texture, std::size_t images);
+Image readImage(const Json& image);
+
+Sampler readSampler(const Json& sampler);
+Json writeSampler(const Sampler& sampler);
+
+// The member of a material's extras that names the frame its normal maps were made for, a string: three.js, Blender and
+// glTF-Transform keep the extras of materials.
+inline constexpr const char* kFrameExtra = "cotanFrame";
+
+// What it says; empty where there is none. Another value than a string is printed as JSON.
+std::string frameText(const Json& material);
+
+// The extension, of those that are not drawn here, with which a material reads tangents; empty: none.
+std::string tangentReader(const Json& material);
+
+} // namespace cotan::gltf

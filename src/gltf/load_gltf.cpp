@@ -1,0 +1,257 @@
+// glTF 2.0 and GLB files to Scene.
+#include <map>
+#include <new>
+#include <tuple>
+#include <utility>
+
+#include "animate.hpp"
+#include "cotan/gltf.hpp"
+#include "material.hpp"
+#include "mesh.hpp"
+#include "nodes.hpp"
+#include "reach.hpp"
+#include "scene/stored_green.hpp"
+
+namespace cotan {
+
+namespace {
+
+// A mesh of the file as one node needs it: primitives depend on the node where there are morph
+// weights or a skin.
+struct MeshUse {
+    int mesh = -1;
+    int skin = -1;
+    std::vector<double> weights;
+    bool operator<(const MeshUse& other) const
+    {
+        return std::tie(mesh, skin, weights) < std::tie(other.mesh, other.skin, other.weights);
+    }
+};
+
+class SceneBuilder {
+public:
+    SceneBuilder(GltfModel& model, Scene& scene)
+        : model_(model), scene_(scene), materials_(model, scene), nodes_(readGltfNodes(model))
+    {
+    }
+
+    // images: in the place of those that would be decoded; null: decode them.
+    void build(const std::vector<Image>* images)
+    {
+        readSkins();
+        placeMeshes();
+        checkUnusedMeshes();
+        scene_.lights = readGltfLights(model_, nodes_);
+        scene_.cameras = readGltfCameras(model_, nodes_);
+        if (images && images->size() == scene_.images.size()) {
+            scene_.images = *images;
+        } else {
+            materials_.checkUnusedImages();
+            materials_.decodeImages();
+        }
+        if (scene_.instances.empty())
+            model_.warnings.add("scene", "nothing to draw: no triangles");
+    }
+
+private:
+    // For each joint its world matrix times its inverse bind matrix.
+    void readSkins()
+    {
+        for (std::size_t i = 0; i < model_.structure.skins.size(); ++i) {
+            const gltf::Skin& skin = model_.structure.skins[i];
+            const std::string field = fmt::format("skins[{}]", i);
+            std::vector<glm::mat4> bind(skin.joints.size(), glm::mat4(1));
+            if (skin.inverseBindMatrices >= 0)
+                bind = readGltfMatrices(model_, skin.inverseBindMatrices, skin.joints.size(),
+                                        field + ".inverseBindMatrices");
+            std::vector<glm::dmat4>& joints = joints_.emplace_back();
+            for (std::size_t j = 0; j < skin.joints.size(); ++j)
+                joints.push_back(nodes_.world[static_cast<std::size_t>(skin.joints[j])] * glm::dmat4(bind[j]));
+        }
+    }
+
+    Mesh finish(GltfPrimitive&& primitive)
+    {
+        const int set = gltfNormalMapSet(model_, primitive.material);
+        return finishGltfMesh(std::move(primitive), set, model_.warnings);
+    }
+
+    const gltf::Mesh& sourceMesh(int mesh) const { return model_.structure.meshes[static_cast<std::size_t>(mesh)]; }
+
+    // The scene's meshes for a use, made when it is met first.
+    const std::vector<int>& meshesFor(const MeshUse& use)
+    {
+        const auto [entry, isNew] = made_.emplace(use, std::vector<int>());
+        if (!isNew)
+            return entry->second;
+        for (std::size_t p = 0; p < sourceMesh(use.mesh).primitives.size(); ++p) {
+            auto primitive = readGltfPrimitive(model_, use.mesh, p, use.weights);
+            if (!primitive)
+                continue;
+            if (use.skin >= 0)
+                skinGltfPrimitive(*primitive, joints_[static_cast<std::size_t>(use.skin)], model_.warnings);
+            const int material = primitive->material;
+            Mesh mesh = finish(std::move(*primitive));
+            mesh.material = materials_.use(material, mesh);
+            entry->second.push_back(static_cast<int>(scene_.meshes.size()));
+            scene_.meshes.push_back(std::move(mesh));
+        }
+        return entry->second;
+    }
+
+    bool hasJoints(int mesh) const
+    {
+        for (const gltf::Primitive& p : sourceMesh(mesh).primitives)
+            if (gltf::accessorOf(p.attributes, "JOINTS_0") < 0)
+                return false;
+        return true;
+    }
+
+    MeshUse useOf(int node)
+    {
+        const gltf::Node& n = model_.structure.nodes[static_cast<std::size_t>(node)];
+        MeshUse use{n.mesh, n.skin, n.weights.empty() ? sourceMesh(n.mesh).weights : n.weights};
+        if (use.skin >= 0 && !hasJoints(use.mesh)) {
+            use.skin = -1;
+            model_.warnings.add(fmt::format("nodes[{}]", node), "its mesh lacks JOINTS_0, so its skin is ignored");
+        }
+        return use;
+    }
+
+    void addInstances(int node, const std::vector<int>& meshes, const std::vector<glm::mat4>& placements)
+    {
+        const std::string& name = model_.structure.nodes[static_cast<std::size_t>(node)].name;
+        if (meshes.size() * placements.size() > model_.limits.nodes - scene_.instances.size())
+            failGltf("nodes[{}]: the limit is {} instances in all", node, model_.limits.nodes);
+        for (const glm::mat4& placement : placements)
+            for (const int mesh : meshes)
+                scene_.instances.push_back(
+                    {name.empty() ? scene_.meshes[static_cast<std::size_t>(mesh)].name : name, mesh, placement});
+    }
+
+    // A skin puts vertices into world space by itself: the node's transform does not count.
+    void placeMeshes()
+    {
+        for (const int node : nodes_.visible) {
+            if (model_.structure.nodes[static_cast<std::size_t>(node)].mesh < 0)
+                continue;
+            const MeshUse use = useOf(node);
+            const std::vector<int>& meshes = meshesFor(use);
+            addInstances(node, meshes,
+                         use.skin >= 0 ? std::vector<glm::mat4>{glm::mat4(1)} : gltfPlacements(model_, nodes_, node));
+        }
+    }
+
+    // Meshes that no node shows are read and dropped: damage in them is damage in the file.
+    void checkUnusedMeshes()
+    {
+        std::vector<bool> used(model_.structure.meshes.size(), false);
+        for (const auto& [use, meshes] : made_)
+            used[static_cast<std::size_t>(use.mesh)] = true;
+        for (std::size_t m = 0; m < used.size(); ++m)
+            for (std::size_t p = 0; !used[m] && p < model_.structure.meshes[m].primitives.size(); ++p)
+                if (auto primitive = readGltfPrimitive(model_, static_cast<int>(m), p, {}))
+                    finish(std::move(*primitive));
+    }
+
+    GltfModel& model_;
+    Scene& scene_;
+    GltfMaterials materials_;
+    GltfNodes nodes_;
+    std::vector<std::vector<glm::dmat4>> joints_; // by skin
+    std::map<MeshUse, std::vector<int>> made_;
+};
+
+void open(GltfModel& model, const std::filesystem::path& path, const LoadLimits& limits)
+{
+    model.limits = limits;
+    model.file = openGltf(path, limits, model.warnings);
+    readGltfModel(model);
+}
+
+Scene build(GltfModel& model, const std::filesystem::path& path, const std::vector<Image>* images)
+{
+    Scene scene;
+    scene.name = path.stem().string();
+    SceneBuilder(model, scene).build(images);
+    scene.warnings = model.warnings.lines();
+    for (std::string& line : followStoredTangents(scene))
+        scene.warnings.push_back(std::move(line));
+    return scene;
+}
+
+Scene load(const std::filesystem::path& path, const LoadLimits& limits)
+{
+    GltfModel model;
+    open(model, path, limits);
+    gltf::Json images = std::move(model.file.json["images"]); // whose URIs are all that is still read from the JSON
+    model.file.json = std::move(images);
+    return build(model, path, nullptr);
+}
+
+} // namespace
+
+Result<Scene> loadGltf(const std::filesystem::path& file, const LoadLimits& limits)
+{
+    return caughtGltf(file, [&] { return load(file, limits); });
+}
+
+struct AnimatedGltf::Work {
+    std::filesystem::path path;
+    GltfModel model;
+    // As they were when it was opened: a pose changes them.
+    std::vector<gltf::Node> nodes;
+    GltfWarnings warnings;
+    std::size_t bytesTaken = 0;
+    std::vector<GltfAnimation> animations;
+    std::map<std::string, std::vector<glm::vec3>> reached;
+};
+
+AnimatedGltf::AnimatedGltf(std::unique_ptr<Work> work) : work_(std::move(work)) {}
+AnimatedGltf::~AnimatedGltf() = default;
+
+Result<std::unique_ptr<AnimatedGltf>> AnimatedGltf::open(const std::filesystem::path& file, const LoadLimits& limits)
+{
+    return caughtGltf(file, [&] {
+        auto work = std::make_unique<Work>();
+        work->path = file;
+        LoadLimits atRest = limits;
+        atRest.pose = {};
+        cotan::open(work->model, file, atRest);
+        work->nodes = work->model.structure.nodes;
+        work->animations = gltfAnimations(work->model);
+        work->warnings = work->model.warnings;
+        work->bytesTaken = work->model.bytesTaken;
+        return std::unique_ptr<AnimatedGltf>(new AnimatedGltf(std::move(work)));
+    });
+}
+
+const std::vector<GltfAnimation>& AnimatedGltf::animations() const { return work_->animations; }
+
+Result<Scene> AnimatedGltf::at(const Pose& pose, const std::vector<Image>* images)
+{
+    return caughtGltf(work_->path, [&] {
+        GltfModel& model = work_->model;
+        model.structure.nodes = work_->nodes;
+        model.warnings = work_->warnings;
+        model.bytesTaken = work_->bytesTaken;
+        model.verticesTaken = model.trianglesTaken = 0;
+        model.limits.pose = pose;
+        poseGltf(model);
+        return build(model, work_->path, images);
+    });
+}
+
+Result<std::vector<glm::vec3>> AnimatedGltf::reach(const std::string& animation)
+{
+    if (const auto known = work_->reached.find(animation); known != work_->reached.end())
+        return known->second;
+    const Pixels pixels = std::exchange(work_->model.limits.pixels, Pixels::none);
+    Result<std::vector<glm::vec3>> points = pointsReached(*this, animation);
+    work_->model.limits.pixels = pixels;
+    if (points)
+        work_->reached[animation] = *points;
+    return points;
+}
+
+} // namespace cotan

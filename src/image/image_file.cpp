@@ -1,0 +1,143 @@
+#include "cotan/image.hpp"
+
+#include <algorithm>
+#include <new>
+#include <string_view>
+
+#include <fmt/format.h>
+
+#include "files/bytes.hpp"
+#include "files/output.hpp"
+#include "formats.hpp"
+#include "image/component_types.hpp"
+#include "image/format_table.hpp"
+#include "image/pending.hpp"
+#include "jpeg.hpp"
+#include "ktx2.hpp"
+#include "png.hpp"
+#include "sandboxed_images.hpp"
+#include "webp.hpp"
+
+namespace cotan {
+
+std::string pictureFormat(std::span<const std::byte> bytes)
+{
+    const ImageFormat* const format = imageFormatOf(bytes);
+    return format && !format->mime.empty() ? std::string(format->name) : "";
+}
+
+bool isPng(std::span<const std::byte> bytes) { return pictureFormat(bytes) == "PNG"; }
+
+bool isJpeg(std::span<const std::byte> bytes) { return pictureFormat(bytes) == "JPEG"; }
+
+std::string foreignFormat(std::span<const std::byte> bytes)
+{
+    const std::string format = pictureFormat(bytes);
+    if (format == "KTX2" && !foreignKtx2(bytes).empty())
+        return "KTX2 with " + foreignKtx2(bytes);
+    const bool foreign =
+        format == "AVIF" || (format == "WebP" && !readsWebp()) || (format == "DDS" && !readsOtherFormats());
+    return foreign ? format : "";
+}
+
+namespace {
+
+Result<Image> readOther(std::span<const std::byte> bytes, const std::string& name, const LoadLimits& limits)
+{
+    const auto formats = imageFormats();
+    if (!formats)
+        return Error{formats.error().kind, fmt::format("{}: {}", name, formats.error().message)};
+    return (*formats)->read(bytes, name, limits);
+}
+
+Result<Image> decode(std::span<const std::byte> bytes, const std::string& name, const LoadLimits& limits)
+{
+    const std::string format = pictureFormat(bytes);
+    if (format == "PNG")
+        return readPng(bytes, name, limits);
+    if (format == "JPEG")
+        if (auto image = readJpeg(bytes, name, limits))
+            return *std::move(image);
+    if (format == "AVIF")
+        return unavailableError(fmt::format("{}: AVIF pictures are not read here", name));
+    if (const std::string payload = format == "KTX2" ? foreignKtx2(bytes) : ""; !payload.empty())
+        return unavailableError(fmt::format(
+            "{}: {} is not decoded here{}", name, payload,
+            payload.starts_with("BasisU")
+                ? "; \"ktx transcode --target rgba8 IN.ktx2 OUT.ktx2\" makes a file that is, and \"gltf-transform "
+                  "ktxdecompress IN.glb OUT.glb\" such a model"
+                : ""));
+    if (format.empty() && !knownImage(bytes, name))
+        return inputError(fmt::format("{}: expected an image ({}), found other data", name, readableFormatNames()));
+    if (!limits.sandbox.program.empty())
+        return decodeSandboxed(bytes, name, limits);
+    if (format == "WebP")
+        return readWebp(bytes, name, limits);
+    if (format == "KTX2")
+        return readKtx2(bytes, name, limits, readOther);
+    return readOther(bytes, name, limits);
+}
+
+} // namespace
+
+Result<Image> decodeImage(std::span<const std::byte> bytes, const std::string& name, const LoadLimits& limits)
+{
+    try {
+        if (limits.decode)
+            return limits.decode(bytes, name);
+        LoadLimits own = limits;
+        own.imageBytes = std::min(limits.imageBytes, imageBudget(limits, bytes.size()));
+        return decode(bytes, name, own);
+    } catch (const std::bad_alloc&) {
+        return inputError(fmt::format("{}: not enough memory for the image", name));
+    }
+}
+
+Result<Image> readImage(const std::filesystem::path& file, const LoadLimits& limits)
+{
+    try {
+        const auto bytes = readFileBytes(file, limits.fileBytes);
+        if (!bytes)
+            return bytes.error();
+        return decodeImage(*bytes, file.string(), limits);
+    } catch (const std::bad_alloc&) {
+        return inputError(fmt::format("{}: not enough memory for the file", file.string()));
+    }
+}
+
+namespace {
+
+Status write(const std::filesystem::path& file, const Image& image, const std::string& name)
+{
+    if (writesItself(file))
+        return image.type == PixelType::float32 ? writePng(file, toUnorm8(image), name) : writePng(file, image, name);
+    const auto formats = imageFormats();
+    if (!formats)
+        return Error{formats.error().kind, fmt::format("{}: {}", name, formats.error().message)};
+    return (*formats)->write(file, image, name);
+}
+
+} // namespace
+
+Result<OutputFile> writePending(const std::filesystem::path& file, const Image& image)
+{
+    const std::string name = file.string();
+    if (Status writable = checkImageName(file); !writable)
+        return writable.error();
+    if (image.width <= 0 || image.height <= 0 || image.data.size() != image.pixelCount() * image.bytesPerPixel())
+        return usageError(fmt::format("{}: there is no image to write ({} x {}, {} bytes)", name, image.width,
+                                      image.height, image.data.size()));
+    auto output = OutputFile::begin(file);
+    if (output)
+        if (Status written = write(output->path(), image, name); !written)
+            return output->failed(written.error());
+    return output;
+}
+
+Status writeImage(const std::filesystem::path& file, const Image& image)
+{
+    auto output = writePending(file, image);
+    return output ? output->commit() : output.error();
+}
+
+} // namespace cotan

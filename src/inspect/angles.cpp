@@ -1,0 +1,158 @@
+#include "inspect/angles.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include <glm/geometric.hpp>
+#include <glm/vec3.hpp>
+
+#include "cotan/vector.hpp"
+
+namespace cotan {
+
+namespace {
+
+glm::dvec3 directionAt(const Image& image, std::size_t pixel)
+{
+    const float* p = image.floats() + pixel * 4;
+    return p[3] > 0 ? glm::dvec3(p[0], p[1], p[2]) : glm::dvec3(0);
+}
+
+struct Stop {
+    float degrees;
+    glm::vec3 color; // sRGB
+};
+
+constexpr std::array<Stop, 6> kHeat = {{{0, {0, 0, 0}},
+                                        {0.5f, {20, 60, 200}},
+                                        {2, {30, 180, 80}},
+                                        {5, {250, 220, 40}},
+                                        {15, {220, 30, 20}},
+                                        {45, {255, 255, 255}}}};
+
+glm::vec3 heatColor(float degrees)
+{
+    for (std::size_t i = 1; i < kHeat.size(); ++i)
+        if (degrees < kHeat[i].degrees) {
+            const Stop &a = kHeat[i - 1], &b = kHeat[i];
+            return a.color + (b.color - a.color) * ((degrees - a.degrees) / (b.degrees - a.degrees));
+        }
+    return kHeat.back().color;
+}
+
+void setPixel(Image& image, std::size_t pixel, glm::vec3 color255)
+{
+    std::uint8_t* p = image.bytes8() + pixel * 4;
+    for (int c = 0; c < 3; ++c)
+        p[c] = std::uint8_t(std::clamp(color255[c], 0.0f, 255.0f) + 0.5f);
+    p[3] = 255;
+}
+
+// A picture where every covered pixel of `source` is coloured by a function of its value.
+template<class Color> Image colored(const Image& source, Color color)
+{
+    Image image = makeImage(source.width, source.height, PixelType::unorm8, source.name);
+    for (std::size_t i = 0; i < source.pixelCount(); ++i) {
+        const float* p = source.floats() + i * 4;
+        if (p[3] > 0)
+            setPixel(image, i, color(glm::vec3(p[0], p[1], p[2])));
+    }
+    return image;
+}
+
+} // namespace
+
+std::vector<float> anglesBetween(const Image& a, const Image& b)
+{
+    std::vector<float> degrees(a.pixelCount(), -1.0f);
+    for (std::size_t i = 0; i < degrees.size(); ++i) {
+        const glm::dvec3 u = directionAt(a, i), v = directionAt(b, i);
+        if (u == glm::dvec3(0) || v == glm::dvec3(0))
+            continue;
+        degrees[i] = float(angleBetween(u, v) * 180 / std::numbers::pi);
+    }
+    return degrees;
+}
+
+void keepInterior(std::vector<float>& degrees, int width, int height)
+{
+    const std::vector<float> before = degrees;
+    auto missing = [&](int x, int y) {
+        return x < 0 || y < 0 || x >= width || y >= height
+            || before[std::size_t(y) * std::size_t(width) + std::size_t(x)] < 0;
+    };
+    for (int y = 0; y < height; ++y)
+        for (int x = 0; x < width; ++x)
+            for (int dy = -1; dy <= 1; ++dy)
+                for (int dx = -1; dx <= 1; ++dx)
+                    if (missing(x + dx, y + dy))
+                        degrees[std::size_t(y) * std::size_t(width) + std::size_t(x)] = -1;
+}
+
+std::vector<float> interiorAngles(const Image& a, const Image& b)
+{
+    std::vector<float> degrees = anglesBetween(a, b);
+    keepInterior(degrees, a.width, a.height);
+    return degrees;
+}
+
+AngleStatistics angleStatistics(const std::vector<float>& degrees)
+{
+    std::vector<float> valid;
+    valid.reserve(degrees.size());
+    std::copy_if(degrees.begin(), degrees.end(), std::back_inserter(valid), [](float d) { return d >= 0; });
+    return statisticsOf(std::move(valid));
+}
+
+double shareOpposed(const std::vector<float>& degrees)
+{
+    std::size_t compared = 0, opposed = 0;
+    for (float d : degrees) {
+        compared += d >= 0;
+        opposed += d > 90;
+    }
+    return compared > 0 ? double(opposed) / double(compared) : kOfNothing;
+}
+
+Image heatMap(const std::vector<float>& degrees, int width, int height)
+{
+    Image image = makeImage(width, height, PixelType::unorm8, "heat map");
+    for (std::size_t i = 0; i < degrees.size(); ++i)
+        setPixel(image, i, degrees[i] < 0 ? glm::vec3(96) : heatColor(degrees[i]));
+    return image;
+}
+
+Image directionsAsColor(const Image& directions)
+{
+    return colored(directions, [](glm::vec3 d) { return (d * 0.5f + 0.5f) * 255.0f; });
+}
+
+Image uvAsColor(const Image& uv)
+{
+    return colored(uv, [](glm::vec3 c) { return (c - glm::floor(c)) * 255.0f; });
+}
+
+Image depthAsColor(const Image& depth)
+{
+    float nearest = 1e30f, farthest = 0;
+    for (std::size_t i = 0; i < depth.pixelCount(); ++i) {
+        const float* p = depth.floats() + i * 4;
+        if (p[3] > 0) {
+            nearest = std::min(nearest, p[0]);
+            farthest = std::max(farthest, p[0]);
+        }
+    }
+    const float span = std::max(farthest - nearest, 1e-20f);
+    return colored(depth, [&](glm::vec3 d) { return glm::vec3(255 - 215 * (d.x - nearest) / span); });
+}
+
+Image asColor(Output output, const Image& image)
+{
+    return output == Output::uv   ? uvAsColor(image)
+        : output == Output::depth ? depthAsColor(image)
+                                  : directionsAsColor(image);
+}
+
+} // namespace cotan

@@ -1,0 +1,46 @@
+// Differences between two pictures of directions, in degrees.
+#pragma once
+
+#include <vector>
+
+#include "cotan/scene.hpp"
+#include "cotan/view.hpp"
+#include "inspect/statistics.hpp"
+
+namespace cotan {
+
+// Per pixel the angle in degrees between two float32 pictures of directions of the same size, or -1
+// where one of the two has no surface (alpha 0) or no direction (zero length).
+std::vector<float> anglesBetween(const Image& a, const Image& b);
+
+// Sets to -1 all pixels that touch, among their eight neighbours, one that is -1 already: what
+// remains is interior, where coverage rules play no part. Keeps width*height entries.
+void keepInterior(std::vector<float>& degrees, int width, int height);
+
+// anglesBetween of the pixels that keepInterior leaves: for shapes that cover a little more or less.
+std::vector<float> interiorAngles(const Image& a, const Image& b);
+
+// The statistics of the entries that are not -1.
+AngleStatistics angleStatistics(const std::vector<float>& degrees);
+
+// Share of compared pixels where the two directions point away from each other (over 90 degrees); NaN
+// where nothing was compared.
+double shareOpposed(const std::vector<float>& degrees);
+
+// A picture of the angles: black 0, blue 0.5, green 2, yellow 5, red 15, white 45 and more; grey
+// where nothing was compared. unorm8.
+Image heatMap(const std::vector<float>& degrees, int width, int height);
+
+// Directions as a picture: n * 0.5 + 0.5 where there is surface, transparent elsewhere. unorm8.
+Image directionsAsColor(const Image& directions);
+
+// uv as a picture: the fractional parts as red and green. unorm8.
+Image uvAsColor(const Image& uv);
+
+// Depth as a picture: near is white, far is dark, over the range that occurs. unorm8.
+Image depthAsColor(const Image& depth);
+
+// A float picture of that kind by the fitting one of the three.
+Image asColor(Output output, const Image& image);
+
+} // namespace cotan

@@ -1,0 +1,356 @@
+#include "cotan/picture.hpp"
+
+#include <algorithm>
+#include <array>
+#include <future>
+#include <map>
+#include <utility>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "core/parse_number.hpp"
+#include "cotan/inspect.hpp"
+#include "cotan/model.hpp"
+#include "cotan/render.hpp"
+#include "cotan/scene.hpp"
+#include "cotan/view.hpp"
+#include "files/account.hpp"
+#include "files/extension.hpp"
+#include "picture/words.hpp"
+#include "scene/geometry.hpp"
+#include "scene/meant_frame.hpp"
+#include "scene/parts.hpp"
+#include "scene/up.hpp"
+
+namespace cotan {
+
+LoadLimits limitsFor(int memory, Pixels pixels)
+{
+    LoadLimits limits;
+    limits.imageBytes = std::size_t(memory) << 20;
+    limits.allImageBytes = std::max(limits.allImageBytes, limits.imageBytes);
+    if (memory > kDefaultMemory) // the user knows what he has
+        limits.imageBytesBeyond = limits.imageBytes;
+    limits.imageSide = 1 << 20; // the memory limit decides
+    limits.pixels = pixels;
+    return limits;
+}
+
+Result<std::pair<int, int>> parseSize(const std::string& text)
+{
+    const std::string_view all = text, first = all.substr(0, all.find('x'));
+    const std::string_view second = first.size() < all.size() ? all.substr(first.size() + 1) : first;
+    int width = 0, height = 0;
+    if (!parseNumber(first, width) || !parseNumber(second, height) || width < 1 || height < 1 || width > 16384
+        || height > 16384)
+        return usageError(
+            fmt::format("--size: expected WxH, or one number for both, each from 1 to 16384; found '{}'", text));
+    return std::pair(width, height);
+}
+
+namespace {
+
+struct SizePreset {
+    const char* name;
+    int width, height;
+};
+constexpr std::array<SizePreset, 6> kSizePresets = {{{"thumbnail", 320, 180},
+                                                     {"720p", 1280, 720},
+                                                     {"1080p", 1920, 1080},
+                                                     {"1440p", 2560, 1440},
+                                                     {"2160p", 3840, 2160},
+                                                     {"square", 1024, 1024}}};
+
+} // namespace
+
+std::vector<std::string> sizePresetWords()
+{
+    std::vector<std::string> words;
+    for (const SizePreset& preset : kSizePresets)
+        words.emplace_back(preset.name);
+    return words;
+}
+
+Result<std::pair<int, int>> parsePictureSize(const std::string& text)
+{
+    for (const SizePreset& preset : kSizePresets)
+        if (text == preset.name)
+            return std::pair(preset.width, preset.height);
+    if (auto size = parseSize(text))
+        return size;
+    return usageError(fmt::format("--size: expected WxH, or one number for both, each from 1 to 16384, or {}; found "
+                                  "'{}'",
+                                  fmt::join(sizePresetWords(), ", "), text));
+}
+
+namespace {
+
+const std::map<std::string, NormalMapping> kNormalMappings = {{"shading", NormalMapping::shading},
+                                                              {"rays", NormalMapping::rays},
+                                                              {"shadowed", NormalMapping::shadowed},
+                                                              {"facets", NormalMapping::facets},
+                                                              {"mirror-facet", NormalMapping::mirrorFacet}};
+
+} // namespace
+
+Result<View> viewOf(const PictureOptions& options, const Scene& scene)
+{
+    View view;
+    const auto size = parsePictureSize(options.size);
+    if (!size)
+        return size.error();
+    view.width = size->first;
+    view.height = size->second;
+    const bool ownCamera = options.camera.empty() && options.model.empty() && options.shape.empty()
+        && !scene.cameras.empty() && !options.turntable;
+    const std::string camera = !options.camera.empty() ? options.camera : ownCamera ? "0" : "front";
+    auto parsed = cameraFromWords(camera, scene, view.width, view.height);
+    if (!parsed)
+        return usageError("--camera: " + parsed.error().message);
+    view.camera = *parsed;
+    if (Status lit = lightPicture(options, view); !lit)
+        return lit.error();
+    view.shading = options.shading == "pbr" ? Shading::pbr : Shading::blinnPhong;
+    view.lighting = options.lighting == "world" ? Lighting::world
+        : options.lighting == "tangent-vertex"  ? Lighting::tangentVertex
+                                                : Lighting::tangentPixel;
+    view.normalMapping = kNormalMappings.at(options.normalMapping);
+    view.rowsUpward = options.rows == "up";
+    view.derivatives = options.derivatives == "fine" ? Derivatives::fine : Derivatives::coarse;
+    view.samples = options.samples;
+    view.normalMaps = !options.noNormalMaps;
+    view.pointSampled = options.pointSampled;
+    view.specularAntialiasing = options.specularAntialiasing;
+    return view;
+}
+
+bool meters(const PictureOptions& options) { return options.exposure == "auto" && options.use == PictureUse::shown; }
+
+namespace {
+
+Status checkModelOptions(const PictureOptions& options)
+{
+    const bool none = options.model.empty();
+    if (!none && !options.shape.empty())
+        return usageError("--shape: expected no model with it; found " + options.model);
+    if (!options.variant.empty() && none)
+        return usageError("--variant: expected a model; found the built-in scene");
+    if (options.up != "y" && none)
+        return usageError("--up: expected a model; found the built-in scene");
+    if (options.animation.empty() ? options.time > 0 : none)
+        return usageError(options.animation.empty() ? "--time: expected --animation with it; found none"
+                                                    : "--animation: expected a model; found the built-in scene");
+    return Done{};
+}
+
+LoadLimits limitsOf(const PictureOptions& options)
+{
+    LoadLimits limits = limitsFor(options.memory);
+    limits.pose = {options.animation, options.time};
+    limits.variant = options.variant;
+    limits.up = upFrom(options.up);
+    limits.readFile = options.readFile;
+    limits.decode = options.decode;
+    return limits;
+}
+
+Status addReach(AnimatedGltf& model, const PictureOptions& options, Scene& scene)
+{
+    if (options.animation.empty())
+        return Done{};
+    auto points = model.reach(options.animation);
+    if (!points)
+        return points.error();
+    scene.reach = std::move(*points);
+    return Done{};
+}
+
+// What loadScene does besides, for a scene that was read without it.
+Status complete(AnimatedGltf& model, const PictureOptions& options, Scene& scene)
+{
+    Status moved = addReach(model, options, scene);
+    if (moved && options.up == "z")
+        turnZUp(scene);
+    return moved;
+}
+
+Result<Scene> checkedScene(Result<Scene> scene)
+{
+    if (scene)
+        if (const Status ok = checkTrianglesDrawn(*scene); !ok) // before anything is said of the rest
+            return ok.error();
+    return scene;
+}
+
+} // namespace
+
+Result<Scene> openModel(const PictureOptions& options)
+{
+    if (const Status usage = checkModelOptions(options); !usage)
+        return usage.error();
+    if (options.model.empty())
+        return options.shape.empty() ? builtinScene() : shapeScene(options.shape);
+    return checkedScene(loadScene(options.model, limitsOf(options)));
+}
+
+Result<MovingModel> openMovingModel(const PictureOptions& options)
+{
+    MovingModel model;
+    const std::string ending = lowerExtension(options.model);
+    const bool gltf = options.readFile || ending == ".gltf" || ending == ".glb";
+    if (!gltf || !checkModelOptions(options)) {
+        auto scene = openModel(options);
+        if (!scene)
+            return scene.error();
+        model.scene = std::move(*scene);
+        return model;
+    }
+    const LoadLimits limits = limitsOf(options);
+    auto opened = AnimatedGltf::open(options.model, limits);
+    if (!opened)
+        return opened.error();
+    auto scene = checkedScene((*opened)->at(limits.pose));
+    if (!scene)
+        return scene.error();
+    model.scene = std::move(*scene);
+    if (Status whole = complete(**opened, options, model.scene); !whole)
+        return whole.error();
+    if (const auto refused = refusal())
+        return *refused;
+    if (!(*opened)->animations().empty())
+        model.animated = std::move(*opened);
+    return model;
+}
+
+Result<Scene> poseModel(AnimatedGltf& model, const PictureOptions& options, const std::vector<Image>& images)
+{
+    auto scene = model.at({options.animation, options.time}, &images);
+    if (scene)
+        if (Status whole = complete(model, options, *scene); !whole)
+            return whole.error();
+    return scene;
+}
+
+Frame chosenFrame(const FrameChoice& choice, const PictureOptions& options, const Scene& scene)
+{
+    const MapSource source = options.model.empty() ? MapSource::shape
+        : options.maps.normal.empty()              ? MapSource::model
+                                                   : MapSource::own;
+    return choice ? *choice : autoFrame(scene, source);
+}
+
+Result<std::vector<Frame>> prepareScene(const PictureOptions& options, const std::string& show,
+                                        std::initializer_list<FrameChoice> choices, Scene& scene)
+{
+    if (const Status applied = applyOwnMaps(options.maps, options.memory, scene); !applied)
+        return applied.error();
+    std::vector<Frame> frames;
+    for (const FrameChoice& choice : choices)
+        frames.push_back(chosenFrame(choice, options, scene));
+    if (const auto inspection = inspectionFromName(show)) {
+        scene = inspected(std::move(scene), *inspection);
+        return frames;
+    }
+    for (const Frame frame : frames)
+        deriveVertexFrames(scene, frame,
+                           options.tangents == "generated" ? TangentOrigin::generated : TangentOrigin::stored);
+    return frames;
+}
+
+namespace {
+
+Result<Scene> sceneOf(Result<MovingModel> model)
+{
+    if (!model)
+        return model.error();
+    return std::move(model->scene);
+}
+
+} // namespace
+
+Result<Picture> openPicture(const PictureOptions& options, int threads, std::initializer_list<FrameChoice> frames,
+                            const View* like)
+{
+    if (const auto size = parsePictureSize(options.size); !size) // before a large model is loaded
+        return size.error();
+    Picture picture;
+    // What takes its time while the model is read.
+    picture.device =
+        std::async(std::launch::async, [name = deviceOf(options), threads] { return openPainter(name, threads); });
+    std::future<Result<std::shared_ptr<const EnvironmentMap>>> surroundings;
+    if (!like)
+        surroundings = std::async(std::launch::async, openSurroundings, options);
+    // The first picture of a sequence has the camera of all.
+    const bool moves = !like && !options.animation.empty();
+    auto scene = moves ? sceneOf(openMovingModel(options)) : openModel(options);
+    if (!scene)
+        return scene.error();
+    picture.scene = std::move(*scene);
+    joinParts(picture.scene);
+    if (options.turntable)
+        picture.scene.reach = sweptPoints(picture.scene);
+    if (options.edges != "none")
+        picture.edges = surfaceEdges(picture.scene);
+    auto prepared = prepareScene(options, options.show, frames, picture.scene);
+    if (!prepared)
+        return prepared.error();
+    picture.frames = std::move(*prepared);
+    auto view = like ? Result<View>(*like) : viewOf(options, picture.scene);
+    if (!view)
+        return view.error();
+    picture.view = std::move(*view);
+    if (!like) {
+        auto opened = surroundings.get();
+        if (!opened)
+            return opened.error();
+        picture.view.environmentMap = std::move(*opened);
+    }
+    picture.meter = !like && meters(options);
+    picture.view.lights = lightsOf(options, picture.scene);
+    if (Status fits = settleCovered(picture.scene, picture.view); !fits)
+        return fits.error();
+    return picture;
+}
+
+std::string deviceOf(const PictureOptions& options)
+{
+    const bool reference =
+        options.device == "auto" && (options.lighting != "world" || options.normalMapping != "shading");
+    return reference ? "reference" : options.device;
+}
+
+Result<std::unique_ptr<Painter>> openPicturePainter(const PictureOptions& options, Picture& picture)
+{
+    auto ground =
+        std::async(std::launch::async, [&] { return groundOf(options, picture.scene, std::as_const(picture.view)); });
+    auto painter = picture.device.get();
+    if (!painter)
+        return painter;
+    if (Status loaded = (*painter)->load(picture.scene); !loaded)
+        return loaded.error();
+    std::optional<Result<float>> exposure;
+    if (picture.meter)
+        exposure = meterExposure(**painter, picture.view);
+    picture.view.ground = ground.get(); // not needed before, and read by nobody else now
+    if (exposure && !*exposure)
+        return exposure->error();
+    picture.view.exposure = exposure ? **exposure : picture.view.exposure;
+    return painter;
+}
+
+Status checkLighting(const PictureOptions& options, FrameChoice frame)
+{
+    if (options.lighting == "tangent-vertex" && !(frame && readsTangents(*frame)))
+        return usageError(
+            fmt::format("--lighting tangent-vertex: expected a frame with tangents at the vertices, vertex or "
+                        "mikktspace; found '{}'",
+                        frame ? name(*frame) : kAutoFrame));
+    if (options.normalMapping != "shading" && (options.shading != "pbr" || options.lighting != "world"))
+        return usageError(fmt::format("--normal-mapping {}: expected --shading pbr and --lighting world with it; found "
+                                      "{} and {}",
+                                      options.normalMapping, options.shading, options.lighting));
+    return Done{};
+}
+
+} // namespace cotan

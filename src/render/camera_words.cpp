@@ -1,0 +1,146 @@
+#include "cotan/render.hpp"
+
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <numbers>
+#include <string_view>
+#include <vector>
+
+#include <glm/geometric.hpp>
+
+#include "core/parse_number.hpp"
+#include "cotan/view.hpp"
+#include "scene/geometry.hpp"
+
+namespace cotan {
+
+namespace {
+
+constexpr double kRadians = std::numbers::pi / 180;
+
+std::vector<std::string_view> between(std::string_view text, char mark)
+{
+    std::vector<std::string_view> parts;
+    for (std::size_t start = 0;;) {
+        const std::size_t end = text.find(mark, start);
+        parts.push_back(text.substr(start, end == std::string_view::npos ? end : end - start));
+        if (end == std::string_view::npos)
+            return parts;
+        start = end + 1;
+    }
+}
+
+bool finite(std::string_view text, float& value) { return parseNumber(text, value) && std::isfinite(value); }
+
+// The seventh part. Degrees are read as double: a lens in float radians comes back as it was.
+bool lensOf(std::string_view text, Camera& camera)
+{
+    camera.orthographic = text.starts_with('h');
+    if (camera.orthographic)
+        return finite(text.substr(1), camera.verticalExtent) && camera.verticalExtent > 0;
+    double degrees = 0;
+    if (!parseNumber(text, degrees) || !(degrees > 0 && degrees < 180))
+        return false;
+    camera.verticalFieldOfView = float(degrees * kRadians);
+    return true;
+}
+
+Result<Camera> lookingFromTo(const std::string& text)
+{
+    const std::vector<std::string_view> parts = between(text, ',');
+    std::array<float, 6> v{};
+    bool good = parts.size() == 6 || parts.size() == 7 || parts.size() == 10;
+    for (std::size_t i = 0; good && i < v.size(); ++i)
+        good = finite(parts[i], v[i]);
+    Camera camera;
+    if (good && parts.size() > 6)
+        good = lensOf(parts[6], camera);
+    for (std::size_t i = 7; good && i < parts.size(); ++i)
+        good = finite(parts[i], camera.up[int(i) - 7]);
+    if (!good)
+        return usageError("expected front, left, right, top, bottom, back, fit, orbit:AZ,EL, the number of a camera, "
+                          "or six numbers ex,ey,ez,tx,ty,tz and perhaps a lens and a direction up; found '"
+                          + text + "'");
+    camera.eye = {v[0], v[1], v[2]};
+    camera.target = {v[3], v[4], v[5]};
+    const glm::vec3 forward = camera.target - camera.eye;
+    if (glm::length(forward) == 0)
+        return usageError("the eye and the target are the same point");
+    const bool vertical =
+        glm::length(glm::cross(forward, camera.up)) <= 1e-4f * glm::length(forward) * glm::length(camera.up);
+    if (vertical && parts.size() > 7)
+        return usageError("the direction up is that of the view, or none");
+    if (vertical)
+        camera.up = {0, 0, -1};
+    return camera;
+}
+
+struct Side {
+    std::string_view name;
+    double azimuth, elevation;
+};
+constexpr std::array<Side, 5> kSides = {
+    {{"left", -90, 0}, {"right", 90, 0}, {"top", 0, 90}, {"bottom", 0, -90}, {"back", 180, 0}}};
+constexpr std::string_view kOrbit = "orbit:";
+
+Result<Camera> orbiting(const std::string& text, const Scene& scene, int width, int height)
+{
+    const std::vector<std::string_view> parts = between(std::string_view(text).substr(kOrbit.size()), ',');
+    double azimuth = 0, elevation = 0;
+    if (parts.size() != 2 || !parseNumber(parts[0], azimuth) || !parseNumber(parts[1], elevation)
+        || !(std::abs(azimuth) <= 360 && std::abs(elevation) <= 90))
+        return usageError("expected orbit:AZ,EL, degrees around (-360 to 360) and above the horizon (-90 to 90); "
+                          "found '"
+                          + text + "'");
+    return orbitCamera(scene, azimuth, elevation, width, height);
+}
+
+} // namespace
+
+Result<Camera> cameraFromWords(const std::string& text, const Scene& scene, int width, int height)
+{
+    if (text == "fit")
+        return fitCamera(framedBounds(scene), width, height);
+    if (text == "front")
+        return frontCamera(scene, width, height);
+    for (const Side& side : kSides)
+        if (text == side.name)
+            return orbitCamera(scene, side.azimuth, side.elevation, width, height);
+    if (text.starts_with(kOrbit))
+        return orbiting(text, scene, width, height);
+    int number = 0;
+    if (!parseNumber(std::string_view(text), number))
+        return lookingFromTo(text);
+    if (number < 0 || std::size_t(number) >= scene.cameras.size())
+        return usageError("expected a camera of the model, it has " + std::to_string(scene.cameras.size()) + "; found "
+                          + std::to_string(number));
+    return scene.cameras[std::size_t(number)];
+}
+
+std::string cameraWords(const Camera& camera)
+{
+    std::string text;
+    const auto add = [&](auto value) {
+        std::array<char, 64> digits{};
+        const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), value).ptr; // as few as tell it
+        text += (text.empty() || text.back() == 'h' ? "" : ",") + std::string(digits.data(), end);
+    };
+    for (const glm::vec3& point : {camera.eye, camera.target})
+        for (int i = 0; i < 3; ++i)
+            add(point[i]);
+    if (camera.orthographic) {
+        text += ",h";
+        add(camera.verticalExtent);
+    } else {
+        add(double(camera.verticalFieldOfView) / kRadians);
+    }
+    const glm::vec3 forward = camera.target - camera.eye;
+    const bool vertical = glm::length(glm::cross(forward, {0, 1, 0})) <= 1e-4f * glm::length(forward);
+    if (camera.up != (vertical ? glm::vec3(0, 0, -1) : glm::vec3(0, 1, 0)))
+        for (int i = 0; i < 3; ++i)
+            add(camera.up[i]);
+    return text;
+}
+
+} // namespace cotan

@@ -1,0 +1,97 @@
+#include "cotan/render.hpp"
+
+#include "core/not_built.hpp"
+#include "scene/scene_check.hpp"
+#ifdef COTAN_WITH_VULKAN
+#endif
+
+namespace cotan {
+
+namespace {
+
+class ReferencePainter final : public Painter {
+public:
+    explicit ReferencePainter(int threads) : threads_(threads) {}
+
+    std::string device() const override { return "reference"; }
+
+private:
+    Status loadScene(const Scene& scene, bool) override
+    {
+        scene_ = &scene;
+        return Done{};
+    }
+    Result<Image> drawLoaded(const View& view) override { return renderReference(*scene_, view, threads_, progress); }
+
+    const Scene* scene_ = nullptr;
+    int threads_;
+};
+
+#ifdef COTAN_WITH_VULKAN
+class VulkanPainter final : public Painter {
+public:
+    explicit VulkanPainter(Renderer renderer) : renderer_(std::move(renderer)) {}
+
+    std::string device() const override { return renderer_.deviceName(); }
+    double uploadSeconds() const override { return renderer_.timings().upload; }
+    std::vector<std::string> messages() const override { return renderer_.messages(); }
+
+private:
+    Status loadScene(const Scene& scene, bool sameImages) override { return renderer_.load(scene, sameImages); }
+    Result<Image> drawLoaded(const View& view) override { return renderer_.render(view); }
+
+    Renderer renderer_;
+};
+
+Result<std::unique_ptr<Painter>> openVulkan(const std::string& device, bool validation)
+{
+    RendererOptions options;
+    options.validation = validation;
+    options.device = device == "auto" ? "" : device;
+    auto renderer = Renderer::create(options);
+    if (!renderer)
+        return renderer.error();
+    return std::unique_ptr<Painter>(std::make_unique<VulkanPainter>(std::move(*renderer)));
+}
+#else
+Result<std::unique_ptr<Painter>> openVulkan(const std::string&, bool)
+{
+    return notBuiltWith("Vulkan", "libvulkan-dev and glslang-tools");
+}
+#endif
+
+} // namespace
+
+Status Painter::load(const Scene& scene, bool sameImages)
+{
+    Status status = checkScene(scene, "scene", {.finite = false, .pixels = false});
+    if (status)
+        status = loadScene(scene, sameImages && holds_);
+    loaded_ = holds_ = bool(status);
+    return status;
+}
+
+Result<Image> Painter::draw(const View& view)
+{
+    if (!loaded_)
+        return usageError("draw: no scene is loaded");
+    if (progress && !progress(0))
+        return stoppedError();
+    return drawLoaded(view);
+}
+
+Result<std::unique_ptr<Painter>> openPainter(const std::string& device, int threads, bool validation)
+{
+    std::string note;
+    if (device != "reference") {
+        auto vulkan = openVulkan(device, validation);
+        if (vulkan || device != "auto")
+            return vulkan;
+        note = vulkan.error().message + "; drawing with the reference renderer";
+    }
+    auto painter = std::make_unique<ReferencePainter>(threads);
+    painter->note = std::move(note);
+    return std::unique_ptr<Painter>(std::move(painter));
+}
+
+} // namespace cotan

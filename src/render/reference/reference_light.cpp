@@ -1,0 +1,172 @@
+#include "reference_light.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <optional>
+
+#include <glm/geometric.hpp>
+
+#include "facets.hpp"
+#include "scene/environment_map.hpp"
+#include "tangent_space.hpp"
+
+namespace cotan::reference {
+
+namespace {
+
+// Light of unit colour and intensity that arrives, perpendicular to its direction.
+struct Arrival {
+    glm::vec3 toLight{0};
+    float strength = 0;
+};
+
+Arrival arrivalOf(const PreparedLight& light, const LitPoint& point, const ShadowMap& shadow, float softness)
+{
+    if (light.kind == LightKind::directional)
+        return {light.toLight,
+                !light.castsShadow ? 1.0f
+                    : softness > 0 ? softLightReaching(shadow, point.position, point.normal, light.toLight, softness)
+                                   : lightReaching(shadow, point.position, point.normal, light.toLight)};
+    glm::vec3 offset = light.position - point.position;
+    float distance = glm::length(offset);
+    Arrival arrival;
+    arrival.toLight = offset / std::max(distance, 1e-6f);
+    arrival.strength = f32::cotan_light_falloff(distance, light.range);
+    if (light.kind == LightKind::spot)
+        arrival.strength *= f32::cotan_smooth(light.cosOuter, light.cosInner, glm::dot(arrival.toLight, light.toLight));
+    return arrival;
+}
+
+// By a surface, or by what a tangent-space renderer makes of it.
+glm::vec3 reflected(const f32::cotan_surface& surface, const Layers& layers, glm::vec3 toLight, Shading shading)
+{
+    if (shading == Shading::blinnPhong)
+        return f32::cotan_reflect_blinn_phong(surface, toLight);
+    const glm::vec3 light = layers.gloss ? f32::cotan_reflect_glossy(surface, *layers.gloss, toLight)
+                                         : f32::cotan_reflect_pbr(surface, toLight);
+    return layers.sheen ? f32::cotan_reflect_sheen(*layers.sheen, surface.n, surface.v, toLight, light) : light;
+}
+
+glm::vec3 surroundings(const f32::cotan_surface& surface, const Layers& layers, const View& view)
+{
+    const f32::cotan_gloss gloss = layers.gloss.value_or(f32::cotan_plain_gloss());
+    const glm::vec3 light = view.environmentMap ? reflectedGlossy(*view.environmentMap, surface, gloss)
+                                                : f32::cotan_reflect_environment_glossy(surface, gloss);
+    if (!layers.sheen)
+        return light;
+    const glm::vec3 irradiance =
+        view.environmentMap ? irradianceAlong(*view.environmentMap, surface.n) : f32::cotan_environment(surface.n, 1);
+    return f32::cotan_reflect_sheen_around(*layers.sheen, surface.n, surface.v, irradiance * surface.occlusion, light);
+}
+
+// The mean over the point's normals of what a surface with each reflects.
+template<class Reflect> glm::vec3 meanOfTaps(f32::cotan_surface surface, const LitPoint& point, const Reflect& reflect)
+{
+    if (point.taps.empty())
+        return reflect(surface);
+    glm::vec3 sum(0);
+    for (const LitTap& tap : point.taps) {
+        surface.n = tap.n;
+        surface.roughness = tap.roughness;
+        sum += reflect(surface);
+    }
+    return sum / float(point.taps.size());
+}
+
+bool goesByRays(const View& view, const TangentSpace* tangent)
+{
+    return view.normalMapping != NormalMapping::shading && view.shading == Shading::pbr && !tangent;
+}
+
+// From the place: the same in every picture of the same view.
+std::uint32_t seedOf(glm::vec3 place)
+{
+    std::uint32_t seed = 0;
+    for (int i = 0; i < 3; ++i) {
+        seed = (seed ^ std::bit_cast<std::uint32_t>(place[i])) * 0x9e3779b1u;
+        seed = (seed ^ seed >> 15) * 0x85ebca77u;
+    }
+    return seed ^ seed >> 13;
+}
+
+} // namespace
+
+std::vector<PreparedLight> prepareLights(const View& view, glm::dvec3 eye)
+{
+    std::vector<PreparedLight> prepared;
+    bool shadowGiven = !view.shadows;
+    for (const Light& light : view.lights) {
+        PreparedLight p;
+        p.kind = light.kind;
+        p.radiance = light.color * light.intensity;
+        p.position = glm::vec3(glm::dvec3(light.position) - eye);
+        p.toLight = f32::cotan_normalize_or(-light.direction, glm::vec3(0, 1, 0));
+        p.range = light.range;
+        p.cosOuter = std::cos(light.outerCone);
+        // The cosines are kept apart, so that a cone without a soft rim has no 0/0 in it.
+        p.cosInner = std::max(std::cos(light.innerCone), p.cosOuter + 1e-4f);
+        p.castsShadow = !shadowGiven && light.kind == LightKind::directional;
+        shadowGiven = shadowGiven || p.castsShadow;
+        prepared.push_back(p);
+    }
+    return prepared;
+}
+
+glm::vec3 radianceOf(const f32::cotan_surface& surface, const Layers& layers, const LitPoint& point, const View& view,
+                     const std::vector<PreparedLight>& lights, const ShadowMap& shadow, const TangentSpace* tangent)
+{
+    glm::vec3 radiance = surface.emissive, fromCoat(0);
+    Layers even = layers; // in tangent space highlights are not stretched
+    if (even.gloss)
+        even.gloss->anisotropy = 0;
+    const bool rays = goesByRays(view, tangent);
+    std::vector<ArrivingLight> arrivals; // of rays
+    for (const PreparedLight& light : lights) {
+        Arrival arrival = arrivalOf(light, point, shadow, view.shadowSoftness);
+        if (!(arrival.strength > 0))
+            continue;
+        const glm::vec3 arriving = light.radiance * arrival.strength;
+        if (rays)
+            arrivals.push_back({arrival.toLight, arriving});
+        else
+            radiance += arriving
+                * (tangent ? reflected(tangent->surface, even, carried(*tangent, light, arrival.toLight), view.shading)
+                           : meanOfTaps(surface, point, [&](const f32::cotan_surface& s) {
+                                 return reflected(s, layers, arrival.toLight, view.shading);
+                             }));
+        if (layers.coat)
+            fromCoat += arriving * f32::cotan_reflect_coat(*layers.coat, surface.v, arrival.toLight);
+    }
+    if (rays)
+        radiance += radianceByRays(
+            {surface, layers.gloss.value_or(f32::cotan_plain_gloss()), point.normal, seedOf(point.position)}, view,
+            arrivals);
+    if (view.environment) {
+        if (!rays)
+            radiance +=
+                meanOfTaps(surface, point, [&](const f32::cotan_surface& s) { return surroundings(s, layers, view); });
+        if (layers.coat)
+            fromCoat += surface.occlusion
+                * (view.environmentMap ? reflectedOfCoat(*view.environmentMap, *layers.coat, surface.v)
+                                       : f32::cotan_reflect_coat_environment(*layers.coat, surface.v));
+    }
+    if (!layers.coat)
+        return radiance;
+    return radiance * (1 - f32::cotan_coat_share(*layers.coat, surface.v)) + fromCoat;
+}
+
+glm::vec3 transmittanceOf(const f32::cotan_surface& surface, const Layers& layers)
+{
+    if (!layers.gloss)
+        return glm::vec3(0);
+    glm::vec3 through = f32::cotan_transmittance(surface, *layers.gloss);
+    if (layers.sheen)
+        through *= 1 - f32::cotan_sheen_share(*layers.sheen, std::abs(glm::dot(surface.n, surface.v)));
+    if (layers.coat)
+        through *= 1 - f32::cotan_coat_share(*layers.coat, surface.v);
+    return through;
+}
+
+} // namespace cotan::reference

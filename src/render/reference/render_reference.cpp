@@ -1,0 +1,193 @@
+#include "cotan/render.hpp"
+
+#include <algorithm>
+#include <array>
+#include <memory>
+#include <new>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "core/loops.hpp"
+#include "cotan/frame.hpp"
+#include "pixel.hpp"
+#include "scene/bounds.hpp"
+#include "scene/geometry.hpp"
+#include "scene/sample_places.hpp"
+#include "scene/view_check.hpp"
+#include "setup.hpp"
+#include "tile.hpp"
+
+namespace cotan {
+
+namespace {
+
+using namespace reference;
+
+constexpr int kLargestSide = 16384;
+
+// Everything that is known before the first pixel is drawn.
+struct Frozen {
+    Projection projection;
+    TextureLibrary textures;
+    std::vector<Draw> draws;
+    std::vector<PreparedLight> lights;
+    ShadowMap shadow;
+    TiledTriangles tiled;
+};
+
+// The direction of the light that casts shadows; nothing if none does or nobody would see it.
+std::optional<glm::vec3> shadowDirection(const View& view, const std::vector<PreparedLight>& lights)
+{
+    if (view.output != Output::shaded)
+        return std::nullopt;
+    for (const PreparedLight& light : lights)
+        if (light.castsShadow)
+            return -light.toLight;
+    return std::nullopt;
+}
+
+Frozen prepare(const Scene& scene, const View& view)
+{
+    Frozen f;
+    Ball ball = boundingBall(scene);
+    f.projection = cameraProjection(view, ball);
+    f.textures = makeTextures(scene, view);
+    f.draws = makeDraws(scene, f.projection.origin, view.frame, view.output == Output::shaded);
+    f.lights = prepareLights(view, f.projection.origin);
+    if (std::optional<glm::vec3> direction = shadowDirection(view, f.lights))
+        f.shadow = makeShadowMap(scene, view, f.draws, f.textures, *direction, ball, f.projection.origin);
+    f.tiled = setUpTriangles(scene, f.draws, f.projection, Cull::backFaces);
+    return f;
+}
+
+// Draws one quad of one triangle into the tile.
+void drawQuad(const Scene& scene, const PixelInputs& all, const Frozen& f, const RasterTriangle& triangle,
+              const Quad& quad, const SamplePattern& pattern, Tile& tile)
+{
+    const Draw& draw = f.draws[triangle.draw];
+    const Material& material = scene.materials[std::size_t(draw.material)];
+    const MaterialMaps& maps = f.textures.materials[std::size_t(draw.material)];
+    SurfaceInputs in{&all.view, &draw, &material, &maps, &triangle};
+    bool blended = material.translucent() && all.view.output == Output::shaded;
+    std::optional<QuadPoints> points; // made when the first pixel passes the depth test
+    std::array<float, 4> alphas{};    // of a masked material
+    for (int lane = 0; lane < 4; ++lane) {
+        int x = quad.x + (lane & 1), y = quad.y + (lane >> 1);
+        unsigned samples = tile.nearer(x, y, quad.covered[std::size_t(lane)], triangle.z, pattern);
+        if (!samples)
+            continue;
+        const bool masked = material.alphaMode == AlphaMode::mask;
+        if (!points) {
+            points = interpolate(draw, triangle, quad.x, quad.y);
+            for (int k = 0; masked && k < 4; ++k)
+                alphas[std::size_t(k)] = baseColorOf(in, *points, k).w;
+        }
+        if (masked)
+            samples &= samplesOfMask(alphas, lane, material.alphaCutoff, pattern);
+        if (!samples)
+            continue;
+        Fragment fragment = shade(all, in, *points, lane);
+        if (fragment.discarded)
+            continue;
+        if (blended)
+            tile.blend(x, y, samples, fragment.value, fragment.through, triangle.z, pattern);
+        else
+            tile.write(x, y, samples, fragment.value, triangle.z, pattern);
+    }
+}
+
+// Samples that are lit one by one are drawn as pictures of one sample.
+bool oneByOne(const View& view) { return view.output == Output::shaded && view.samples > kMostSharedSamples; }
+
+// Calls store(x, y, value) for the pixels of a tile, x and y in the upright picture.
+template<class Store>
+void drawTile(const Scene& scene, const View& view, const Frozen& f, std::size_t index, const Store& store)
+{
+    SamplePattern pattern = samplePattern(view.output == Output::shaded && !oneByOne(view) ? view.samples : 1);
+    PixelInputs all{view, f.projection, f.lights, f.shadow};
+    Rectangle area = f.tiled.area(index, view.width, view.height);
+    Tile tile(area, pattern.count);
+    for (int y = area.y0; y < area.y1; ++y)
+        for (int x = area.x0; x < area.x1; ++x)
+            tile.clear(x, y, background(all, x, y));
+    for (std::uint32_t t : f.tiled.tiles[index]) {
+        const RasterTriangle& triangle = f.tiled.triangles[t];
+        forEachQuad(triangle, area, pattern,
+                    [&](const Quad& quad) { drawQuad(scene, all, f, triangle, quad, pattern, tile); });
+    }
+    for (int y = area.y0; y < area.y1; ++y)
+        for (int x = area.x0; x < area.x1; ++x)
+            store(x, view.rowsUpward ? view.height - 1 - y : y, tile.resolve(x, y));
+}
+
+// Draws all tiles; false where it was stopped.
+template<class Store>
+bool drawTiles(const Scene& scene, const View& view, const Frozen& frozen, CountedSteps& done, const Store& store)
+{
+    parallelFor(std::size_t(0), frozen.tiled.tiles.size(), [&](std::size_t index) {
+        if (done.stopped())
+            return;
+        drawTile(scene, view, frozen, index, store);
+        done.step();
+    });
+    return !done.stopped();
+}
+
+Result<Image> draw(const Scene& scene, const View& view, const Progress& progress)
+{
+    bool bytes = view.output == Output::shaded && !view.linearOutput;
+    Image picture = makeImage(view.width, view.height, bytes ? PixelType::unorm8 : PixelType::float32, scene.name);
+    Frozen frozen = prepare(scene, view);
+    const std::size_t tiles = frozen.tiled.tiles.size();
+    const auto store = [&](int x, int y, glm::vec4 value) { storePixel(picture, x, y, value, view.dither); };
+    if (!oneByOne(view)) {
+        CountedSteps done(progress, tiles);
+        return drawTiles(scene, view, frozen, done, store) ? Result<Image>(std::move(picture)) : stoppedError();
+    }
+    std::vector<glm::vec4> sums(picture.pixelCount(), glm::vec4(0));
+    CountedSteps done(progress, tiles * kPlaces);
+    const Projection still = frozen.projection;
+    for (int sample = 0; sample < kPlaces; ++sample) {
+        frozen.projection = movedBy(still, samplePlace(sample));
+        frozen.tiled = setUpTriangles(scene, frozen.draws, frozen.projection, Cull::backFaces);
+        const bool drawn = drawTiles(scene, view, frozen, done, [&](int x, int y, glm::vec4 value) {
+            sums[std::size_t(y) * std::size_t(view.width) + std::size_t(x)] += value;
+        });
+        if (!drawn)
+            return stoppedError();
+    }
+    for (int y = 0; y < view.height; ++y)
+        for (int x = 0; x < view.width; ++x)
+            store(x, y, sums[std::size_t(y) * std::size_t(view.width) + std::size_t(x)] / float(kPlaces));
+    return picture;
+}
+
+Status checkSize(const View& view)
+{
+    const auto fits = [](int side) { return side >= 1 && side <= kLargestSide; };
+    if (!fits(view.width) || !fits(view.height))
+        return usageError("picture size: expected 1 to 16384 pixels a side, found " + std::to_string(view.width) + "x"
+                          + std::to_string(view.height));
+    return Done{};
+}
+
+} // namespace
+
+Result<Image> renderReference(const Scene& scene, const View& view, int threads, const Progress& progress)
+{
+    for (const Status& ok :
+         {checkSize(view), checkView(view), checkTrianglesDrawn(scene), checkVertexAttributes(scene, view.frame)})
+        if (!ok)
+            return ok.error();
+    try {
+        return withThreads(threads, [&] { return draw(scene, view, progress); });
+    } catch (const TooManyLayers&) {
+        return unavailableError("reference renderer: more than " + std::to_string(kMostLayers)
+                                + " translucent fragments in a tile of 32x32 pixels");
+    } catch (const std::bad_alloc&) {
+        return unavailableError("reference renderer: not enough memory for this scene and size");
+    }
+}
+
+} // namespace cotan

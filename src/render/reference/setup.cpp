@@ -1,0 +1,162 @@
+#include "setup.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include <glm/geometric.hpp>
+
+#include "clip.hpp"
+#include "core/loops.hpp"
+
+namespace cotan::reference {
+
+namespace {
+
+constexpr std::size_t kChunkTriangles = 2048;
+
+// A run of triangles of one draw, set up by one task.
+struct Chunk {
+    std::uint32_t draw = 0;
+    std::size_t first = 0, last = 0;
+    std::vector<RasterTriangle> result;
+};
+
+std::vector<Chunk> chunksOf(const std::vector<Draw>& draws)
+{
+    std::vector<Chunk> chunks;
+    for (std::size_t d = 0; d < draws.size(); ++d) {
+        std::size_t count = draws[d].mesh->triangleCount();
+        for (std::size_t first = 0; first < count; first += kChunkTriangles) {
+            std::size_t last = std::min(count, first + kChunkTriangles);
+            chunks.push_back({std::uint32_t(d), first, last, {}});
+        }
+    }
+    return chunks;
+}
+
+// Rows of the inverse of the matrix whose columns are (x, y, w) of the corners: the weight of each
+// vertex divided by w, as functions linear over the raster (Olano and Greer, Triangle Scan
+// Conversion using 2D Homogeneous Coordinates, 1997). They exist also where corners lie behind
+// the eye. False for a triangle that is seen edge-on.
+bool makePlanes(const std::array<glm::dvec4, 3>& corner, RasterTriangle& triangle, double& orientation)
+{
+    std::array<glm::dvec3, 3> p;
+    for (std::size_t i = 0; i < 3; ++i)
+        p[i] = {corner[i].x, corner[i].y, corner[i].w};
+    orientation = glm::dot(p[0], glm::cross(p[1], p[2]));
+    if (orientation == 0 || !std::isfinite(orientation))
+        return false;
+    triangle.z = {};
+    for (std::size_t i = 0; i < 3; ++i) {
+        glm::dvec3 row = glm::cross(p[(i + 1) % 3], p[(i + 2) % 3]) / orientation;
+        triangle.weight[i] = {row.x, row.y, row.z};
+        triangle.z.x += row.x * corner[i].z;
+        triangle.z.y += row.y * corner[i].z;
+        triangle.z.constant += row.z * corner[i].z;
+    }
+    return std::isfinite(triangle.z.x) && std::isfinite(triangle.z.y) && std::isfinite(triangle.z.constant);
+}
+
+glm::ivec2 snap(glm::dvec4 corner)
+{
+    return {int(std::lround(corner.x / corner.w * kSubPixels)), int(std::lround(corner.y / corner.w * kSubPixels))};
+}
+
+std::int64_t doubledArea(const std::array<glm::ivec2, 3>& c)
+{
+    return std::int64_t(c[1].x - c[0].x) * (c[2].y - c[0].y) - std::int64_t(c[1].y - c[0].y) * (c[2].x - c[0].x);
+}
+
+// The pieces of a triangle as a fan. Their inner edges are shared exactly, so no sample is covered
+// twice.
+void addPieces(const Polygon& polygon, RasterTriangle triangle, const Projection& projection,
+               std::vector<RasterTriangle>& result)
+{
+    Rectangle picture{0, 0, projection.width, projection.height};
+    for (int i = 1; i + 1 < polygon.count; ++i) {
+        triangle.corner = {snap(polygon.corner[0]), snap(polygon.corner[std::size_t(i)]),
+                           snap(polygon.corner[std::size_t(i + 1)])};
+        std::int64_t area = doubledArea(triangle.corner);
+        if (area == 0)
+            continue;
+        if (area < 0)
+            std::swap(triangle.corner[1], triangle.corner[2]);
+        Rectangle bounds = boundsOf(triangle, picture);
+        if (bounds.x0 < bounds.x1 && bounds.y0 < bounds.y1)
+            result.push_back(triangle);
+    }
+}
+
+void setUp(const Scene& scene, const std::vector<Draw>& draws, const Projection& projection, Cull cull, Chunk& chunk)
+{
+    const Draw& draw = draws[chunk.draw];
+    const std::vector<std::uint32_t>& indices = draw.mesh->indices;
+    bool culling = cull == Cull::backFaces && !scene.materials[std::size_t(draw.material)].doubleSided;
+    for (std::size_t t = chunk.first; t < chunk.last; ++t) {
+        RasterTriangle triangle;
+        triangle.draw = chunk.draw;
+        triangle.vertex = {indices[3 * t], indices[3 * t + 1], indices[3 * t + 2]};
+        std::array<glm::dvec4, 3> corner;
+        bool valid = true;
+        for (std::size_t i = 0; i < 3; ++i) {
+            valid = valid && triangle.vertex[i] < draw.positions.size();
+            if (valid)
+                corner[i] = projection.toRaster * glm::dvec4(draw.positions[triangle.vertex[i]], 1);
+        }
+        double orientation = 0;
+        if (!valid || !makePlanes(corner, triangle, orientation))
+            continue;
+        // Front faces run counterclockwise in an upright picture; that is a positive orientation
+        // where rows run upward. A mirroring instance does not turn a front into a back.
+        triangle.front = ((orientation > 0) == projection.rowsUpward) != draw.mirrored;
+        if (culling && !triangle.front)
+            continue;
+        addPieces(clip(corner, projection.width, projection.height), triangle, projection, chunk.result);
+    }
+}
+
+void sortIntoTiles(TiledTriangles& tiled, const Projection& projection)
+{
+    tiled.columns = (projection.width + kTileSize - 1) / kTileSize;
+    tiled.rows = (projection.height + kTileSize - 1) / kTileSize;
+    tiled.tiles.resize(std::size_t(tiled.columns) * std::size_t(tiled.rows));
+    Rectangle picture{0, 0, projection.width, projection.height};
+    for (std::size_t i = 0; i < tiled.triangles.size(); ++i) {
+        const Rectangle b = boundsOf(tiled.triangles[i], picture);
+        const std::array<Edge, 3> edges = edgesOf(tiled.triangles[i]);
+        for (int row = b.y0 / kTileSize; row <= (b.y1 - 1) / kTileSize; ++row)
+            for (int column = b.x0 / kTileSize; column <= (b.x1 - 1) / kTileSize; ++column) {
+                const int x = column * kTileSize, y = row * kTileSize;
+                if (mayCover(edges, {x, y, x + kTileSize, y + kTileSize}))
+                    tiled.tiles[std::size_t(row) * std::size_t(tiled.columns) + std::size_t(column)].push_back(
+                        std::uint32_t(i));
+            }
+    }
+}
+
+} // namespace
+
+Rectangle TiledTriangles::area(std::size_t tile, int width, int height) const
+{
+    int x = int(tile % std::size_t(columns)) * kTileSize;
+    int y = int(tile / std::size_t(columns)) * kTileSize;
+    return {x, y, std::min(width, x + kTileSize), std::min(height, y + kTileSize)};
+}
+
+TiledTriangles setUpTriangles(const Scene& scene, const std::vector<Draw>& draws, const Projection& projection,
+                              Cull cull)
+{
+    std::vector<Chunk> chunks = chunksOf(draws);
+    parallelFor(std::size_t(0), chunks.size(),
+                [&](std::size_t i) { setUp(scene, draws, projection, cull, chunks[i]); });
+    TiledTriangles tiled;
+    for (Chunk& chunk : chunks) {
+        tiled.triangles.insert(tiled.triangles.end(), chunk.result.begin(), chunk.result.end());
+        chunk.result = {};
+    }
+    sortIntoTiles(tiled, projection);
+    return tiled;
+}
+
+} // namespace cotan::reference

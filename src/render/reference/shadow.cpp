@@ -1,0 +1,232 @@
+#include "shadow.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include <glm/geometric.hpp>
+
+#include "core/loops.hpp"
+#include "scene/environment_map.hpp"
+#include "setup.hpp"
+#include "surface.hpp"
+
+namespace cotan::reference {
+
+namespace {
+
+constexpr int kShadowTexels = 2048;
+constexpr std::size_t kManyInTile = 64; // triangles from which on a tile is drawn block by block
+constexpr int kBlock = 8;               // texels: side of a block
+constexpr int kDrawnUntilAsked = 8;     // triangles after which the farthest texel of a block is looked for again
+
+struct ShadowPass {
+    const Scene& scene;
+    const View& view;
+    const std::vector<Draw>& draws;
+    const TextureLibrary& textures;
+    ShadowMap& map;
+    std::size_t firstTranslucent; // of the draws
+
+    std::uint32_t layerOf(const RasterTriangle& triangle) const;
+    void drawQuad(const RasterTriangle& triangle, const Quad& quad) const;
+    void drawTile(const TiledTriangles& tiled, std::size_t tile) const;
+    void drawBlock(const TiledTriangles& tiled, std::span<const std::uint32_t> triangles, Rectangle block) const;
+};
+
+// Which pattern of cotan_shadow_threshold a translucent surface takes: the front and the back of a thing, and of two
+// things that follow one another, are told apart.
+std::uint32_t ShadowPass::layerOf(const RasterTriangle& triangle) const
+{
+    return (triangle.front ? 0u : 1u) + 2 * (std::uint32_t(triangle.draw - firstTranslucent) & 1u);
+}
+
+void ShadowPass::drawQuad(const RasterTriangle& triangle, const Quad& quad) const
+{
+    const Draw& draw = draws[triangle.draw];
+    const Material& material = scene.materials[std::size_t(draw.material)];
+    const MaterialMaps& maps = textures.materials[std::size_t(draw.material)];
+    const bool masked = material.alphaMode == AlphaMode::mask, blended = material.alphaMode == AlphaMode::blend;
+    QuadPoints points;
+    if (masked || blended)
+        points = interpolate(draw, triangle, quad.x, quad.y);
+    for (int lane = 0; lane < 4; ++lane) {
+        if (!quad.covered[std::size_t(lane)])
+            continue;
+        int x = quad.x + (lane & 1), y = quad.y + (lane >> 1);
+        float z = float(triangle.z.at(x + 0.5, y + 0.5));
+        float& stored = map.nearness[std::size_t(y) * std::size_t(map.size) + std::size_t(x)];
+        if (!(z > stored))
+            continue;
+        const auto alpha = [&] { return baseColorOf({&view, &draw, &material, &maps, &triangle}, points, lane).w; };
+        if (masked && alpha() < material.alphaCutoff)
+            continue;
+        if (blended && !(alpha() > f32::cotan_shadow_threshold(unsigned(x), unsigned(y), layerOf(triangle))))
+            continue;
+        stored = z;
+    }
+}
+
+// The nearest that the plane of a triangle comes in the area.
+double nearestIn(const Plane& z, Rectangle area)
+{
+    return z.at(z.x > 0 ? area.x1 : area.x0, z.y > 0 ? area.y1 : area.y0);
+}
+
+// The same texels from the nearest triangle on, whichever comes first in the scene: most of those behind are behind
+// all that is there, and are left out.
+void ShadowPass::drawBlock(const TiledTriangles& tiled, std::span<const std::uint32_t> triangles, Rectangle block) const
+{
+    std::vector<std::pair<double, std::uint32_t>> order;
+    for (const std::uint32_t index : triangles)
+        if (mayCover(edgesOf(tiled.triangles[index]), block))
+            order.emplace_back(nearestIn(tiled.triangles[index].z, block), index);
+    std::sort(order.begin(), order.end(), std::greater<>());
+    const auto farthest = [&] {
+        float least = map.nearness[std::size_t(block.y0) * std::size_t(map.size) + std::size_t(block.x0)];
+        for (int y = block.y0; y < block.y1; ++y)
+            for (int x = block.x0; x < block.x1; ++x)
+                least = std::min(least, map.at(x, y));
+        return least;
+    };
+    float least = 0;
+    int drawn = 0;
+    for (const auto& [nearest, index] : order) {
+        if (!(float(nearest) > least))
+            return; // nor do those that follow
+        const RasterTriangle& triangle = tiled.triangles[index];
+        forEachQuad(triangle, block, samplePattern(1), [&](const Quad& quad) { drawQuad(triangle, quad); });
+        if (++drawn % kDrawnUntilAsked == 0)
+            least = farthest();
+    }
+}
+
+void ShadowPass::drawTile(const TiledTriangles& tiled, std::size_t tile) const
+{
+    const Rectangle area = tiled.area(tile, map.size, map.size);
+    std::vector<std::uint32_t> casting;
+    for (const std::uint32_t index : tiled.tiles[tile])
+        if (scene.materials[std::size_t(draws[tiled.triangles[index].draw].material)].throwsShadow())
+            casting.push_back(index);
+    if (casting.size() < kManyInTile) {
+        for (const std::uint32_t index : casting) {
+            const RasterTriangle& triangle = tiled.triangles[index];
+            forEachQuad(triangle, area, samplePattern(1), [&](const Quad& quad) { drawQuad(triangle, quad); });
+        }
+        return;
+    }
+    for (int y = area.y0; y < area.y1; y += kBlock)
+        for (int x = area.x0; x < area.x1; x += kBlock)
+            drawBlock(tiled, casting, {x, y, std::min(x + kBlock, area.x1), std::min(y + kBlock, area.y1)});
+}
+
+// What four texels in a row weigh when three bilinear reads side by side are averaged.
+std::array<float, 4> filterWeights(float fraction) { return {(1 - fraction) / 3, 1.0f / 3, 1.0f / 3, fraction / 3}; }
+
+} // namespace
+
+ShadowMap makeShadowMap(const Scene& scene, const View& view, const std::vector<Draw>& draws,
+                        const TextureLibrary& textures, glm::vec3 direction, const Ball& ball, glm::dvec3 origin)
+{
+    ShadowMap map;
+    map.size = kShadowTexels;
+    map.projection = shadowProjection(glm::dvec3(direction), ball, origin, map.size);
+    map.nearness.assign(std::size_t(map.size) * std::size_t(map.size), 0.0f);
+    map.texel = float(2 * ball.radius / (map.size - 2));
+    map.depthUnit = float(0.5 / (ball.radius * 1.01));
+    TiledTriangles tiled = setUpTriangles(scene, draws, map.projection, Cull::nothing);
+    const auto translucent = [&](const Draw& draw) {
+        return scene.materials[std::size_t(draw.material)].translucent();
+    };
+    const auto first = std::find_if(draws.begin(), draws.end(), translucent);
+    ShadowPass pass{scene, view, draws, textures, map, std::size_t(first - draws.begin())};
+    parallelFor(std::size_t(0), tiled.tiles.size(), [&](std::size_t tile) { pass.drawTile(tiled, tile); });
+    return map;
+}
+
+float lightReaching(const ShadowMap& map, glm::vec3 position, glm::vec3 n, glm::vec3 toLight)
+{
+    if (map.size == 0)
+        return 1;
+    float cosine = glm::dot(n, toLight);
+    float sine = std::sqrt(std::max(0.0f, 1 - cosine * cosine));
+    glm::vec3 moved = position + n * (map.texel * (0.5f + 2.0f * sine));
+    glm::dvec4 p = map.projection.toRaster * glm::dvec4(moved, 1);
+    float slope = std::min(sine / std::max(std::abs(cosine), 0.05f), 4.0f);
+    float receiver = float(p.z) + map.texel * map.depthUnit * (0.5f + 0.5f * slope);
+
+    float u = float(p.x) - 0.5f, v = float(p.y) - 0.5f;
+    if (!(u > 2 && v > 2 && u < float(map.size - 3) && v < float(map.size - 3)))
+        return 1;
+    int x = int(u), y = int(v);
+    std::array<float, 4> kx = filterWeights(u - float(x)), ky = filterWeights(v - float(y));
+    float blocked = 0;
+    int blockedTexels = 0;
+    for (int j = 0; j < 4; ++j)
+        for (int i = 0; i < 4; ++i)
+            if (receiver < map.at(x + i - 1, y + j - 1)) {
+                blocked += kx[std::size_t(i)] * ky[std::size_t(j)];
+                ++blockedTexels;
+            }
+    // Full light and full shadow are exact, whatever the weights round to.
+    return blockedTexels == 16 ? 0.0f : std::max(0.0f, 1 - blocked);
+}
+
+float softLightReaching(const ShadowMap& map, glm::vec3 position, glm::vec3 n, glm::vec3 toLight, float softness)
+{
+    if (map.size == 0)
+        return 1;
+    const float cosine = glm::dot(n, toLight), sine = std::sqrt(std::max(0.0f, 1 - cosine * cosine));
+    const glm::dvec4 moved(position + n * (map.texel * (0.5f + 1.5f * sine)), 1);
+    const glm::dvec4 p = map.projection.toRaster * moved;
+    const float edge = float(map.size);
+    if (!(p.x > 0 && p.y > 0 && p.x < edge && p.y < edge))
+        return 1;
+    // All in texels. How nearness on the plane through the point changes from texel to texel.
+    const float nearer = map.texel * map.depthUnit / std::max(cosine, 0.2f);
+    const glm::vec2 slope =
+        glm::vec2(glm::dot(n, glm::vec3(map.projection.right)), -glm::dot(n, glm::vec3(map.projection.up))) * -nearer;
+    const float tangent = std::min(sine / std::max(cosine, 0.2f), 4.0f);
+    const float receiver = float(p.z) + map.texel * map.depthUnit * (0.5f + 0.5f * tangent);
+    const float widening = softness / (map.depthUnit * map.texel), most = kWidestPenumbra * edge;
+    const glm::vec2 middle(float(p.x), float(p.y));
+    const auto visit = [&](glm::vec2 place, const auto& use) {
+        const glm::vec2 corner = glm::floor(place - 0.5f), k = place - 0.5f - corner;
+        for (int i = 0; i < 4; ++i) {
+            const int dx = i & 1, dy = i >> 1;
+            const int x = std::clamp(int(corner.x) + dx, 0, map.size - 1);
+            const int y = std::clamp(int(corner.y) + dy, 0, map.size - 1);
+            use(map.at(x, y), (dx ? k.x : 1 - k.x) * (dy ? k.y : 1 - k.y));
+        }
+    };
+
+    glm::vec2 direction(1, 0);
+    float sum = 0, count = 0;
+    const float reach = f32::cotan_penumbra(1 - float(p.z), widening, 2, most);
+    for (int i = 0; i < COTAN_SHADOW_SEARCH; ++i) {
+        const glm::vec2 offset = direction * (reach * f32::cotan_tap_radius(i, COTAN_SHADOW_SEARCH));
+        visit(middle + offset, [&](float nearness, float) {
+            if (nearness > receiver + glm::dot(slope, offset))
+                sum += nearness, ++count;
+        });
+        direction = f32::cotan_next_tap(direction);
+    }
+    if (count == 0)
+        return 1;
+    const float radius = f32::cotan_penumbra(sum / count - float(p.z), widening, 1.5f, most);
+    float arriving = 0;
+    for (int i = 0; i < COTAN_SHADOW_TAPS; ++i) {
+        const glm::vec2 offset = direction * (radius * f32::cotan_tap_radius(i, COTAN_SHADOW_TAPS));
+        visit(middle + offset, [&](float nearness, float weight) {
+            arriving += nearness > receiver + glm::dot(slope, offset) ? 0 : weight;
+        });
+        direction = f32::cotan_next_tap(direction);
+    }
+    return arriving / COTAN_SHADOW_TAPS;
+}
+
+} // namespace cotan::reference

@@ -1,0 +1,330 @@
+#include "surface.hpp"
+
+#include <cmath>
+
+#include <glm/geometric.hpp>
+
+#include "cotan/frame.hpp"
+#include "scene/normal_format.hpp"
+#include "scene/texture_uv.hpp"
+
+namespace cotan::reference {
+
+namespace {
+
+bool hasUv(const Draw& draw, std::size_t set) { return draw.mesh->texcoords[set].size() >= draw.positions.size(); }
+
+// In double, rounded once: what is left in a difference of neighbours is the rounding of the two
+// values, as on a GPU at its best.
+template<glm::length_t N>
+glm::vec<N, float> interpolated(const std::vector<glm::vec<N, float>>& values, const RasterTriangle& triangle,
+                                const std::array<double, 3>& weights)
+{
+    glm::vec<N, double> sum(0);
+    for (std::size_t i = 0; i < 3; ++i)
+        sum += glm::vec<N, double>(values[triangle.vertex[i]]) * weights[i];
+    return glm::vec<N, float>(sum);
+}
+
+// As above, or 0 where the mesh lacks the attribute.
+glm::vec3 interpolatedOrZero(const std::vector<glm::vec3>& values, const RasterTriangle& triangle,
+                             const std::array<double, 3>& weights)
+{
+    return values.empty() ? glm::vec3(0) : interpolated(values, triangle, weights);
+}
+
+std::size_t setOf(const Texture& texture) { return texture.texcoord == 1 ? 1 : 0; }
+
+// The two lanes whose difference a lane takes.
+struct Pair {
+    int from, to;
+};
+
+// Fine: along the lane's own row or column. Coarse: along the first row or column for all four.
+Pair alongX(int lane, Derivatives d)
+{
+    int first = d == Derivatives::fine ? lane & 2 : 0;
+    return {first, first | 1};
+}
+Pair alongY(int lane, Derivatives d)
+{
+    int first = d == Derivatives::fine ? lane & 1 : 0;
+    return {first, first | 2};
+}
+
+glm::vec3 difference(const QuadPoints& quad, Pair pair)
+{
+    return quad.position[std::size_t(pair.to)] - quad.position[std::size_t(pair.from)];
+}
+
+// The part of a texture's transform that moves differences.
+glm::vec2 transformedEdge(const Texture& texture, glm::vec2 edge)
+{
+    return {glm::dot(glm::vec2(texture.uRow), edge), glm::dot(glm::vec2(texture.vRow), edge)};
+}
+
+// The frames of a whole triangle: its edges in place of the pixel's differences. The edges are taken
+// in the mesh and moved afterwards, so they lose nothing far from the eye.
+f32::cotan_frame frameOfTriangle(const SurfaceInputs& in, const Texture& texture, glm::vec3 n)
+{
+    std::size_t set = setOf(texture);
+    if (!hasUv(*in.draw, set))
+        return {glm::vec3(0), glm::vec3(0), n};
+    const std::array<std::uint32_t, 3>& v = in.triangle->vertex;
+    const std::vector<glm::vec3>& p = in.draw->mesh->positions;
+    const std::vector<glm::vec2>& uv = in.draw->mesh->texcoords[set];
+    return evaluate(in.view->frame, n, in.draw->vectors * (p[v[1]] - p[v[0]]), in.draw->vectors * (p[v[2]] - p[v[0]]),
+                    transformedEdge(texture, uv[v[1]] - uv[v[0]]), transformedEdge(texture, uv[v[2]] - uv[v[0]]));
+}
+
+// The frames that are made at the vertices. t = b = 0 where the mesh has no uv to make them from.
+f32::cotan_frame frameOfVertices(const SurfaceInputs& in, Frame frame, glm::vec3 n, glm::vec3 rawNormal,
+                                 const std::array<double, 3>& weights)
+{
+    const Draw& draw = *in.draw;
+    const RasterTriangle& triangle = *in.triangle;
+    if (readsCotangents(frame) && !draw.cotangentsU.empty() && !draw.cotangentsV.empty())
+        return evaluateCotangents(frame, n, interpolated(draw.cotangentsU, triangle, weights),
+                                  interpolated(draw.cotangentsV, triangle, weights));
+    if (readsCotangents(frame) || draw.tangents.empty())
+        return {glm::vec3(0), glm::vec3(0), n};
+    glm::vec4 tangent = interpolated(draw.tangents, triangle, weights);
+    // `mikktspace` wants its normal as interpolated.
+    return evaluateTangents(frame, frame == Frame::mikktspace ? rawNormal : n, glm::vec3(tangent), tangent.w);
+}
+
+glm::vec3 finiteOrZero(glm::vec3 v) { return f32::cotan_sum_abs(v) <= 1e37f ? v : glm::vec3(0); }
+
+// The texture's uv in `to` minus those in `from`, from uv relative to the triangle's corner: near
+// zero floats are dense, so close steps of uv far from zero are not lost to rounding.
+glm::vec2 uvDifference(const Texture& texture, const QuadPoints& quad, Pair pair)
+{
+    const std::array<glm::vec2, 4>& uv = quad.cornerUv[setOf(texture)];
+    return transformedEdge(texture, uv[std::size_t(pair.to)] - uv[std::size_t(pair.from)]);
+}
+
+// Interpolates a uv set in one lane, as it is and relative to the triangle's first corner.
+void interpolateUv(QuadPoints& quad, std::size_t set, std::size_t lane, const Draw& draw,
+                   const RasterTriangle& triangle)
+{
+    const std::vector<glm::vec2>& uv = draw.mesh->texcoords[set];
+    const std::array<double, 3>& weights = quad.weights[lane];
+    const glm::dvec2 corner(uv[triangle.vertex[0]]);
+    const glm::dvec2 relative = (glm::dvec2(uv[triangle.vertex[1]]) - corner) * weights[1]
+        + (glm::dvec2(uv[triangle.vertex[2]]) - corner) * weights[2];
+    quad.cornerUv[set][lane] = glm::vec2(relative);
+    quad.uv[set][lane] = glm::vec2(corner + relative);
+}
+
+} // namespace
+
+QuadPoints interpolate(const Draw& draw, const RasterTriangle& triangle, int x, int y)
+{
+    QuadPoints quad;
+    bool uv0 = hasUv(draw, 0), uv1 = hasUv(draw, 1);
+    for (std::size_t lane = 0; lane < 4; ++lane) {
+        double px = x + int(lane & 1) + 0.5, py = y + int(lane >> 1) + 0.5;
+        double w0 = triangle.weight[0].at(px, py);
+        double w1 = triangle.weight[1].at(px, py);
+        double w2 = triangle.weight[2].at(px, py);
+        double w = 1 / (w0 + w1 + w2);
+        std::array<double, 3>& weights = quad.weights[lane];
+        weights = {w0 * w, w1 * w, w2 * w};
+        quad.position[lane] = interpolated(draw.positions, triangle, weights);
+        if (uv0)
+            interpolateUv(quad, 0, lane, draw, triangle);
+        if (uv1)
+            interpolateUv(quad, 1, lane, draw, triangle);
+    }
+    return quad;
+}
+
+UvDifferences uvOf(const Texture& texture, const QuadPoints& quad, int lane, Derivatives derivatives)
+{
+    Pair x = alongX(lane, derivatives), y = alongY(lane, derivatives);
+    return {textureUv(texture, quad.uv[setOf(texture)][std::size_t(lane)]), uvDifference(texture, quad, x),
+            uvDifference(texture, quad, y)};
+}
+
+glm::vec4 baseColorOf(const SurfaceInputs& in, const QuadPoints& quad, int lane)
+{
+    const Material& m = *in.material;
+    glm::vec4 base = m.baseColor;
+    if (in.maps->baseColor)
+        base *= sample(*in.maps->baseColor, m.baseColorMap.sampler,
+                       uvOf(m.baseColorMap, quad, lane, in.view->derivatives), in.view->pointSampled);
+    const std::vector<glm::vec4>& colors = in.draw->mesh->colors;
+    if (colors.size() >= in.draw->positions.size())
+        base *= interpolated(colors, *in.triangle, quad.weights[std::size_t(lane)]);
+    return base;
+}
+
+unsigned samplesOfMask(const std::array<float, 4>& alphas, int lane, float cutoff, const SamplePattern& pattern)
+{
+    const float alpha = alphas[std::size_t(lane)];
+    const float slopeX = alphas[std::size_t(lane | 1)] - alphas[std::size_t(lane & 2)];
+    const float slopeY = alphas[std::size_t(lane | 2)] - alphas[std::size_t(lane & 1)];
+    unsigned samples = 0;
+    for (int s = 0; s < pattern.count; ++s) {
+        const glm::vec2 place = glm::vec2(pattern.offset[std::size_t(s)]) / float(kSubPixels) - 0.5f;
+        if (!(alpha + slopeX * place.x + slopeY * place.y < cutoff))
+            samples |= 1u << s;
+    }
+    return samples;
+}
+
+namespace {
+
+// The normal without a map, and what frames are made from besides it.
+struct Smooth {
+    glm::vec3 raw{0}; // as interpolated
+    glm::vec3 n{0};   // unit
+    glm::vec3 dpdx{0};
+    glm::vec3 dpdy{0};
+};
+
+Smooth smoothOf(const SurfaceInputs& in, const QuadPoints& quad, int lane, const UvDifferences& uv)
+{
+    Smooth smooth;
+    smooth.dpdx = difference(quad, alongX(lane, in.view->derivatives));
+    smooth.dpdy = difference(quad, alongY(lane, in.view->derivatives));
+    smooth.raw = interpolatedOrZero(in.draw->normals, *in.triangle, quad.weights[std::size_t(lane)]);
+    f32::cotan_differences safe = f32::cotan_scale_differences(smooth.dpdx, smooth.dpdy, uv.dx, uv.dy);
+    smooth.n = f32::cotan_safe_normal(smooth.raw, safe.dpdx, safe.dpdy);
+    return smooth;
+}
+
+// The turn of the surface's own normals in the pixel; none where the view does not ask for it.
+void addTurn(SurfaceNormal& result, const SurfaceInputs& in, const QuadPoints& quad, int lane)
+{
+    if (!in.view->specularAntialiasing)
+        return;
+    const auto normal = [&](int at) { return smoothOf(in, quad, at, {}).n; };
+    const Pair x = alongX(lane, in.view->derivatives), y = alongY(lane, in.view->derivatives);
+    result.turnX = normal(x.to) - normal(x.from);
+    result.turnY = normal(y.to) - normal(y.from);
+    result.turn = result.spread = f32::cotan_spread_of_turn(result.turnX, result.turnY);
+}
+
+// What a texel of a normal map adds: mips keep the length of their means in the fourth channel.
+float spreadOf(const View& view, glm::vec4 texel)
+{
+    return view.specularAntialiasing ? f32::cotan_spread_of_length(texel.w) : 0;
+}
+
+// The view's frame over the uv of a map.
+f32::cotan_frame frameOver(const SurfaceInputs& in, const Texture& map, const Smooth& smooth, const UvDifferences& uv,
+                           const std::array<double, 3>& weights)
+{
+    const Frame frame = in.view->frame;
+    if (info(frame).source == FrameSource::triangle)
+        return frameOfTriangle(in, map, smooth.n);
+    if (readsVertices(frame))
+        return frameOfVertices(in, frame, smooth.n, smooth.raw, weights);
+    return evaluate(frame, smooth.n, smooth.dpdx, smooth.dpdy, uv.dx, uv.dy);
+}
+
+bool sameUv(const Texture& a, const Texture& b) { return setOf(a) == setOf(b) && a.uRow == b.uRow && a.vRow == b.vRow; }
+
+} // namespace
+
+namespace {
+
+// A place in a pixel, of so many a side, from its middle in pixels.
+glm::vec2 placeOf(int place, int side)
+{
+    return (glm::vec2(float(place % side), float(place / side)) + 0.5f) / float(side) - 0.5f;
+}
+
+// What turns a texel of the material's normal map into numbers.
+f32::cotan_normal_format formatOf(const SurfaceInputs& in)
+{
+    return toFormat<f32::cotan_normal_format>(in.material->normalFormat, in.maps->normal->image->type,
+                                              double(in.material->normalScale));
+}
+
+} // namespace
+
+SurfaceNormal normalOf(const SurfaceInputs& in, const QuadPoints& quad, int lane)
+{
+    const View& view = *in.view;
+    const Material& material = *in.material;
+    UvDifferences uv = uvOf(material.normalMap, quad, lane, view.derivatives);
+    const Smooth smooth = smoothOf(in, quad, lane, uv);
+    const glm::vec3 n = smooth.n;
+    const f32::cotan_frame frame = frameOver(in, material.normalMap, smooth, uv, quad.weights[std::size_t(lane)]);
+
+    SurfaceNormal result;
+    result.interpolated = result.finished = n;
+    result.t = finiteOrZero(frame.t);
+    result.b = finiteOrZero(frame.b);
+    result.uv = uv.uv;
+    result.frame = frame;
+    addTurn(result, in, quad, lane);
+    result.mapped = in.maps->normal && view.normalMaps && hasUv(*in.draw, setOf(material.normalMap));
+    if (result.mapped) {
+        glm::vec4 texel = sample(*in.maps->normal, material.normalMap.sampler, uv, view.pointSampled);
+        const glm::vec3 m = f32::cotan_decode(glm::vec3(texel), formatOf(in));
+        result.spread += spreadOf(view, texel);
+        // `mikktspace` hands back its interpolated normal where the texel is empty: not unit.
+        result.finished = f32::cotan_normalize_or(f32::cotan_apply(frame, m), n);
+        result.texel = f32::cotan_normalize_or(m, glm::vec3(0, 0, 1));
+    }
+    // Behind a two-sided material lies the back of the same thin sheet: a bump seen from behind
+    // is a dent, so it is the finished normal that turns. t and b stay.
+    if (!in.triangle->front) {
+        result.finished = -result.finished;
+        result.texel = -result.texel;
+    }
+    return result;
+}
+
+std::vector<LitTap> tapsOf(const SurfaceInputs& in, const QuadPoints& quad, int lane, const SurfaceNormal& normal,
+                           float roughness)
+{
+    const Texture& map = in.material->normalMap;
+    const UvDifferences uv = uvOf(map, quad, lane, in.view->derivatives);
+    const int side = int(f32::cotan_places_of_roughness(roughness));
+    std::vector<LitTap> taps(std::size_t(side * side));
+    const float share = 1 / float(side), turn = normal.turn * share * share;
+    const f32::cotan_normal_format format = formatOf(in);
+    for (int i = 0; i < side * side; ++i) {
+        const glm::vec2 at = placeOf(i, side);
+        const UvDifferences part{uv.uv + uv.dx * at.x + uv.dy * at.y, uv.dx * share, uv.dy * share};
+        const glm::vec4 texel = sample(*in.maps->normal, map.sampler, part, in.view->pointSampled);
+        const glm::vec3 m = f32::cotan_decode(glm::vec3(texel), format);
+        glm::vec3 n = f32::cotan_normalize_or(f32::cotan_apply(normal.frame, m), normal.interpolated);
+        n = f32::cotan_normalize_or(n + normal.turnX * at.x + normal.turnY * at.y, n);
+        taps[std::size_t(i)] = {in.triangle->front ? n : -n,
+                                f32::cotan_roughness_of_spread(roughness, turn + spreadOf(*in.view, texel))};
+    }
+    return taps;
+}
+
+CoatNormal coatNormalOf(const SurfaceInputs& in, const QuadPoints& quad, int lane, const SurfaceNormal& base)
+{
+    const Texture& map = in.material->coat.normalMap;
+    const MipChain* const chain = in.maps->coatNormal;
+    CoatNormal coat{base.interpolated, base.turn};
+    if (chain && hasUv(*in.draw, setOf(map))) {
+        const UvDifferences uv = uvOf(map, quad, lane, in.view->derivatives);
+        f32::cotan_frame frame = base.frame;
+        if (!sameUv(map, in.material->normalMap)) {
+            const Smooth smooth = smoothOf(in, quad, lane, uv);
+            // What the vertices hold belongs to the uv of the surface beneath.
+            frame = readsCotangents(in.view->frame)
+                ? evaluate(Frame::cotangent, smooth.n, smooth.dpdx, smooth.dpdy, uv.dx, uv.dy)
+                : frameOver(in, map, smooth, uv, quad.weights[std::size_t(lane)]);
+        }
+        const glm::vec4 texel = sample(*chain, map.sampler, uv, in.view->pointSampled);
+        const auto format = toFormat<f32::cotan_normal_format>(in.material->coat.normalFormat, chain->image->type,
+                                                               double(in.material->coat.normalScale));
+        coat.n = f32::cotan_normalize_or(f32::cotan_apply(frame, f32::cotan_decode(glm::vec3(texel), format)), coat.n);
+        coat.spread += spreadOf(*in.view, texel);
+    }
+    if (!in.triangle->front)
+        coat.n = -coat.n;
+    return coat;
+}
+
+} // namespace cotan::reference

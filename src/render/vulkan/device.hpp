@@ -1,0 +1,43 @@
+// Choosing and opening a Vulkan device.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "cotan/render.hpp"
+#include "cotan/result.hpp"
+#include "vulkan.hpp"
+
+namespace cotan {
+
+// A device that is open. Everything made from it must be destroyed before it.
+struct Device {
+    vk::raii::Context context;
+    std::unique_ptr<std::vector<std::string>> messages; // of the validation layer; address is kept
+    vk::raii::Instance instance{nullptr};
+    vk::raii::DebugUtilsMessengerEXT messenger{nullptr};
+    vk::raii::PhysicalDevice physical{nullptr};
+    vk::raii::Device device{nullptr};
+    vk::raii::Queue queue{nullptr};
+    std::uint32_t queueFamily = 0;
+
+    std::string name;
+    std::string driver;
+    bool cpu = false; // a driver that draws on the processor
+    vk::PhysicalDeviceLimits limits;
+    vk::PhysicalDeviceMemoryProperties memory;
+    vk::DeviceSize granularity = 1; // between buffers and images in one allocation
+    bool anisotropy = false;        // textures can be filtered anisotropically
+    bool exact = false;             // fragments can read their triangle's vertices
+    bool dualSource = false;        // blending can have a factor for each channel
+    bool filterable16 = false;      // 16-bit unorm textures can be filtered
+    bool filterable32 = false;      // 32-bit float textures can be filtered
+};
+
+Result<std::unique_ptr<Device>> openDevice(const RendererOptions& options);
+
+// One line for what went wrong, from any exception of the Vulkan bindings.
+std::string reason(const std::exception& e);
+
+} // namespace cotan

@@ -1,0 +1,80 @@
+// Where the scene can be in the picture, and what is behind and around it.
+#include "draw_passes.hpp"
+
+namespace cotan {
+
+namespace {
+
+// BACKDROP_... of background.frag.
+int backdropOf(const View& view)
+{
+    if (!view.background)
+        return 3;
+    if (view.backdrop == Backdrop::paper)
+        return 2;
+    return view.environmentMap && view.backdrop != Backdrop::gradient ? 1 : 0;
+}
+
+} // namespace
+
+vk::Rect2D rectangle(const PixelArea& a)
+{
+    return {{a.x0, a.y0}, {static_cast<std::uint32_t>(a.x1 - a.x0), static_cast<std::uint32_t>(a.y1 - a.y0)}};
+}
+
+// What of the picture the lists may cover.
+void Drawer::setAreas(DrawLists& lists, const View& view, const gpu::CotanView& constants) const
+{
+    const auto areaOfItems = [&](const std::vector<Item>& items) {
+        PixelArea all;
+        for (const Item& item : items)
+            all = around(all, areaOf(constants, item.constants, item.mesh->box, view.width, view.height));
+        return all;
+    };
+    lists.translucentArea = areaOfItems(lists.translucent);
+    lists.area = around(around(areaOfItems(lists.opaque), areaOfItems(lists.mask)), lists.translucentArea);
+}
+
+PipelineKey Drawer::backgroundKey(const View& view) const
+{
+    const PipelineKey picture = forwardKey(view, *targets_);
+    PipelineKey key;
+    key.pass = Pass::background;
+    key.toneMap = picture.toneMap;
+    key.tone = picture.tone;
+    key.backdrop = backdropOf(view);
+    key.ground = view.ground != nullptr;
+    key.samples = picture.samples;
+    key.format = picture.format;
+    return key;
+}
+
+PipelineKey Drawer::surroundKey(const View& view) const
+{
+    PipelineKey key = backgroundKey(view);
+    key.pass = Pass::surround;
+    key.samples = vk::SampleCountFlagBits::e1;
+    key.levels = targets_->kind().shown == vk::Format::eR8G8B8A8Unorm;
+    key.format = targets_->kind().shown;
+    return key;
+}
+
+// The background around an area, straight into the resolved picture: there all samples of a pixel are the same.
+void Drawer::recordSurround(const vk::raii::CommandBuffer& commands, const View& view, const PixelArea& inside)
+{
+    targets_->beginSurround(commands);
+    if (view.background || view.ground) {
+        const PipelineKey key = surroundKey(view);
+        const PixelArea& a = inside;
+        for (const PixelArea& part :
+             {PixelArea{0, 0, view.width, a.y0}, PixelArea{0, a.y0, a.x0, a.y1},
+              PixelArea{a.x1, a.y0, view.width, a.y1}, PixelArea{0, a.y1, view.width, view.height}})
+            if (!part.empty()) {
+                commands.setScissor(0, rectangle(part));
+                drawOver(commands, key);
+            }
+    }
+    commands.endRendering();
+}
+
+} // namespace cotan

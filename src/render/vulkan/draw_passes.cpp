@@ -1,0 +1,298 @@
+#include "draw_passes.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <optional>
+
+#include "cotan/portable.hpp"
+#include "cotan/vector.hpp"
+#include "scene/environment_map.hpp"
+#include "scene/ground_map.hpp"
+#include "scene/sample_places.hpp"
+
+namespace cotan {
+
+namespace {
+
+glm::uvec2 split(vk::DeviceAddress address)
+{
+    return {static_cast<glm::uint>(address), static_cast<glm::uint>(address >> 32)};
+}
+
+// Addresses and flags of CotanDraw.
+void addMesh(gpu::CotanDraw& constants, const GpuScene& scene, const GpuMesh& mesh)
+{
+    const vk::DeviceAddress base = scene.buffers[mesh.buffer].address;
+    if (base != 0) {
+        constants.positions = split(base + mesh.offsets[kPosition]);
+        constants.indices = split(base + mesh.indices);
+    }
+    // Streams follow one another in a buffer; an absent one is not looked at.
+    const auto floatsOn = [&](Stream stream) {
+        return mesh.has(stream) ? static_cast<glm::uint>((mesh.offsets[stream] - mesh.offsets[kPosition]) / 4) : 0u;
+    };
+    constants.texcoords = {floatsOn(kTexcoord0), floatsOn(kTexcoord1)};
+    if (mesh.has(kTexcoord0))
+        constants.flags |= COTAN_DRAW_HAS_TEXCOORDS0;
+    if (mesh.has(kTexcoord1))
+        constants.flags |= COTAN_DRAW_HAS_TEXCOORDS1;
+    if (mesh.has(kTangent))
+        constants.flags |= COTAN_DRAW_HAS_TANGENTS;
+    if (mesh.has(kCotangentU) && mesh.has(kCotangentV))
+        constants.flags |= COTAN_DRAW_HAS_COTANGENTS;
+}
+
+// The maps that a pipeline reads, of those that a material has.
+std::uint32_t mapsNeeded(const PipelineKey& key)
+{
+    if (key.output == Output::shaded)
+        return ~0u;
+    const std::uint32_t alpha = key.alphaMode == AlphaMode::opaque ? 0u : COTAN_MAP_BASE_COLOR;
+    return alpha | (key.output == Output::normal ? COTAN_MAP_NORMAL : 0u);
+}
+
+} // namespace
+
+PipelineKey forwardKey(const View& view, const Targets& targets)
+{
+    PipelineKey key;
+    key.frame = view.frame;
+    key.output = view.output;
+    key.coarse = view.derivatives == Derivatives::coarse;
+    key.normalMaps = view.normalMaps;
+    key.samples = targets.kind().samples;
+    key.format = targets.kind().format;
+    if (view.output == Output::shaded) {
+        key.shading = view.shading;
+        key.environment = view.environment;
+        key.environmentMap = view.environment && view.environmentMap;
+        key.shadows = castsShadow(view);
+        key.specularAntialiasing = view.specularAntialiasing;
+        key.separateSamples = view.samples > kMostSharedSamples;
+        key.softShadows = key.shadows && view.shadowSoftness > 0;
+        key.toneMap = !view.linearOutput;
+        key.tone = view.linearOutput ? key.tone : view.toneMapping;
+    }
+    return key;
+}
+
+Drawer::Drawer(const Device& device, const Layouts& layouts)
+    : device_(&device), layouts_(&layouts), pipelines_(device, layouts), commands_(device), memory_(device)
+{
+    viewBuffer_ = makeHostBuffer(device, memory_, sizeof(gpu::CotanView), vk::BufferUsageFlagBits::eUniformBuffer);
+    vk::SamplerCreateInfo sampler;
+    sampler.addressModeU = vk::SamplerAddressMode::eClampToEdge;
+    sampler.addressModeV = vk::SamplerAddressMode::eClampToEdge;
+    sampler.magFilter = sampler.minFilter = vk::Filter::eLinear; // of what comparisons give
+    sampler.compareEnable = VK_TRUE;
+    sampler.compareOp = vk::CompareOp::eLessOrEqual;
+    shadowSampler_ = vk::raii::Sampler(device.device, sampler);
+    depthSampler_ = vk::raii::Sampler(device.device, vk::SamplerCreateInfo());
+    vk::SamplerCreateInfo filtering;
+    filtering.magFilter = filtering.minFilter = vk::Filter::eLinear;
+    filtering.addressModeU = filtering.addressModeV = vk::SamplerAddressMode::eClampToEdge;
+    pictureSampler_ = vk::raii::Sampler(device.device, filtering);
+    constexpr std::uint32_t kSets = 2;
+    const std::array sizes{vk::DescriptorPoolSize(vk::DescriptorType::eUniformBuffer, kSets),
+                           vk::DescriptorPoolSize(vk::DescriptorType::eStorageBuffer, kSets * 3),
+                           vk::DescriptorPoolSize(vk::DescriptorType::eCombinedImageSampler, kSets * 4)};
+    pool_ = vk::raii::DescriptorPool(device.device, vk::DescriptorPoolCreateInfo({}, kSets, sizes));
+    pictureSet_ = allocateSet(device, pool_, layouts.picture);
+    composeSet_ = allocateSet(device, pool_, layouts.picture);
+}
+
+Drawer::DrawLists Drawer::makeLists(const GpuScene& scene, const View& view, const CameraAxes& axes) const
+{
+    DrawLists lists;
+    for (const GpuInstance& instance : scene.instances) {
+        if (!isFinite(instance.toWorld))
+            continue;
+        Item item;
+        item.mesh = &scene.meshes[instance.mesh];
+        item.material = &scene.materials[std::size_t(item.mesh->material)];
+        item.constants = drawConstants(instance.toWorld, axes.eye);
+        addMesh(item.constants, scene, *item.mesh);
+        // A mirroring matrix and a raster whose rows run upward each turn the winding round.
+        item.clockwise = (item.constants.normalX.w < 0) != view.rowsUpward;
+        item.distance =
+            eyeDistance(instance.toWorld, item.mesh->box.empty() ? glm::vec3(0) : item.mesh->box.centre(), axes);
+        if (item.material->translucent) {
+            item.constants.order = static_cast<std::uint32_t>(lists.translucent.size());
+            lists.translucent.push_back(item);
+            if (item.material->throwsShadow)
+                lists.veils.push_back(item);
+        } else {
+            (item.material->alphaMode == AlphaMode::mask ? lists.mask : lists.opaque).push_back(item);
+        }
+    }
+    const auto nearer = [](const Item& a, const Item& b) { return a.distance < b.distance; };
+    std::stable_sort(lists.opaque.begin(), lists.opaque.end(), nearer);
+    std::stable_sort(lists.mask.begin(), lists.mask.end(), nearer);
+    return lists;
+}
+
+void Drawer::prepare(const View& view, const CameraAxes& axes, const gpu::CotanView& constants, bool layered)
+{
+    std::memcpy(viewBuffer_.mapped, &constants, sizeof constants);
+    const std::vector<gpu::CotanLight> lights = lightConstants(view, axes);
+    const vk::DeviceSize size = lights.size() * sizeof(gpu::CotanLight);
+    if (lightBuffer_.size < size) {
+        lightBuffer_ = {};
+        lightMemory_ = std::make_unique<Memory>(*device_);
+        lightBuffer_ = makeHostBuffer(*device_, *lightMemory_, size, vk::BufferUsageFlagBits::eStorageBuffer);
+    }
+    std::memcpy(lightBuffer_.mapped, lights.data(), size);
+    prepareShadowMap(view.output == Output::shaded && castsShadow(view));
+    if (view.environmentMap)
+        environment_.hold(*device_, view.environmentMap, view.environmentMap->atlas);
+    if (view.ground)
+        ground_.hold(*device_, view.ground, view.ground->shares);
+    if (layered)
+        prepareLayers();
+    writePictureSet(layered);
+}
+
+// Every descriptor names something, also where the picture has no layers and no shader looks: Mesa's CPU
+// driver (22.3) does.
+void Drawer::writePictureSet(bool layered)
+{
+    const vk::DescriptorBufferInfo view(*viewBuffer_.buffer, 0, VK_WHOLE_SIZE);
+    const vk::DescriptorBufferInfo lights(*lightBuffer_.buffer, 0, VK_WHOLE_SIZE);
+    const vk::DescriptorImageInfo shadow(*shadowSampler_, *shadowMap_.view, vk::ImageLayout::eShaderReadOnlyOptimal);
+    const vk::DescriptorBufferInfo lists(layered ? *layers_->lists().buffer : lights.buffer, 0, VK_WHOLE_SIZE);
+    const vk::DescriptorBufferInfo layers(layered ? *layers_->layers().buffer : lights.buffer, 0, VK_WHOLE_SIZE);
+    const vk::DescriptorImageInfo depth(*depthSampler_, targets_->depthView(),
+                                        vk::ImageLayout::eDepthStencilReadOnlyOptimal);
+    const vk::DescriptorImageInfo samples(*depthSampler_, targets_->colorView(),
+                                          vk::ImageLayout::eShaderReadOnlyOptimal);
+    const vk::DescriptorImageInfo found(*depthSampler_, *shadowMap_.view, vk::ImageLayout::eShaderReadOnlyOptimal);
+    const auto held = [&](const HeldPicture& picture) {
+        return picture.owner
+            ? vk::DescriptorImageInfo(*pictureSampler_, *picture.texture.view, vk::ImageLayout::eShaderReadOnlyOptimal)
+            : shadow;
+    };
+    const vk::DescriptorImageInfo environment = held(environment_), ground = held(ground_);
+    using T = vk::DescriptorType;
+    const auto write = [&](vk::DescriptorSet set, const vk::DescriptorImageInfo& depths,
+                           const vk::DescriptorImageInfo& around) {
+        device_->device.updateDescriptorSets({vk::WriteDescriptorSet(set, 0, 0, T::eUniformBuffer, {}, view),
+                                              vk::WriteDescriptorSet(set, 1, 0, T::eStorageBuffer, {}, lights),
+                                              vk::WriteDescriptorSet(set, 2, 0, T::eCombinedImageSampler, depths),
+                                              vk::WriteDescriptorSet(set, 3, 0, T::eStorageBuffer, {}, lists),
+                                              vk::WriteDescriptorSet(set, 4, 0, T::eStorageBuffer, {}, layers),
+                                              vk::WriteDescriptorSet(set, 5, 0, T::eCombinedImageSampler, around),
+                                              vk::WriteDescriptorSet(set, 6, 0, T::eCombinedImageSampler, found),
+                                              vk::WriteDescriptorSet(set, 7, 0, T::eCombinedImageSampler, ground)},
+                                             {});
+    };
+    write(pictureSet_, shadow, environment);
+    write(composeSet_, layered && targets_->multisampled() ? depth : shadow,
+          targets_->resolves() ? samples : environment);
+}
+
+void Drawer::drawItem(const vk::raii::CommandBuffer& commands, const GpuScene& scene, const Item& item) const
+{
+    const GpuMesh& mesh = *item.mesh;
+    commands.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, layouts_->pipelineOf(item.material->extended()), 1,
+                                item.material->set, {});
+    std::array<vk::Buffer, kStreamCount> buffers;
+    buffers.fill(*scene.buffers[mesh.buffer].buffer);
+    // Every range ends with its buffer; the sizes are only stated to be allowed to give strides.
+    commands.bindVertexBuffers2(0, buffers, mesh.offsets, {}, mesh.strides);
+    commands.bindIndexBuffer(buffers[0], mesh.indices, vk::IndexType::eUint32);
+    commands.pushConstants<gpu::CotanDraw>(layouts_->pipelineOf(item.material->extended()), kBothStages, 0,
+                                           item.constants);
+    commands.drawIndexed(mesh.indexCount, 1, 0, 0, 0);
+}
+
+// What draws that one in the pass of the key.
+PipelineKey Drawer::keyOf(PipelineKey key, const Item& item)
+{
+    key.extended = key.pass != Pass::shadow && item.material->extended();
+    if (key.pass != Pass::shadow)
+        key.alphaMode = item.material->alphaMode;
+    if (!isShadow(key.pass))
+        key.maps = item.material->maps & mapsNeeded(key);
+    return key;
+}
+
+// All that the picture will be drawn with, so that none waits for another.
+void Drawer::beginPipelines(const DrawLists& lists, const View& view, bool layered)
+{
+    std::vector<PipelineKey> keys;
+    const auto add = [&](const std::vector<Item>& items, PipelineKey key) {
+        for (const Item& item : items) {
+            key = keyOf(key, item);
+            if (keys.empty() || keys.back() != key)
+                keys.push_back(key);
+        }
+    };
+    const bool shaded = view.output == Output::shaded;
+    const PipelineKey picture = forwardKey(view, *targets_);
+    add(lists.opaque, picture);
+    add(lists.mask, picture);
+    if (layered) {
+        add(lists.translucent, layersKey(view));
+        keys.push_back(composeKey());
+    } else {
+        add(lists.translucent, picture);
+    }
+    if (shaded && (view.background || view.ground)) {
+        keys.push_back(backgroundKey(view));
+        if (targets_->resolves())
+            keys.push_back(surroundKey(view));
+    }
+    if (targets_->resolves())
+        keys.push_back(resolveKey());
+    pipelines_.begin(keys);
+}
+
+void Drawer::drawItems(const vk::raii::CommandBuffer& commands, const GpuScene& scene, const std::vector<Item>& items,
+                       PipelineKey key)
+{
+    std::optional<PipelineKey> bound;
+    for (const Item& item : items) {
+        key = keyOf(key, item);
+        if (bound != key)
+            commands.bindPipeline(vk::PipelineBindPoint::eGraphics, pipelines_.get(key));
+        bound = key;
+        const bool both = isShadow(key.pass) || item.material->doubleSided;
+        commands.setCullMode(both ? vk::CullModeFlagBits::eNone : vk::CullModeFlagBits::eBack);
+        commands.setFrontFace(item.clockwise ? vk::FrontFace::eClockwise : vk::FrontFace::eCounterClockwise);
+        drawItem(commands, scene, item);
+    }
+}
+
+// Draws the triangle that covers the picture.
+void Drawer::drawOver(const vk::raii::CommandBuffer& commands, const PipelineKey& key)
+{
+    commands.bindPipeline(vk::PipelineBindPoint::eGraphics, pipelines_.get(key));
+    commands.setCullMode(vk::CullModeFlagBits::eNone);
+    commands.setFrontFace(vk::FrontFace::eCounterClockwise);
+    commands.draw(3, 1, 0, 0);
+}
+
+// Everything that writes depth, and the background.
+void Drawer::recordPicture(const vk::raii::CommandBuffer& commands, const GpuScene& scene, const DrawLists& lists,
+                           const View& view)
+{
+    const PipelineKey key = forwardKey(view, *targets_);
+    const bool shaded = view.output == Output::shaded;
+    drawItems(commands, scene, lists.opaque, key);
+    drawItems(commands, scene, lists.mask, key);
+    if (shaded && (view.background || view.ground))
+        drawOver(commands, backgroundKey(view));
+    if (!shaded)
+        drawItems(commands, scene, lists.translucent, key);
+}
+
+const vk::raii::CommandBuffer& Drawer::begin()
+{
+    const vk::raii::CommandBuffer& commands = commands_.begin();
+    commands.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, *layouts_->pipeline, 0, pictureSet_, {});
+    return commands;
+}
+
+} // namespace cotan

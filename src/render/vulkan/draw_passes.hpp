@@ -1,0 +1,118 @@
+// Draws a scene on the device.
+#pragma once
+
+#include <memory>
+#include <optional>
+
+#include "cotan/frame.hpp"
+#include "cotan/render.hpp"
+#include "layers.hpp"
+#include "pipeline.hpp"
+#include "scene_upload.hpp"
+#include "targets.hpp"
+#include "view_data.hpp"
+
+namespace cotan {
+
+// The pipeline that draws opaque surfaces of a view, without the maps.
+PipelineKey forwardKey(const View& view, const Targets& targets);
+
+vk::Rect2D rectangle(const PixelArea& area);
+
+// A picture of floats on the device, as halfs; kept from one picture to the next as long as it is the same one.
+struct HeldPicture {
+    std::shared_ptr<const void> owner; // what the texture holds; null: nothing
+    std::unique_ptr<Memory> memory;
+    Texture2D texture;
+
+    void hold(const Device& device, std::shared_ptr<const void> newOwner, const Image& picture);
+};
+
+// What pictures share: constants, shadow map, targets; kept from one picture to the next.
+class Drawer {
+    // What a shadow map depends on, besides the scene.
+    struct ShadowView {
+        gpu::vec4 x, y, z;
+        bool pointSampled = false;
+        bool operator==(const ShadowView&) const = default;
+    };
+
+public:
+    Drawer(const Device& device, const Layouts& layouts);
+
+    Result<Image> draw(GpuScene& scene, const View& view, RenderTimings& timings);
+    // What is kept of the scene before is of no use for the next one.
+    void forgetScene() { shadowDrawn_.reset(); }
+
+private:
+    // One instance, ready to be drawn.
+    struct Item {
+        gpu::CotanDraw constants{};
+        const GpuMesh* mesh = nullptr;
+        const GpuMaterial* material = nullptr;
+        bool clockwise = false; // front faces run clockwise over the raster
+        double distance = 0;    // of the centre from the eye
+    };
+    // All of them, in the order in which they are drawn.
+    struct DrawLists {
+        std::vector<Item> opaque;      // near to far
+        std::vector<Item> mask;        // near to far
+        std::vector<Item> translucent; // as in the scene
+        std::vector<Item> veils;       // of these what throws a shadow
+        PixelArea area;                // of the picture, that all may cover
+        PixelArea translucentArea;
+    };
+
+    // sample: the one of kPlaces that is drawn as the only one.
+    Result<Image> drawOnce(GpuScene& scene, const View& view, std::optional<int> sample, RenderTimings& timings);
+    DrawLists makeLists(const GpuScene& scene, const View& view, const CameraAxes& axes) const;
+    void setAreas(DrawLists& lists, const View& view, const gpu::CotanView& constants) const;
+    void beginPipelines(const DrawLists& lists, const View& view, bool layered);
+    void prepare(const View& view, const CameraAxes& axes, const gpu::CotanView& constants, bool layered);
+    void prepareShadowMap(bool needed);
+    void prepareLayers();
+    void writePictureSet(bool layered);
+    void recordShadow(const vk::raii::CommandBuffer& commands, const GpuScene& scene, const DrawLists& lists,
+                      const ShadowView& shown);
+    void recordPicture(const vk::raii::CommandBuffer& commands, const GpuScene& scene, const DrawLists& lists,
+                       const View& view);
+    static PipelineKey keyOf(PipelineKey key, const Item& item);
+    PipelineKey layersKey(const View& view) const;
+    PipelineKey composeKey() const;
+    PipelineKey resolveKey() const;
+    PipelineKey backgroundKey(const View& view) const;
+    PipelineKey surroundKey(const View& view) const;
+    void recordSurround(const vk::raii::CommandBuffer& commands, const View& view, const PixelArea& inside);
+    void finish(const vk::raii::CommandBuffer& commands, const PixelArea& area);
+    void drawOver(const vk::raii::CommandBuffer& commands, const PipelineKey& key);
+    const vk::raii::CommandBuffer& begin();
+    Status drawLayers(const GpuScene& scene, const DrawLists& lists, const View& view);
+    std::uint32_t keepLayers(const GpuScene& scene, const DrawLists& lists, const View& view, const vk::Rect2D& band);
+    void composeLayers(const vk::Rect2D& band);
+    void drawItem(const vk::raii::CommandBuffer& commands, const GpuScene& scene, const Item& item) const;
+    void drawItems(const vk::raii::CommandBuffer& commands, const GpuScene& scene, const std::vector<Item>& items,
+                   PipelineKey key);
+
+    const Device* device_;
+    const Layouts* layouts_;
+    Pipelines pipelines_;
+    Commands commands_;
+    Memory memory_;
+    Buffer viewBuffer_;
+    std::unique_ptr<Memory> lightMemory_; // grows with the number of lights
+    Buffer lightBuffer_;
+    std::unique_ptr<Memory> shadowMemory_;
+    Texture2D shadowMap_;
+    std::optional<ShadowView> shadowDrawn_; // what the map shows
+    vk::raii::Sampler shadowSampler_{nullptr};
+    HeldPicture environment_;
+    HeldPicture ground_;
+    vk::raii::Sampler pictureSampler_{nullptr};
+    vk::raii::DescriptorPool pool_{nullptr};
+    vk::DescriptorSet pictureSet_, composeSet_; // owned by the pool; the second reads the targets
+    std::unique_ptr<Targets> targets_;
+    std::unique_ptr<LayerLists> layers_; // once there is something translucent
+    vk::raii::Sampler depthSampler_{nullptr};
+};
+
+} // namespace cotan

@@ -1,0 +1,280 @@
+#include "pipeline.hpp"
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <bit>
+#include <memory>
+#include <thread>
+
+#include "gpu_structs.hpp"
+#include "scene/sample_places.hpp"
+#include "scene_upload.hpp"
+
+namespace cotan {
+
+namespace {
+
+vk::raii::DescriptorSetLayout makeSetLayout(const Device& device, std::span<const vk::DescriptorType> types)
+{
+    std::vector<vk::DescriptorSetLayoutBinding> bindings;
+    for (const vk::DescriptorType type : types)
+        bindings.emplace_back(static_cast<std::uint32_t>(bindings.size()), type, 1, kBothStages);
+    return vk::raii::DescriptorSetLayout(device.device, vk::DescriptorSetLayoutCreateInfo({}, bindings));
+}
+
+// The values of shaders/constants.glsl, in the order of their numbers.
+struct Specialization {
+    std::array<std::uint32_t, 19> values;
+    std::array<vk::SpecializationMapEntry, 19> entries;
+    vk::SpecializationInfo info;
+
+    explicit Specialization(const PipelineKey& key)
+        : values{static_cast<std::uint32_t>(key.frame),
+                 static_cast<std::uint32_t>(key.output),
+                 static_cast<std::uint32_t>(key.shading),
+                 static_cast<std::uint32_t>(key.alphaMode),
+                 key.coarse,
+                 key.normalMaps,
+                 key.environment,
+                 key.shadows,
+                 key.toneMap,
+                 key.maps,
+                 static_cast<std::uint32_t>(key.tone),
+                 key.environmentMap,
+                 key.softShadows,
+                 static_cast<std::uint32_t>(key.backdrop),
+                 key.ground,
+                 key.samples != vk::SampleCountFlagBits::e1,
+                 key.specularAntialiasing,
+                 key.levels,
+                 std::bit_cast<std::uint32_t>(key.separateSamples ? kPlacesApart : 1.0f)}
+    {
+        for (std::uint32_t i = 0; i < entries.size(); ++i)
+            entries[i] = vk::SpecializationMapEntry(i, i * 4, 4);
+        info = vk::SpecializationInfo(static_cast<std::uint32_t>(entries.size()), entries.data(), sizeof values,
+                                      values.data());
+    }
+    Specialization(const Specialization&) = delete; // info points into this
+};
+
+struct StageShaders {
+    Shader vertex;
+    std::optional<Shader> fragment;
+};
+
+// The shader of a surface. exact: fragments are told their triangle.
+Shader forwardShader(const PipelineKey& key, bool exact)
+{
+    const int kind = key.pass == Pass::layers ? 2 : key.alphaMode == AlphaMode::mask ? 1 : 0;
+    return Shader(int(Shader::forwardFrag) + 4 * kind + (key.extended ? 2 : 0) + (exact ? 1 : 0));
+}
+
+// exact: the device can tell fragments their triangle.
+StageShaders shadersOf(const PipelineKey& key, bool exact)
+{
+    switch (key.pass) {
+    case Pass::shadow: return {Shader::shadowVert, std::nullopt};
+    case Pass::shadowMask: return {Shader::shadowVert, Shader::shadowFrag};
+    case Pass::surround:
+    case Pass::background: return {Shader::backgroundVert, Shader::backgroundFrag};
+    case Pass::layers: return {Shader::forwardVert, forwardShader(key, exact)};
+    case Pass::compose:
+        return {Shader::composeVert,
+                key.samples == vk::SampleCountFlagBits::e1 ? Shader::composeFrag : Shader::composeMultisampledFrag};
+    case Pass::resolve:
+        return {Shader::composeVert, key.multisampledSource ? Shader::resolveMultisampledFrag : Shader::resolveFrag};
+    case Pass::forward: break;
+    }
+    return {Shader::forwardVert, forwardShader(key, info(key.frame).source == FrameSource::triangle)};
+}
+
+bool hasDepth(Pass pass) { return pass != Pass::compose && pass != Pass::surround && pass != Pass::resolve; }
+
+// One triangle, made by the vertex stage, over everything.
+bool coversPicture(Pass pass) { return pass == Pass::background || !hasDepth(pass); }
+
+// One binding an attribute. The strides are set while drawing: 0 makes a constant of it.
+struct VertexInput {
+    std::array<vk::VertexInputBindingDescription, kStreamCount> bindings;
+    std::array<vk::VertexInputAttributeDescription, kStreamCount> attributes;
+    vk::PipelineVertexInputStateCreateInfo info;
+
+    explicit VertexInput(Pass pass)
+    {
+        using F = vk::Format;
+        constexpr std::array<F, kStreamCount> formats{
+            F::eR32G32B32Sfloat, F::eR32G32B32Sfloat,    F::eR32G32Sfloat,
+            F::eR32G32Sfloat,    F::eR32G32B32A32Sfloat, F::eR32G32B32A32Sfloat,
+            F::eR32G32B32Sfloat, F::eR32G32B32Sfloat,    F::eR32G32B32A32Sfloat};
+        std::uint32_t count = 0;
+        for (std::uint32_t i = 0; i < kStreamCount; ++i) {
+            const bool forShadow =
+                i == kPosition || i == kTexcoord0 || i == kTexcoord1 || i == kColor || i == kTexcoordOrigin;
+            if (coversPicture(pass) || (isShadow(pass) && !forShadow))
+                continue;
+            bindings[count] = vk::VertexInputBindingDescription(i, 0);
+            attributes[count++] = vk::VertexInputAttributeDescription(i, i, formats[i], 0);
+        }
+        info = vk::PipelineVertexInputStateCreateInfo({}, count, bindings.data(), count, attributes.data());
+    }
+    VertexInput(const VertexInput&) = delete;
+};
+
+// Of colours that are multiplied by their alpha. What is there counts by a factor of its own for each channel, or,
+// where the device cannot, by the mean of the three.
+vk::PipelineColorBlendAttachmentState blending(bool blend, bool dualSource)
+{
+    using C = vk::ColorComponentFlagBits;
+    vk::PipelineColorBlendAttachmentState state;
+    state.colorWriteMask = C::eR | C::eG | C::eB | C::eA;
+    state.blendEnable = blend;
+    state.srcColorBlendFactor = vk::BlendFactor::eOne;
+    state.dstColorBlendFactor = dualSource ? vk::BlendFactor::eSrc1Color : vk::BlendFactor::eOneMinusSrcAlpha;
+    state.srcAlphaBlendFactor = vk::BlendFactor::eOne;
+    state.dstAlphaBlendFactor = vk::BlendFactor::eOneMinusSrcAlpha;
+    return state;
+}
+
+// Depth is reversed for the camera; the shadow map is not.
+vk::PipelineDepthStencilStateCreateInfo depthState(Pass pass)
+{
+    const bool camera = pass == Pass::forward || pass == Pass::layers;
+    vk::PipelineDepthStencilStateCreateInfo state;
+    state.depthTestEnable = hasDepth(pass);
+    state.depthWriteEnable = hasDepth(pass) && pass != Pass::background && pass != Pass::layers;
+    state.depthCompareOp = camera  ? vk::CompareOp::eGreater
+        : pass == Pass::background ? vk::CompareOp::eGreaterOrEqual
+                                   : vk::CompareOp::eLess;
+    return state;
+}
+
+vk::PipelineRasterizationStateCreateInfo rasterization(bool shadow)
+{
+    vk::PipelineRasterizationStateCreateInfo state;
+    state.lineWidth = 1;
+    state.depthBiasEnable = shadow;
+    state.depthBiasSlopeFactor = 1.5f;
+    return state;
+}
+
+} // namespace
+
+Layouts::Layouts(const Device& device)
+{
+    using T = vk::DescriptorType;
+    constexpr T kImage = T::eCombinedImageSampler;
+    constexpr std::array ofPicture{
+        T::eUniformBuffer, T::eStorageBuffer, kImage, T::eStorageBuffer, T::eStorageBuffer, kImage, kImage, kImage};
+    static_assert(std::count(ofPicture.begin(), ofPicture.end(), kImage) == kImagesOfPicture);
+    picture = makeSetLayout(device, ofPicture);
+    std::vector<T> ofMaterial(1 + COTAN_MAP_COUNT, kImage);
+    ofMaterial[0] = T::eUniformBuffer;
+    extendedMaterial = makeSetLayout(device, ofMaterial);
+    ofMaterial.resize(1 + COTAN_MAP_COUNT_PLAIN);
+    material = makeSetLayout(device, ofMaterial);
+    const vk::PushConstantRange constants(kBothStages, 0, sizeof(gpu::CotanDraw));
+    const auto pipelineWith = [&](const vk::raii::DescriptorSetLayout& layout) {
+        const std::array sets{*picture, *layout};
+        return vk::raii::PipelineLayout(device.device, vk::PipelineLayoutCreateInfo({}, sets, constants));
+    };
+    pipeline = pipelineWith(material);
+    extendedPipeline = pipelineWith(extendedMaterial);
+}
+
+vk::DescriptorSet allocateSet(const Device& device, const vk::raii::DescriptorPool& pool,
+                              const vk::raii::DescriptorSetLayout& layout)
+{
+    // The bindings' own sets give themselves back, which would order their destruction.
+    const vk::DescriptorSetAllocateInfo info(*pool, *layout);
+    return (*device.device).allocateDescriptorSets(info, *device.device.getDispatcher())[0];
+}
+
+vk::ShaderModule Pipelines::module(Shader shader)
+{
+    auto found = modules_.find(shader);
+    if (found == modules_.end()) {
+        const std::span<const std::uint32_t> code = spirv(shader);
+        const vk::ShaderModuleCreateInfo info({}, code.size_bytes(), code.data());
+        found = modules_.emplace(shader, vk::raii::ShaderModule(device_->device, info)).first;
+    }
+    return *found->second;
+}
+
+Pipelines::Stages Pipelines::stagesOf(const PipelineKey& key)
+{
+    const StageShaders shaders = shadersOf(key, device_->exact);
+    return {module(shaders.vertex), shaders.fragment ? module(*shaders.fragment) : vk::ShaderModule()};
+}
+
+vk::raii::Pipeline Pipelines::make(const PipelineKey& key, const Stages& modules) const
+{
+    const bool shadow = isShadow(key.pass);
+    const std::uint32_t colors = shadow || key.pass == Pass::layers ? 0 : 1;
+    const Specialization specialization(key);
+    std::vector<vk::PipelineShaderStageCreateInfo> stages;
+    stages.emplace_back(vk::PipelineShaderStageCreateFlags(), vk::ShaderStageFlagBits::eVertex, modules.vertex, "main");
+    if (modules.fragment)
+        stages.emplace_back(vk::PipelineShaderStageCreateFlags(), vk::ShaderStageFlagBits::eFragment, modules.fragment,
+                            "main", &specialization.info);
+
+    const VertexInput vertexInput(key.pass);
+    const vk::PipelineInputAssemblyStateCreateInfo assembly({}, vk::PrimitiveTopology::eTriangleList);
+    const vk::PipelineViewportStateCreateInfo viewport({}, 1, nullptr, 1, nullptr);
+    const vk::PipelineRasterizationStateCreateInfo raster = rasterization(shadow);
+    const vk::PipelineMultisampleStateCreateInfo multisample({}, key.samples);
+    const vk::PipelineDepthStencilStateCreateInfo depth = depthState(key.pass);
+    const vk::PipelineColorBlendAttachmentState attachment = blending(key.pass == Pass::compose, device_->dualSource);
+    const vk::PipelineColorBlendStateCreateInfo color({}, VK_FALSE, {}, colors, &attachment);
+    std::vector<vk::DynamicState> dynamic{vk::DynamicState::eViewport, vk::DynamicState::eScissor,
+                                          vk::DynamicState::eCullMode, vk::DynamicState::eFrontFace};
+    if (!coversPicture(key.pass))
+        dynamic.push_back(vk::DynamicState::eVertexInputBindingStride);
+    const vk::PipelineDynamicStateCreateInfo dynamicState({}, dynamic);
+    const vk::PipelineRenderingCreateInfo rendering(
+        0, colors, &key.format, hasDepth(key.pass) ? vk::Format::eD32Sfloat : vk::Format::eUndefined);
+    vk::GraphicsPipelineCreateInfo info({}, stages, &vertexInput.info, &assembly, nullptr, &viewport, &raster,
+                                        &multisample, &depth, &color, &dynamicState,
+                                        layouts_->pipelineOf(key.extended));
+    info.pNext = &rendering;
+    return vk::raii::Pipeline(device_->device, nullptr, info);
+}
+
+void Pipelines::begin(const std::vector<PipelineKey>& keys)
+{
+    struct Work {
+        std::vector<std::packaged_task<vk::raii::Pipeline()>> tasks;
+        std::atomic<std::size_t> next = 0;
+    };
+    const auto work = std::make_shared<Work>();
+    for (const PipelineKey& key : keys) {
+        if (entries_.contains(key))
+            continue;
+        work->tasks.emplace_back([this, key, modules = stagesOf(key)] { return make(key, modules); });
+        entries_[key].making = work->tasks.back().get_future();
+    }
+    const std::size_t threads =
+        std::min<std::size_t>(work->tasks.size(), std::max(1u, std::thread::hardware_concurrency()));
+    for (std::size_t i = 0; i < threads; ++i)
+        workers_.push_back(std::async(std::launch::async, [work] {
+            for (std::size_t k = work->next++; k < work->tasks.size(); k = work->next++)
+                work->tasks[k]();
+        }));
+}
+
+vk::Pipeline Pipelines::get(const PipelineKey& key)
+{
+    const auto [entry, isNew] = entries_.try_emplace(key);
+    try {
+        if (isNew)
+            entry->second.pipeline = make(key, stagesOf(key));
+        else if (entry->second.making.valid())
+            entry->second.pipeline = entry->second.making.get();
+    } catch (...) {
+        entries_.erase(entry);
+        throw;
+    }
+    return *entry->second.pipeline;
+}
+
+} // namespace cotan

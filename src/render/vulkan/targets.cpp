@@ -1,0 +1,197 @@
+#include "targets.hpp"
+
+#include <cstring>
+
+#include "scene/sample_places.hpp"
+
+namespace cotan {
+
+namespace {
+
+using Stage = vk::PipelineStageFlagBits2;
+using Access = vk::AccessFlagBits2;
+constexpr auto kColorAspect = vk::ImageAspectFlagBits::eColor;
+constexpr auto kAttachment = vk::ImageLayout::eColorAttachmentOptimal;
+constexpr auto kDepthRead = vk::ImageLayout::eDepthStencilReadOnlyOptimal;
+constexpr auto kDepthStages = Stage::eEarlyFragmentTests | Stage::eLateFragmentTests;
+
+vk::DeviceSize bytesPerPixel(vk::Format format)
+{
+    return format == vk::Format::eR32G32B32A32Sfloat ? 16 : format == vk::Format::eR16G16B16A16Sfloat ? 8 : 4;
+}
+
+TextureInfo attachmentInfo(const Targets::Kind& kind)
+{
+    TextureInfo info;
+    info.format = kind.format;
+    info.extent = vk::Extent2D(kind.width, kind.height);
+    info.samples = kind.samples;
+    return info;
+}
+
+} // namespace
+
+vk::DeviceSize Targets::bytes(const Kind& kind)
+{
+    const vk::DeviceSize color = bytesPerPixel(kind.format), shown = bytesPerPixel(kind.shown);
+    const auto samples = static_cast<vk::DeviceSize>(kind.samples);
+    return vk::DeviceSize(kind.width) * kind.height * ((color + 4) * samples + 2 * shown);
+}
+
+Targets::Targets(const Device& device, const Kind& kind) : memory_(device), kind_(kind)
+{
+    TextureInfo info = attachmentInfo(kind);
+    info.usage = vk::ImageUsageFlagBits::eColorAttachment;
+    info.usage |= resolves() ? vk::ImageUsageFlagBits::eSampled : vk::ImageUsageFlagBits::eTransferSrc;
+    color_ = makeTexture(device, memory_, info);
+    if (resolves()) {
+        info.format = kind.shown;
+        info.samples = vk::SampleCountFlagBits::e1;
+        info.usage = vk::ImageUsageFlagBits::eColorAttachment | vk::ImageUsageFlagBits::eTransferSrc;
+        resolved_ = makeTexture(device, memory_, info);
+    }
+    TextureInfo depth = attachmentInfo(kind);
+    depth.format = vk::Format::eD32Sfloat;
+    depth.usage = vk::ImageUsageFlagBits::eDepthStencilAttachment;
+    if (multisampled()) // then the hidden samples of translucent layers are found by it
+        depth.usage |= vk::ImageUsageFlagBits::eSampled;
+    depth.aspect = vk::ImageAspectFlagBits::eDepth;
+    depth_ = makeTexture(device, memory_, depth);
+    readBack_ = makeHostBuffer(device, memory_, vk::DeviceSize(kind.width) * kind.height * bytesPerPixel(kind.shown),
+                               vk::BufferUsageFlagBits::eTransferDst, /*readBack*/ true);
+}
+
+// The viewport is the whole picture, whatever part of it is drawn.
+void Targets::setArea(const vk::raii::CommandBuffer& commands, const vk::Rect2D& area) const
+{
+    commands.setViewport(0, vk::Viewport(0, 0, float(kind_.width), float(kind_.height), 0.0f, 1.0f));
+    commands.setScissor(0, area);
+}
+
+void Targets::beginSurround(const vk::raii::CommandBuffer& commands)
+{
+    transition(commands, *resolved_->image, kColorAspect, vk::ImageLayout::eUndefined, kAttachment,
+               Stage::eTransfer | Stage::eColorAttachmentOutput, {}, Stage::eColorAttachmentOutput,
+               Access::eColorAttachmentWrite);
+    vk::RenderingAttachmentInfo color(*resolved_->view, kAttachment);
+    color.loadOp = vk::AttachmentLoadOp::eClear;
+    color.storeOp = vk::AttachmentStoreOp::eStore;
+    const vk::Rect2D area({0, 0}, {kind_.width, kind_.height});
+    commands.beginRendering(vk::RenderingInfo({}, area, 1, 0, color));
+    setArea(commands, area);
+}
+
+void Targets::begin(const vk::raii::CommandBuffer& commands, const vk::Rect2D& area, bool layersFollow)
+{
+    transition(commands, *color_.image, kColorAspect, vk::ImageLayout::eUndefined, kAttachment,
+               Stage::eTransfer | Stage::eFragmentShader | Stage::eColorAttachmentOutput, {},
+               Stage::eColorAttachmentOutput, Access::eColorAttachmentWrite);
+    transition(commands, *depth_.image, vk::ImageAspectFlagBits::eDepth, vk::ImageLayout::eUndefined,
+               vk::ImageLayout::eDepthAttachmentOptimal, kDepthStages | Stage::eFragmentShader,
+               Access::eDepthStencilAttachmentWrite, kDepthStages,
+               Access::eDepthStencilAttachmentRead | Access::eDepthStencilAttachmentWrite);
+
+    vk::RenderingAttachmentInfo color(*color_.view, kAttachment);
+    color.loadOp = vk::AttachmentLoadOp::eClear;
+    color.storeOp = vk::AttachmentStoreOp::eStore;
+    vk::RenderingAttachmentInfo depth(*depth_.view, vk::ImageLayout::eDepthAttachmentOptimal);
+    depth.loadOp = vk::AttachmentLoadOp::eClear;
+    depth.storeOp = layersFollow ? vk::AttachmentStoreOp::eStore : vk::AttachmentStoreOp::eDontCare;
+    depth.clearValue.depthStencil = vk::ClearDepthStencilValue(0.0f, 0);
+    commands.beginRendering(vk::RenderingInfo({}, area, 1, 0, color, &depth));
+    setArea(commands, area);
+}
+
+void Targets::endOpaque(const vk::raii::CommandBuffer& commands)
+{
+    commands.endRendering();
+    transition(commands, *depth_.image, vk::ImageAspectFlagBits::eDepth, vk::ImageLayout::eDepthAttachmentOptimal,
+               kDepthRead, kDepthStages, Access::eDepthStencilAttachmentWrite, kDepthStages | Stage::eFragmentShader,
+               Access::eDepthStencilAttachmentRead | Access::eShaderSampledRead);
+}
+
+void Targets::beginLayers(const vk::raii::CommandBuffer& commands, const vk::Rect2D& area)
+{
+    vk::RenderingAttachmentInfo depth(*depth_.view, kDepthRead);
+    depth.loadOp = vk::AttachmentLoadOp::eLoad;
+    depth.storeOp = vk::AttachmentStoreOp::eNone;
+    vk::RenderingInfo rendering({}, area, 1);
+    rendering.pDepthAttachment = &depth;
+    commands.beginRendering(rendering);
+    setArea(commands, area);
+}
+
+void Targets::beginCompose(const vk::raii::CommandBuffer& commands, const vk::Rect2D& area)
+{
+    const auto both = Access::eColorAttachmentRead | Access::eColorAttachmentWrite;
+    transition(commands, *color_.image, kColorAspect, kAttachment, kAttachment, Stage::eColorAttachmentOutput,
+               Access::eColorAttachmentWrite, Stage::eColorAttachmentOutput, both);
+    vk::RenderingAttachmentInfo color(*color_.view, kAttachment);
+    color.loadOp = vk::AttachmentLoadOp::eLoad;
+    color.storeOp = vk::AttachmentStoreOp::eStore;
+    commands.beginRendering(vk::RenderingInfo({}, area, 1, 0, color));
+    setArea(commands, area);
+}
+
+void Targets::beginResolve(const vk::raii::CommandBuffer& commands, const vk::Rect2D& area)
+{
+    transition(commands, *color_.image, kColorAspect, kAttachment, vk::ImageLayout::eShaderReadOnlyOptimal,
+               Stage::eColorAttachmentOutput, Access::eColorAttachmentWrite, Stage::eFragmentShader,
+               Access::eShaderSampledRead);
+    transition(commands, *resolved_->image, kColorAspect, kAttachment, kAttachment, Stage::eColorAttachmentOutput,
+               Access::eColorAttachmentWrite, Stage::eColorAttachmentOutput, Access::eColorAttachmentWrite);
+    vk::RenderingAttachmentInfo color(*resolved_->view, kAttachment);
+    color.loadOp = vk::AttachmentLoadOp::eLoad;
+    color.storeOp = vk::AttachmentStoreOp::eStore;
+    commands.beginRendering(vk::RenderingInfo({}, area, 1, 0, color));
+    setArea(commands, area);
+}
+
+void Targets::copy(const vk::raii::CommandBuffer& commands)
+{
+    const vk::Image source = resolved_ ? *resolved_->image : *color_.image;
+    transition(commands, source, kColorAspect, kAttachment, vk::ImageLayout::eTransferSrcOptimal,
+               Stage::eColorAttachmentOutput, Access::eColorAttachmentWrite, Stage::eTransfer, Access::eTransferRead);
+    const vk::BufferImageCopy copy(0, 0, 0, {kColorAspect, 0, 0, 1}, {0, 0, 0}, {kind_.width, kind_.height, 1});
+    commands.copyImageToBuffer(source, vk::ImageLayout::eTransferSrcOptimal, *readBack_.buffer, copy);
+    const vk::MemoryBarrier2 toHost(Stage::eTransfer, Access::eTransferWrite, Stage::eHost, Access::eHostRead);
+    commands.pipelineBarrier2(vk::DependencyInfo({}, toHost));
+}
+
+Image Targets::image(bool flipRows) const
+{
+    const bool floats = kind_.shown == vk::Format::eR32G32B32A32Sfloat;
+    Image image =
+        makeImage(int(kind_.width), int(kind_.height), floats ? PixelType::float32 : PixelType::unorm8, "render");
+    const std::size_t row = kind_.width * image.bytesPerPixel();
+    if (!flipRows)
+        std::memcpy(image.data.data(), readBack_.mapped, image.data.size());
+    else
+        for (std::size_t y = 0; y < kind_.height; ++y)
+            std::memcpy(image.data.data() + y * row, readBack_.mapped + (kind_.height - 1 - y) * row, row);
+    return image;
+}
+
+Targets::Kind targetKind(const Device& device, const View& view)
+{
+    Targets::Kind kind;
+    kind.width = static_cast<std::uint32_t>(view.width);
+    kind.height = static_cast<std::uint32_t>(view.height);
+    const bool shaded = view.output == Output::shaded;
+    const bool levels = shaded && !view.linearOutput && view.samples <= kMostSharedSamples;
+    kind.format = levels ? vk::Format::eR16G16B16A16Sfloat : vk::Format::eR32G32B32A32Sfloat;
+    kind.shown = levels ? vk::Format::eR8G8B8A8Unorm : kind.format;
+    if (shaded && view.samples > 1 && view.samples <= kMostSharedSamples) {
+        const vk::SampleCountFlags can =
+            device.physical
+                .getImageFormatProperties(kind.format, vk::ImageType::e2D, vk::ImageTiling::eOptimal,
+                                          vk::ImageUsageFlagBits::eColorAttachment | vk::ImageUsageFlagBits::eSampled)
+                .sampleCounts
+            & device.limits.framebufferDepthSampleCounts;
+        if (can & vk::SampleCountFlagBits::e4)
+            kind.samples = vk::SampleCountFlagBits::e4;
+    }
+    return kind;
+}
+
+} // namespace cotan

@@ -1,0 +1,329 @@
+#include "texture_mips.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <utility>
+
+#include <glm/gtc/packing.hpp>
+
+#include "cotan/portable.hpp"
+#include "scene/normal_format.hpp"
+
+namespace cotan {
+
+namespace {
+
+using glm::vec4;
+
+// A level while it is worked on: what is averaged.
+struct FloatLevel {
+    int width = 0;
+    int height = 0;
+    std::vector<vec4> texels;
+
+    const vec4* row(int y) const { return texels.data() + std::size_t(y) * std::size_t(width); }
+    vec4* row(int y) { return texels.data() + std::size_t(y) * std::size_t(width); }
+};
+
+// Green as it is stored: levels are made in the map's own terms.
+f32::cotan_normal_format portableFormat(const MipRequest& request)
+{
+    auto format = toFormat<f32::cotan_normal_format>(request.normalFormat, request.image->type);
+    format.green = 1;
+    return format;
+}
+
+// Unit and 1; zeros where there is no direction.
+vec4 decodedNormal(const vec4& texel, const f32::cotan_normal_format& format)
+{
+    const glm::vec3 unit = f32::cotan_normalize_or(f32::cotan_decode(glm::vec3(texel), format), glm::vec3(0));
+    return vec4(unit, unit == glm::vec3(0) ? 0 : 1);
+}
+
+vec4 encodedNormal(const vec4& average, const f32::cotan_normal_format& format)
+{
+    const glm::vec3 unit = f32::cotan_normalize_or(glm::vec3(average), glm::vec3(0, 0, 1));
+    const float length = average.w > 0 ? glm::length(glm::vec3(average)) / average.w : 1;
+    return vec4(f32::cotan_encode_texel(unit, format), length);
+}
+
+// sRGB byte to linear.
+const std::array<float, 256>& linearOfByte()
+{
+    static const std::array<float, 256> table = [] {
+        std::array<float, 256> t{};
+        for (std::size_t i = 0; i < t.size(); ++i)
+            t[i] = f32::cotan_srgb_to_linear(float(i) / 255.0f);
+        return t;
+    }();
+    return table;
+}
+
+// Linear to sRGB byte, by the square root: there 4096 steps are at most 0.16 of a byte's step.
+constexpr int kSrgbSteps = 4096;
+const std::array<std::uint8_t, kSrgbSteps>& byteOfLinear()
+{
+    static const std::array<std::uint8_t, kSrgbSteps> table = [] {
+        std::array<std::uint8_t, kSrgbSteps> t{};
+        for (int i = 0; i < kSrgbSteps; ++i) {
+            const float root = float(i) / float(kSrgbSteps - 1);
+            t[std::size_t(i)] = std::uint8_t(std::lround(255.0f * f32::cotan_linear_to_srgb(root * root)));
+        }
+        return t;
+    }();
+    return table;
+}
+
+float unit(float x) { return std::min(std::max(x, 0.0f), 1.0f); }
+
+std::uint8_t srgbByte(float linear)
+{
+    const float root = std::sqrt(unit(linear));
+    return byteOfLinear()[std::size_t(root * float(kSrgbSteps - 1) + 0.5f)];
+}
+
+// ---- reading the image ----------------------------------------------------------------------
+
+void readRow8(const Image& image, int y, bool srgb, vec4* out)
+{
+    const std::uint8_t* p = image.bytes8() + std::size_t(y) * std::size_t(image.width) * 4;
+    const std::array<float, 256>& linear = linearOfByte();
+    for (int x = 0; x < image.width; ++x, p += 4)
+        out[x] = srgb ? vec4(linear[p[0]], linear[p[1]], linear[p[2]], float(p[3]) / 255.0f)
+                      : vec4(p[0], p[1], p[2], p[3]) * (1.0f / 255.0f);
+}
+
+void readRow16(const Image& image, int y, bool srgb, vec4* out)
+{
+    const std::uint16_t* p = image.words() + std::size_t(y) * std::size_t(image.width) * 4;
+    for (int x = 0; x < image.width; ++x, p += 4) {
+        vec4 t = vec4(p[0], p[1], p[2], p[3]) * (1.0f / 65535.0f);
+        if (srgb)
+            for (int c = 0; c < 3; ++c)
+                t[c] = f32::cotan_srgb_to_linear(t[c]);
+        out[x] = t;
+    }
+}
+
+void readRowFloat(const Image& image, int y, vec4* out)
+{
+    const float* p = image.floats() + std::size_t(y) * std::size_t(image.width) * 4;
+    for (int x = 0; x < image.width; ++x, p += 4)
+        for (int c = 0; c < 4; ++c) // a texel that is not a number would spread over all levels
+            out[x][c] = std::abs(p[c]) <= 1e30f ? p[c] : 0.0f;
+}
+
+// One row of the image as linear numbers, still in the normal map's coding.
+void readRow(const Image& image, int y, TextureKind kind, vec4* out)
+{
+    const bool srgb = kind == TextureKind::color;
+    switch (image.type) {
+    case PixelType::unorm8: readRow8(image, y, srgb, out); break;
+    case PixelType::unorm16: readRow16(image, y, srgb, out); break;
+    case PixelType::float32: readRowFloat(image, y, out); break;
+    }
+}
+
+// ---- averaging ------------------------------------------------------------------------------
+
+// The source texels under one target texel along one axis, and their shares of its area.
+struct Taps {
+    int first = 0;
+    int count = 0;
+    std::array<float, 3> share{};
+};
+
+std::vector<Taps> makeTaps(int source, int target)
+{
+    std::vector<Taps> taps(static_cast<std::size_t>(target));
+    const double ratio = double(source) / target;
+    for (int i = 0; i < target; ++i) {
+        Taps& t = taps[std::size_t(i)];
+        const double low = i * ratio;
+        const double high = (i + 1) * ratio;
+        t.first = int(low);
+        for (int s = t.first; s < source && t.count < 3; ++s) {
+            const double covered = std::min(high, s + 1.0) - std::max(low, double(s));
+            if (covered <= 1e-9)
+                break;
+            t.share[std::size_t(t.count++)] = float(covered / ratio);
+        }
+    }
+    return taps;
+}
+
+// rowOf(y) gives a source row in what is averaged; rows are asked for in increasing order.
+template<class RowOf> FloatLevel halved(int width, int height, RowOf rowOf)
+{
+    FloatLevel level{std::max(width / 2, 1), std::max(height / 2, 1), {}};
+    level.texels.assign(std::size_t(level.width) * std::size_t(level.height), vec4(0));
+    const std::vector<Taps> columns = makeTaps(width, level.width);
+    const std::vector<Taps> rows = makeTaps(height, level.height);
+    for (int y = 0; y < level.height; ++y) {
+        const Taps& r = rows[std::size_t(y)];
+        vec4* out = level.row(y);
+        for (int j = 0; j < r.count; ++j) {
+            const vec4* in = rowOf(r.first + j);
+            const float share = r.share[std::size_t(j)];
+            for (int x = 0; x < level.width; ++x) {
+                const Taps& c = columns[std::size_t(x)];
+                for (int i = 0; i < c.count; ++i)
+                    out[x] += in[c.first + i] * (c.share[std::size_t(i)] * share);
+            }
+        }
+    }
+    return level;
+}
+
+// ---- storing --------------------------------------------------------------------------------
+
+void storeTexel(const vec4& t, TexelFormat format, std::byte* out)
+{
+    switch (format) {
+    case TexelFormat::srgb8: {
+        const std::uint8_t bytes[4] = {srgbByte(t.x), srgbByte(t.y), srgbByte(t.z),
+                                       std::uint8_t(unit(t.w) * 255.0f + 0.5f)};
+        std::memcpy(out, bytes, sizeof bytes);
+        break;
+    }
+    case TexelFormat::unorm8: {
+        std::uint8_t bytes[4];
+        for (int c = 0; c < 4; ++c)
+            bytes[c] = std::uint8_t(unit(t[c]) * 255.0f + 0.5f);
+        std::memcpy(out, bytes, sizeof bytes);
+        break;
+    }
+    case TexelFormat::unorm16: {
+        std::uint16_t words[4];
+        for (int c = 0; c < 4; ++c)
+            words[c] = std::uint16_t(unit(t[c]) * 65535.0f + 0.5f);
+        std::memcpy(out, words, sizeof words);
+        break;
+    }
+    case TexelFormat::float16: {
+        const glm::uint64 halves = glm::packHalf4x16(t);
+        std::memcpy(out, &halves, sizeof halves);
+        break;
+    }
+    case TexelFormat::float32: std::memcpy(out, &t.x, 16); break;
+    }
+}
+
+// Adds a level made of width * height texels, texelAt(index).
+template<class TexelAt> void addLevel(MipChain& chain, int width, int height, TexelAt texelAt)
+{
+    const std::size_t size = bytesPerTexel(chain.format);
+    const std::size_t count = std::size_t(width) * std::size_t(height);
+    std::vector<std::byte>& data = chain.own.emplace_back(count * size);
+    for (std::size_t i = 0; i < count; ++i)
+        storeTexel(texelAt(i), chain.format, data.data() + i * size);
+    chain.levels.push_back({width, height, data});
+}
+
+bool storedAsItIs(const MipRequest& request)
+{
+    const PixelType type = request.image->type;
+    if (request.kind == TextureKind::normal && !isOpaque(*request.image))
+        return false; // a texel of the file is one direction, whatever its alpha says
+    return (type == PixelType::unorm8
+            && (request.format == TexelFormat::srgb8 || request.format == TexelFormat::unorm8))
+        || (type == PixelType::unorm16 && request.format == TexelFormat::unorm16 && request.kind != TextureKind::color);
+}
+
+void addFinestLevel(MipChain& chain, const MipRequest& request)
+{
+    const Image& image = *request.image;
+    if (storedAsItIs(request)) {
+        const std::size_t size = image.pixelCount() * image.bytesPerPixel();
+        chain.levels.push_back({image.width, image.height, std::span(image.data).first(size)});
+        return;
+    }
+    std::vector<vec4> row(static_cast<std::size_t>(image.width));
+    const std::size_t size = bytesPerTexel(chain.format);
+    std::vector<std::byte>& data = chain.own.emplace_back(image.pixelCount() * size);
+    for (int y = 0; y < image.height; ++y) {
+        readRow(image, y, request.kind, row.data());
+        if (request.kind == TextureKind::normal)
+            for (vec4& texel : row)
+                texel.w = 1;
+        std::byte* out = data.data() + std::size_t(y) * row.size() * size;
+        for (std::size_t x = 0; x < row.size(); ++x)
+            storeTexel(row[x], chain.format, out + x * size);
+    }
+    chain.levels.push_back({image.width, image.height, data});
+}
+
+FloatLevel firstHalf(const MipRequest& request)
+{
+    const Image& image = *request.image;
+    const f32::cotan_normal_format format = portableFormat(request);
+    std::vector<vec4> row(static_cast<std::size_t>(image.width));
+    int loaded = -1; // an odd height asks for its middle rows twice in a row
+    return halved(image.width, image.height, [&](int y) {
+        if (y != loaded) {
+            readRow(image, y, request.kind, row.data());
+            if (request.kind == TextureKind::normal)
+                for (vec4& texel : row)
+                    texel = decodedNormal(texel, format);
+            loaded = y;
+        }
+        return row.data();
+    });
+}
+
+void addSmallerLevel(MipChain& chain, const MipRequest& request, const FloatLevel& level)
+{
+    const f32::cotan_normal_format format = portableFormat(request);
+    const bool normal = request.kind == TextureKind::normal;
+    addLevel(chain, level.width, level.height,
+             [&](std::size_t i) { return normal ? encodedNormal(level.texels[i], format) : level.texels[i]; });
+}
+
+} // namespace
+
+std::size_t bytesPerTexel(TexelFormat format)
+{
+    switch (format) {
+    case TexelFormat::srgb8:
+    case TexelFormat::unorm8: return 4;
+    case TexelFormat::unorm16:
+    case TexelFormat::float16: return 8;
+    case TexelFormat::float32: break;
+    }
+    return 16;
+}
+
+TexelFormat texelFormat(PixelType type, TextureKind kind, bool filterable16, bool filterable32)
+{
+    if (type == PixelType::unorm8)
+        return kind == TextureKind::color ? TexelFormat::srgb8 : TexelFormat::unorm8;
+    if (type == PixelType::unorm16 && filterable16)
+        return TexelFormat::unorm16;
+    return filterable32 ? TexelFormat::float32 : TexelFormat::float16;
+}
+
+MipChain buildMips(const MipRequest& request)
+{
+    MipChain chain;
+    chain.format = request.format;
+    int width = request.image->width;
+    int height = request.image->height;
+    const auto fits = [&] { return width <= request.largest && height <= request.largest; };
+    if (fits())
+        addFinestLevel(chain, request);
+    FloatLevel level;
+    while (width > 1 || height > 1) {
+        level = level.texels.empty() ? firstHalf(request)
+                                     : halved(width, height, [&level](int y) { return std::as_const(level).row(y); });
+        width = level.width;
+        height = level.height;
+        if (fits())
+            addSmallerLevel(chain, request, level);
+    }
+    return chain;
+}
+
+} // namespace cotan

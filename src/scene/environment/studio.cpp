@@ -1,0 +1,103 @@
+// The built-in surroundings.
+#include <algorithm>
+#include <cmath>
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include "cotan/view.hpp"
+
+namespace cotan {
+
+namespace {
+
+// 0 below `low`, 1 above `high`, smooth between.
+float smooth(float low, float high, float x) { return f32::cotan_smooth(low, high, x); }
+
+// A rectangular light at distance 1 along `axis`, upright; half sizes and soft rim in the same unit. 0 to 1.
+struct SoftBox {
+    glm::vec3 axis, right, up; // unit
+    float halfWidth, halfHeight, rim;
+
+    SoftBox(glm::vec3 towards, float width, float height, float soft)
+        : axis(glm::normalize(towards)), halfWidth(width), halfHeight(height), rim(soft)
+    {
+        const glm::vec3 upright = std::abs(axis.y) < 0.99f ? glm::vec3(0, 1, 0) : glm::vec3(0, 0, -1);
+        right = glm::normalize(glm::cross(axis, upright));
+        up = glm::cross(right, axis);
+    }
+
+    float seen(glm::vec3 d) const
+    {
+        const float along = glm::dot(d, axis);
+        if (along <= 0.01f)
+            return 0;
+        const float x = std::abs(glm::dot(d, right)) / along, y = std::abs(glm::dot(d, up)) / along;
+        return (1 - smooth(halfWidth - rim, halfWidth + rim, x)) * (1 - smooth(halfHeight - rim, halfHeight + rim, y));
+    }
+};
+
+// Grey walls that darken upwards, a floor that the lights brighten, a large box on the left in front, a lower one on
+// the right, a ceiling light and two strips at the sides, a little behind, for edges. Models look along +z.
+glm::vec3 studio(glm::vec3 d)
+{
+    static const SoftBox key{glm::vec3(-0.75f, 0.62f, 0.75f), 0.55f, 0.5f, 0.05f};
+    static const SoftBox fill{glm::vec3(0.95f, 0.15f, 0.45f), 0.35f, 0.75f, 0.06f};
+    static const SoftBox ceiling{glm::vec3(0, 1, 0), 0.75f, 0.35f, 0.06f};
+    static const SoftBox left{glm::vec3(-1, 0.25f, -0.2f), 0.16f, 0.8f, 0.03f};
+    static const SoftBox right{glm::vec3(1, 0.3f, -0.35f), 0.16f, 0.8f, 0.03f};
+    const glm::vec3 wall = glm::vec3(0.30f, 0.30f, 0.31f) * (1 - 0.55f * smooth(0, 0.9f, d.y));
+    const glm::vec3 floor = glm::vec3(0.34f, 0.33f, 0.32f) * (1 - 0.35f * smooth(0, 1, -d.y));
+    glm::vec3 c = glm::mix(floor, wall, smooth(-0.12f, 0.12f, d.y));
+    c += glm::vec3(5.0f, 4.9f, 4.7f) * key.seen(d);
+    c += glm::vec3(1.9f, 2.0f, 2.1f) * fill.seen(d);
+    c += glm::vec3(3.0f) * ceiling.seen(d);
+    c += glm::vec3(4.2f, 4.4f, 4.6f) * (left.seen(d) + right.seen(d));
+    return c;
+}
+
+// The CIE's standard overcast sky: three times as bright above as at the horizon. Half of what falls on the ground
+// comes back.
+glm::vec3 overcast(glm::vec3 d)
+{
+    const glm::vec3 zenith(1.9f, 2.0f, 2.1f);
+    const glm::vec3 sky = zenith * ((1 + 2 * std::max(d.y, 0.0f)) / 3);
+    const glm::vec3 ground = zenith * glm::vec3(0.25f, 0.23f, 0.20f);
+    return glm::mix(ground, sky, smooth(-0.04f, 0.04f, d.y));
+}
+
+// The glow of a low sun in front on the right, along the horizon and around it, and a dark blue sky. The sun itself is
+// a lamp, which casts shadows.
+glm::vec3 evening(glm::vec3 d)
+{
+    static const glm::vec3 sun = glm::normalize(glm::vec3(0.8f, 0.28f, 0.6f));
+    const float height = std::max(d.y, 0.0f);
+    const float toSun = std::max(glm::dot(d, sun), 0.0f);
+    const glm::vec3 sky =
+        glm::mix(glm::vec3(0.70f, 0.42f, 0.30f), glm::vec3(0.07f, 0.12f, 0.30f), 1 - std::exp(-3.2f * height));
+    const glm::vec3 glow = glm::vec3(1.8f, 0.75f, 0.22f) * (std::pow(toSun, 8.0f) * std::exp(-2.5f * height));
+    const glm::vec3 halo = glm::vec3(6, 3.2f, 1.2f) * std::pow(toSun, 120.0f);
+    const glm::vec3 ground = glm::vec3(0.14f, 0.11f, 0.10f) * (1 + 0.6f * std::max(glm::dot(d, sun), 0.0f));
+    return 1.6f * glm::mix(ground, sky + glow + halo, smooth(-0.03f, 0.03f, d.y));
+}
+
+} // namespace
+
+const std::vector<std::string>& environmentNames()
+{
+    static const std::vector<std::string> names = {"studio", "overcast", "evening"};
+    return names;
+}
+
+std::optional<Radiance> builtinRadiance(const std::string& name)
+{
+    if (name == "studio")
+        return studio;
+    if (name == "overcast")
+        return overcast;
+    if (name == "evening")
+        return evening;
+    return std::nullopt;
+}
+
+} // namespace cotan

@@ -1,0 +1,54 @@
+#include "cotan/view.hpp"
+
+#include <glm/gtc/packing.hpp>
+
+#include "core/loops.hpp"
+#include "studio_halfs.hpp"
+
+// The file is taken in by the assembler: as numbers in a source file it would take the compiler seconds.
+__asm__(".section .rodata\n"
+        ".balign 2\n"
+        ".hidden cotanStudioHalfs\n"
+        ".globl cotanStudioHalfs\n"
+        "cotanStudioHalfs:\n"
+        ".incbin \"" COTAN_STUDIO_FILE "\"\n"
+        ".previous\n");
+extern "C" const std::uint16_t cotanStudioHalfs[];
+
+namespace cotan {
+
+namespace {
+
+using namespace surroundings;
+
+EnvironmentMap storedStudio()
+{
+    EnvironmentMap map;
+    map.name = "studio";
+    map.atlas = makeImage(COTAN_ENVIRONMENT_WIDTH, COTAN_ENVIRONMENT_HEIGHT, PixelType::float32, "environment");
+    parallelFor(0, COTAN_ENVIRONMENT_HEIGHT, [&](int y) {
+        const std::size_t first = std::size_t(y) * COTAN_ENVIRONMENT_WIDTH;
+        const std::uint16_t* half = cotanStudioHalfs + kChannels * first;
+        float* texel = map.atlas.floats() + 4 * first;
+        for (int x = 0; x < COTAN_ENVIRONMENT_WIDTH; ++x, half += kChannels, texel += 4) {
+            for (int c = 0; c < kChannels; ++c)
+                texel[c] = glm::unpackHalf1x16(half[c]);
+            texel[3] = 1;
+        }
+    });
+    return map;
+}
+
+} // namespace
+
+std::optional<EnvironmentMap> builtinEnvironment(const std::string& name, const EnvironmentOptions& options)
+{
+    const auto radiance = builtinRadiance(name);
+    if (!radiance)
+        return std::nullopt;
+    if (name == "studio" && options.rotation == 0 && options.intensity == 1)
+        return storedStudio();
+    return makeBuiltin(name, *radiance, options);
+}
+
+} // namespace cotan

@@ -1,0 +1,85 @@
+// Surroundings as a renderer reads them: the atlas that shaders/cotan/environment.h describes.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include <glm/geometric.hpp>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+
+#include "cotan/packed_only.hpp"
+#include "cotan/scene.hpp"
+#include "cotan/view.hpp"
+#include "scene/picture_text.hpp"
+
+namespace cotan {
+
+inline constexpr float kBackdropRoughness = 0.6f; // of Backdrop::blurred
+// Half the width of the widest half-shadow on a scene, as a share of the shadow map's side.
+inline constexpr float kWidestPenumbra = 0.02f;
+
+// A picture of floats at a place in texels, filtered as a GPU filters.
+inline glm::vec3 readBilinear(const Image& picture, glm::vec2 texel)
+{
+    const float* values = picture.floats();
+    const auto at = [&](int x, int y) {
+        x = std::clamp(x, 0, picture.width - 1);
+        y = std::clamp(y, 0, picture.height - 1);
+        const float* p = values + 4 * (std::size_t(y) * std::size_t(picture.width) + std::size_t(x));
+        return glm::vec3(p[0], p[1], p[2]);
+    };
+    const float fx = std::floor(texel.x - 0.5f), fy = std::floor(texel.y - 0.5f);
+    const float kx = texel.x - 0.5f - fx, ky = texel.y - 0.5f - fy;
+    const int x = int(fx), y = int(fy);
+    const glm::vec3 top = at(x, y) * (1 - kx) + at(x + 1, y) * kx;
+    const glm::vec3 bottom = at(x, y + 1) * (1 - kx) + at(x + 1, y + 1) * kx;
+    return top * (1 - ky) + bottom * ky;
+}
+
+// Radiance along a direction of any length, as a mirror of that roughness sees it.
+inline glm::vec3 radianceAlong(const EnvironmentMap& map, glm::vec3 direction, float roughness)
+{
+    const float level = f32::cotan_saturate(roughness) * COTAN_ENVIRONMENT_STEPS;
+    const float lower = std::min(std::floor(level), float(COTAN_ENVIRONMENT_STEPS - 1));
+    const glm::vec3 a = readBilinear(map.atlas, f32::cotan_environment_texel(direction, lower));
+    const glm::vec3 b = readBilinear(map.atlas, f32::cotan_environment_texel(direction, lower + 1));
+    return a + (b - a) * (level - lower);
+}
+
+// Irradiance of a surface with that normal, divided by pi.
+inline glm::vec3 irradianceAlong(const EnvironmentMap& map, glm::vec3 normal)
+{
+    return readBilinear(map.atlas, f32::cotan_environment_texel(normal, COTAN_ENVIRONMENT_IRRADIANCE));
+}
+
+// The factors of what GGX reflects of white light.
+inline glm::vec2 albedoOf(const EnvironmentMap& map, glm::vec3 n, glm::vec3 v, float roughness)
+{
+    const float nv = f32::cotan_saturate(glm::dot(n, v));
+    const glm::vec3 albedo = readBilinear(map.atlas, f32::cotan_environment_albedo_texel(nv, roughness));
+    return {albedo.x, albedo.y};
+}
+
+// What a surface reflects of its surroundings.
+inline glm::vec3 reflectedGlossy(const EnvironmentMap& map, const f32::cotan_surface& s, const f32::cotan_gloss& g)
+{
+    const glm::vec3 mirrored = f32::cotan_mirrored(f32::cotan_reflecting_normal(s, g), s.v);
+    return f32::cotan_reflect_image(s, g, irradianceAlong(map, s.n), radianceAlong(map, mirrored, s.roughness),
+                                    albedoOf(map, s.n, s.v, s.roughness));
+}
+
+// The same of metallic-roughness alone.
+inline glm::vec3 reflectedOf(const EnvironmentMap& map, const f32::cotan_surface& s)
+{
+    return reflectedGlossy(map, s, f32::cotan_plain_gloss());
+}
+
+inline glm::vec3 reflectedOfCoat(const EnvironmentMap& map, const f32::cotan_coat& c, glm::vec3 v)
+{
+    return f32::cotan_reflect_coat_image(c, radianceAlong(map, f32::cotan_mirrored(c.n, v), c.roughness),
+                                         albedoOf(map, c.n, v, c.roughness));
+}
+
+} // namespace cotan

@@ -1,0 +1,30 @@
+// Scenes of very many small parts, and of triangles that lie on one another, made cheaper to draw.
+#pragma once
+
+#include "cotan/result.hpp"
+#include "cotan/scene.hpp"
+#include "cotan/view.hpp"
+
+namespace cotan {
+
+// Puts parts of one material together where there are over mostParts: meshes of up to 256 triangles, placed by their
+// instances in float; larger ones stay, and so does what would be more than 4 million triangles. Instances with
+// matrices that are not finite go; so do the names of parts that are put together, and an opaque part that lies in the
+// place of one that is the same. Parts with cotangents stay.
+void joinParts(Scene& scene, std::size_t mostParts = 1000);
+
+// Leaves out triangles of opaque meshes that have the corners of an earlier one of their mesh, in the same order round:
+// the first is what a picture shows.
+void dropRepeated(Scene& scene);
+
+// How many pixels of a picture the triangles cover that face the eye or are drawn from both sides, all that lie behind
+// one another; half of those of translucent ones without a coat or the like.
+double pixelsCovered(const Scene& scene, const View& view);
+
+// Makes the scene fit to be drawn so many times in this view: dropRepeated where triangles cover the pictures over 20
+// times. Errors (ErrorKind::input), all before anything is drawn: after that opaque ones cover them over 96 times, or
+// translucent ones 16 times; the edges of long triangles fill them 2.5 times, in a scene of few places; or 400 lights
+// shine on all of them.
+Status settleCovered(Scene& scene, const View& view, std::size_t pictures = 1);
+
+} // namespace cotan

@@ -1,0 +1,205 @@
+#include "scene/scene_check.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <span>
+#include <string_view>
+#include <type_traits>
+
+#include "cotan/portable.hpp"
+
+namespace cotan {
+
+namespace {
+
+// One line, or nothing.
+using Problem = std::optional<std::string>;
+
+// Words and whole numbers, one after the other.
+template<class... Parts> std::string joined(const Parts&... parts)
+{
+    std::string text;
+    const auto add = [&](const auto& part) {
+        if constexpr (std::is_arithmetic_v<std::remove_cvref_t<decltype(part)>>)
+            text += std::to_string(part);
+        else
+            text += part;
+    };
+    (add(parts), ...);
+    return text;
+}
+
+template<class T> bool finite(const T& value)
+{
+    const std::span<const float> numbers(reinterpret_cast<const float*>(&value), sizeof value / sizeof(float));
+    return std::ranges::all_of(numbers, [](float x) { return std::isfinite(x); });
+}
+
+bool below(int index, std::size_t size) { return index >= 0 && std::size_t(index) < size; }
+
+class Checker {
+public:
+    Checker(const Scene& scene, const SceneRules& rules) : scene_(scene), rules_(rules) {}
+
+    Problem run() const
+    {
+        Problem problem = first(scene_.images, "image", [&](const Image& i) { return checkImage(i); });
+        if (!problem)
+            problem = first(scene_.materials, "material", [&](const Material& m) { return checkMaterial(m); });
+        if (!problem)
+            problem = first(scene_.meshes, "mesh", [&](const Mesh& m) { return checkMesh(m); });
+        if (!problem)
+            problem = first(scene_.instances, "instance", [&](const Instance& i) { return checkInstance(i); });
+        if (!problem)
+            problem = first(scene_.lights, "light", [&](const Light& l) { return checkLight(l); });
+        if (!problem)
+            problem = first(scene_.cameras, "camera", [&](const Camera& c) { return checkCamera(c); });
+        return problem;
+    }
+
+private:
+    // "mesh 3: ..." for the first of the list with a problem.
+    template<class T, class F> static Problem first(const std::vector<T>& list, std::string_view what, F check)
+    {
+        for (std::size_t i = 0; i < list.size(); ++i)
+            if (const Problem problem = check(list[i]))
+                return joined(what, " ", i, ": ", *problem);
+        return std::nullopt;
+    }
+
+    // Nothing where the numbers are finite, or may be others.
+    template<class... Values> Problem checkNumbers(std::string_view expected, const Values&... values) const
+    {
+        return rules_.finite && !(finite(values) && ...) ? Problem(expected) : std::nullopt;
+    }
+
+    Problem checkImage(const Image& image) const
+    {
+        if (!rules_.pixels && image.width == 0 && image.height == 0 && image.data.empty())
+            return std::nullopt;
+        const bool sized = image.width > 0 && image.height > 0;
+        if (!sized || image.data.size() % image.bytesPerPixel() != 0
+            || image.data.size() / image.bytesPerPixel() != std::uint64_t(image.width) * std::uint64_t(image.height))
+            return joined("expected the bytes of ", image.width, " x ", image.height, " pixels, found ",
+                          image.data.size());
+        return std::nullopt;
+    }
+
+    Problem checkTexture(const Texture& texture, std::string_view name) const
+    {
+        const std::size_t images = scene_.images.size();
+        if (texture.image != -1 && !below(texture.image, images))
+            return joined(name, ": expected an image below ", images, ", found ", texture.image);
+        if (texture.texcoord != 0 && texture.texcoord != 1)
+            return joined(name, ": expected uv set 0 or 1, found ", texture.texcoord);
+        return checkNumbers(joined(name, ": expected a finite transform of uv"), texture.uRow, texture.vRow);
+    }
+
+    Problem checkMaterial(const Material& m) const
+    {
+        const std::pair<const Texture*, std::string_view> textures[] = {
+            {&m.baseColorMap, "base colour"},
+            {&m.metallicRoughnessMap, "metal and roughness"},
+            {&m.normalMap, "normal map"},
+            {&m.occlusionMap, "occlusion"},
+            {&m.emissiveMap, "emission"},
+            {&m.coat.map, "coat"},
+            {&m.coat.roughnessMap, "coat roughness"},
+            {&m.coat.normalMap, "coat normal map"},
+            {&m.anisotropy.map, "anisotropy"},
+            {&m.specular.map, "specular"},
+            {&m.specular.colorMap, "specular colour"},
+            {&m.sheen.colorMap, "sheen colour"},
+            {&m.sheen.roughnessMap, "sheen roughness"},
+            {&m.transmission.map, "transmission"}};
+        for (const auto& [texture, name] : textures)
+            if (Problem problem = checkTexture(*texture, name))
+                return problem;
+        const glm::vec4 factors(m.metallic, m.roughness, m.occlusionStrength, m.normalScale);
+        if (Problem problem = checkNumbers("expected finite factors", m.baseColor, m.emissive, factors, m.alphaCutoff))
+            return problem;
+        const glm::vec4 coat(m.coat.strength, m.coat.roughness, m.coat.normalScale, m.anisotropy.strength);
+        const glm::vec4 layers(m.anisotropy.rotation, m.specular.ior, m.specular.strength, m.sheen.roughness);
+        if (Problem problem = checkNumbers("expected finite factors of extensions", coat, layers, m.specular.color,
+                                           m.sheen.color, m.transmission.strength))
+            return problem;
+        const int expansion = int(m.normalFormat.expansion), channels = int(m.normalFormat.channels);
+        if (!below(expansion, COTAN_EXPAND_EXACT16 + 1) || !below(channels, COTAN_CHANNELS_SLOPE + 1))
+            return joined("expected a way to store normals, found ", expansion, " ", channels);
+        return std::nullopt;
+    }
+
+    template<class T>
+    Problem checkArray(const std::vector<T>& values, std::size_t vertices, std::string_view name) const
+    {
+        if (!values.empty() && values.size() != vertices)
+            return joined(name, ": expected ", vertices, " entries, one a vertex, found ", values.size());
+        const auto bad = std::ranges::find_if(values, [](const T& value) { return !finite(value); });
+        if (rules_.finite && bad != values.end())
+            return joined(name, " ", bad - values.begin(), ": expected finite numbers");
+        return std::nullopt;
+    }
+
+    static Problem checkIndices(const Mesh& mesh)
+    {
+        if (mesh.indices.size() % 3 != 0)
+            return joined("expected three indices a triangle, found ", mesh.indices.size(), " together");
+        const std::size_t vertices = mesh.vertexCount();
+        const auto bad = std::ranges::find_if(mesh.indices, [&](std::uint32_t i) { return i >= vertices; });
+        if (bad != mesh.indices.end())
+            return joined("triangle ", (bad - mesh.indices.begin()) / 3, ": expected an index below ", vertices,
+                          ", found ", *bad);
+        return std::nullopt;
+    }
+
+    Problem checkMesh(const Mesh& mesh) const
+    {
+        const std::size_t n = mesh.vertexCount();
+        if (!below(mesh.material, scene_.materials.size()))
+            return joined("expected a material below ", scene_.materials.size(), ", found ", mesh.material);
+        if (mesh.normals.size() != n)
+            return joined("normals: expected ", n, " entries, one a vertex, found ", mesh.normals.size());
+        for (Problem problem : {checkArray(mesh.positions, n, "position"), checkArray(mesh.normals, n, "normal"),
+                                checkArray(mesh.tangents, n, "tangent"), checkArray(mesh.texcoords[0], n, "uv set 0"),
+                                checkArray(mesh.texcoords[1], n, "uv set 1"), checkArray(mesh.colors, n, "colour"),
+                                checkArray(mesh.cotangentsU, n, "cotangent u"),
+                                checkArray(mesh.cotangentsV, n, "cotangent v"), checkIndices(mesh)})
+            if (problem)
+                return problem;
+        return std::nullopt;
+    }
+
+    Problem checkInstance(const Instance& instance) const
+    {
+        if (!below(instance.mesh, scene_.meshes.size()))
+            return joined("expected a mesh below ", scene_.meshes.size(), ", found ", instance.mesh);
+        return checkNumbers("expected a finite transform", instance.toWorld);
+    }
+
+    Problem checkLight(const Light& l) const
+    {
+        const glm::vec4 numbers(l.intensity, l.range, l.innerCone, l.outerCone);
+        return checkNumbers("expected finite numbers", l.color, l.position, l.direction, numbers);
+    }
+
+    Problem checkCamera(const Camera& c) const
+    {
+        const glm::vec2 numbers(c.verticalFieldOfView, c.verticalExtent);
+        return checkNumbers("expected finite numbers", c.eye, c.target, c.up, numbers);
+    }
+
+    const Scene& scene_;
+    const SceneRules& rules_;
+};
+
+} // namespace
+
+Status checkScene(const Scene& scene, const std::string& name, const SceneRules& rules)
+{
+    if (const Problem problem = Checker(scene, rules).run())
+        return inputError(name + ": " + *problem);
+    return Done{};
+}
+
+} // namespace cotan

@@ -1,0 +1,70 @@
+// How a texture is read: which texels a coordinate meets, and what they give together.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+
+#include <glm/common.hpp>
+#include <glm/vec2.hpp>
+#include <glm/vec4.hpp>
+
+#include "cotan/scene.hpp"
+
+namespace cotan {
+
+// Coordinates further out have no fraction left in float, and as numbers of texels would overflow.
+inline constexpr float kFarthestUv = 1e8f;
+
+// Calls use(components, most) with the four numbers at column x, row y, inside the image, and the number that means 1.
+template<class Use> auto atTexel(const Image& image, int x, int y, const Use& use)
+{
+    const std::size_t at = 4 * (std::size_t(y) * std::size_t(image.width) + std::size_t(x));
+    if (image.type == PixelType::unorm8)
+        return use(image.bytes8() + at, 255);
+    return image.type == PixelType::unorm16 ? use(image.words() + at, 65535) : use(image.floats() + at, 1);
+}
+
+// The components at column x, row y, inside the image, as a sampler gives them: unorm as [0,1].
+inline glm::vec4 storedComponents(const Image& image, int x, int y)
+{
+    return atTexel(image, x, y,
+                   [](const auto* c, int most) { return glm::vec4(c[0], c[1], c[2], c[3]) * (1.0f / float(most)); });
+}
+
+// The column or row that texel i of an endless axis is, of `size` that the image has.
+inline int wrapTexel(std::int64_t i, int size, Wrap mode)
+{
+    if (i >= 0 && i < size)
+        return int(i); // all modes, and most reads
+    if (mode == Wrap::clamp)
+        return int(std::clamp<std::int64_t>(i, 0, size - 1));
+    const std::int64_t period = mode == Wrap::mirror ? 2 * std::int64_t(size) : size;
+    std::int64_t k = i % period;
+    k = k < 0 ? k + period : k;
+    return int(k < size ? k : 2 * std::int64_t(size) - 1 - k);
+}
+
+// The texel that uv falls into, of `width` x `height`. texel(x, y): a glm::vec4. uv: at most
+// kFarthestUv from zero.
+template<class Texel> glm::vec4 nearestTexel(int width, int height, const Sampler& s, glm::dvec2 uv, Texel texel)
+{
+    const auto x = std::int64_t(std::floor(uv.x * width)), y = std::int64_t(std::floor(uv.y * height));
+    return texel(wrapTexel(x, width, s.wrapU), wrapTexel(y, height, s.wrapV));
+}
+
+// The four texels around uv, by their distance. Their centres lie at half-integers.
+template<class Texel> glm::vec4 bilinearTexel(int width, int height, const Sampler& s, glm::dvec2 uv, Texel texel)
+{
+    const double u = uv.x * width - 0.5, v = uv.y * height - 0.5;
+    const double fu = std::floor(u), fv = std::floor(v);
+    const auto x = std::int64_t(fu), y = std::int64_t(fv);
+    const int x0 = wrapTexel(x, width, s.wrapU), x1 = wrapTexel(x + 1, width, s.wrapU);
+    const int y0 = wrapTexel(y, height, s.wrapV), y1 = wrapTexel(y + 1, height, s.wrapV);
+    const float kx = float(u - fu), ky = float(v - fv);
+    const glm::vec4 top = glm::mix(texel(x0, y0), texel(x1, y0), kx);
+    const glm::vec4 bottom = glm::mix(texel(x0, y1), texel(x1, y1), kx);
+    return glm::mix(top, bottom, ky);
+}
+
+} // namespace cotan

@@ -1,0 +1,173 @@
+#include "cotan/shader_text.hpp"
+
+#include <algorithm>
+#include <set>
+
+#include "entry.hpp"
+#include "fill.hpp"
+#include "godot.hpp"
+#include "parse.hpp"
+#include "portable_parts.hpp"
+#include "print.hpp"
+#include "specialise.hpp"
+
+namespace cotan::shader_text {
+
+namespace {
+
+std::string_view branchOf(Language language)
+{
+    switch (language) {
+    case Language::cpp: return "COTAN_LANG_CPP";
+    case Language::godot: return "COTAN_LANG_GODOT";
+    default: break;
+    }
+    return "COTAN_LANG_GLSL";
+}
+
+// All of the portable text, and `extra` after it.
+Module parseAll(Language language, std::string_view extra)
+{
+    Module module;
+    std::map<std::string, Expression> constants;
+    for (const PortablePart& part : portableParts())
+        parsePart(module, constants, part.name, part.text, branchOf(language));
+    parsePart(module, constants, "entry", extra, branchOf(language));
+    return module;
+}
+
+// cotan_decode for one way of storing a map.
+void bindConvention(Module& module, const Convention& c)
+{
+    for (Function& f : module.functions) {
+        if (f.name == "cotan_expand")
+            f.comments = {"// The signed number that a stored component stands for, in [-1,1]."};
+        if (f.name == "cotan_decode")
+            f.comments = {"// The decoded texel: normal along (+u, +v, outwards). Not unit in general.",
+                          "// texel: as sampled; two-channel maps use x and y only."};
+    }
+    bindArgument(module, "cotan_decode", "format", "expansion", std::to_string(int(c.expansion)));
+    bindArgument(module, "cotan_decode", "format", "channels", std::to_string(int(c.channels)));
+    bindArgument(module, "cotan_decode", "format", "green", greenAlongV(c) ? "1.0" : "-1.0");
+    bindArgument(module, "cotan_decode", "format", "strength", "1.0");
+    dropParameter(module, "cotan_decode", "format");
+    bindArgument(module, "cotan_expand", "expansion", "", std::to_string(int(c.expansion)));
+    for (Function& f : module.functions)
+        if (f.name == "cotan_expand" || f.name == "cotan_decode")
+            simplify(f);
+}
+
+std::vector<std::string> rootsOf(const Module& module, const Choice& choice)
+{
+    std::set<std::string_view> parts = {"entry"};
+    std::vector<std::string> roots;
+    for (const Set set : choice.sets) {
+        if (set == Set::light && isGodotShader(choice)) {
+            roots = functionsOfLight();
+            continue;
+        }
+        parts.insert(name(set));
+        if (set == Set::light)
+            parts.insert("sheen");
+    }
+    for (const Function& f : module.functions)
+        if (parts.contains(f.part))
+            roots.push_back(f.name);
+    return roots;
+}
+
+// What the language cannot do.
+Status checkLanguage(const Choice& choice, Form form)
+{
+    for (const Set set : choice.sets)
+        if (!hasSet(choice.language, set))
+            return usageError(fill("the set {}: Godot does this itself; expected gradient, blend or light", name(set)));
+    return choice.language == Language::godot ? checkGodot(choice, form) : Status(Done{});
+}
+
+Result<Form> formOf(const Choice& choice)
+{
+    const bool several = choice.uvSets > 1;
+    if (choice.uvSets < 1 || choice.uvSets > 4)
+        return usageError(fill("uv sets: expected 1 to 4; found {}", choice.uvSets));
+    if (several && info(choice.frame).source != FrameSource::differences)
+        return usageError(
+            fill("several uv sets: expected a frame made from differences; found '{}'", name(choice.frame)));
+    if ((choice.form == Form::seen || choice.form == Form::area)
+        && (several || choice.frame != Frame::cotangent || choice.language == Language::godot))
+        return usageError(fill("the form {}: expected the frame cotangent over one uv set in another language than "
+                               "Godot's; found the frame {}, {} uv sets, {}",
+                               name(*choice.form), name(choice.frame), choice.uvSets, name(choice.language)));
+    const bool hasFused = several ? choice.frame == Frame::cotangent : hasFusedForm(choice.frame);
+    if (choice.form == Form::fused && !hasFused)
+        return usageError(
+            several ? fill("the fused form over several uv sets: expected cotangent; found '{}'", name(choice.frame))
+                    : fill("the fused form: expected {}; found '{}'", fusedFrameNames(" or "), name(choice.frame)));
+    const bool fusedByItself = hasFused && !readsVertices(choice.frame);
+    const Form form = choice.form ? *choice.form : fusedByItself ? Form::fused : Form::total;
+    if (choice.stage != Stage::all && (choice.frame != Frame::triangle || form != Form::fused))
+        return usageError("a stage: expected the frame triangle in its fused form; found another");
+    if (Status possible = checkLanguage(choice, form); !possible)
+        return possible.error();
+    return form;
+}
+
+} // namespace
+
+std::string_view name(Set set)
+{
+    constexpr std::string_view kSetNames[] = {"gradient", "blend", "light", "environment", "tone", "shadow"};
+    return kSetNames[int(set)];
+}
+
+std::string_view name(Form form)
+{
+    constexpr std::string_view kFormNames[] = {"fused", "total", "seen", "area"};
+    return kFormNames[int(form)];
+}
+
+bool hasSet(Language language, Set set)
+{
+    return language != Language::godot || set == Set::gradient || set == Set::blend || set == Set::light;
+}
+
+bool hasFusedForm(Frame frame) { return info(frame).fused; }
+
+std::string fusedFrameNames(std::string_view beforeLast)
+{
+    std::vector<std::string_view> names;
+    for (const FrameInfo& f : frames())
+        if (f.fused)
+            names.push_back(f.name);
+    std::ranges::sort(names);
+    std::string text(names.front());
+    for (std::size_t i = 1; i < names.size(); ++i)
+        text += std::string(i + 1 < names.size() ? ", " : beforeLast) + std::string(names[i]);
+    return text;
+}
+
+Result<ShaderText> makeShaderText(const Choice& choice)
+{
+    const Result<Form> form = formOf(choice);
+    if (!form)
+        return form.error();
+    Module module = parseAll(choice.language, entryText(choice, *form));
+    bindConvention(module, choice.convention);
+    const Module needed = neededBy(module, rootsOf(module, choice));
+    ShaderText result;
+    result.form = *form;
+    result.entry = entryOf(choice);
+    for (const Function& f : needed.functions)
+        result.functions.push_back(f.name);
+    const std::string functions = print(needed, choice.language);
+    result.text = introduction(choice, *form) + (isGodotShader(choice) ? godotShader(choice, functions) : functions);
+    return result;
+}
+
+std::string translate(Language language, std::string_view extra)
+{
+    const Module module = parseAll(language, extra);
+    return print(neededBy(module, rootsOf(module, {})), language);
+}
+
+} // namespace cotan::shader_text

@@ -1,0 +1,130 @@
+#!/usr/bin/env python3
+"""architecture_test.py SOURCES FACT: whether a fact of docs/project/architecture.md holds of the tree. Says what does not."""
+import collections
+import pathlib
+import re
+import sys
+
+ROOT = pathlib.Path(sys.argv[1])
+SRC = ROOT / "src"
+MOST_FOLDERS, MOST_ARROWS, MOST_HEADERS, MOST_LINES = 14, 80, 30, 60_000
+WITHOUT_HEADER = {"c", "terminal"}  # cotan.h; what only the tool and the C API use
+INCLUDE = re.compile(r'^\s*#\s*include\s+[<"]([^">]+)[">]', re.M)
+
+parts = sorted(p.name for p in SRC.iterdir() if p.is_dir())
+files = [p for p in SRC.rglob("*") if p.suffix in (".cpp", ".hpp", ".h", ".inc")]
+owner = {str(p.relative_to(p.parents[len(p.relative_to(SRC).parts) - 3])): p.relative_to(SRC).parts[0]
+         for p in files if "/include/cotan/" in str(p)}
+wrong = []
+
+
+def part_of(include, file):
+    """The part whose header it is; none of a system's, of the portable text, and of a file beside."""
+    if include in owner:
+        return owner[include]
+    if (file.parent / include).is_file():
+        return None
+    first = include.split("/")[0]
+    return first if "/" in include and first in parts else None
+
+
+def arrows():
+    """Part -> part that it includes -> a place where it does."""
+    found = collections.defaultdict(dict)
+    for file in files:
+        own = file.relative_to(SRC).parts[0]
+        for include in INCLUDE.findall(file.read_text()):
+            other = part_of(include, file)
+            if other and other != own:
+                found[own].setdefault(other, f"{file.relative_to(ROOT)} includes {include}")
+    return found
+
+
+def hasFewFolders():
+    if len(parts) > MOST_FOLDERS:
+        wrong.append(f"src has {len(parts)} folders: expected at most {MOST_FOLDERS}")
+
+
+def hasFewLines():
+    count = sum(len(p.read_text().splitlines()) for p in SRC.rglob("*") if p.is_file())
+    if count > MOST_LINES:
+        wrong.append(f"src has {count} lines: expected at most {MOST_LINES}")
+
+
+def hasFewArrows():
+    count = sum(len(others) for others in arrows().values())
+    if count > MOST_ARROWS:
+        wrong.append(f"{count} arrows between parts: expected at most {MOST_ARROWS}")
+    if count < 30:
+        wrong.append(f"{count} arrows between parts: this test no longer finds them")
+
+
+def hasNoCircle():
+    found, done = arrows(), []
+
+    def visit(part, way):
+        if part in way:
+            circle = [*way[way.index(part):], part]
+            wrong.append("a circle: " + "; ".join(found[a][b] for a, b in zip(circle, circle[1:])))
+        elif part not in done:
+            for other in sorted(found[part]):
+                visit(other, [*way, part])
+            done.append(part)
+
+    for part in parts:
+        visit(part, [])
+
+
+def partsIncludeWhatTheyLink():
+    for part, others in arrows().items():
+        text = "".join(p.read_text() for p in (SRC / part).rglob("CMakeLists.txt"))
+        links = set(re.findall(r"\bcotan_(\w+)", text)) | ({"core"} if "cotan_loops" in text else set())
+        for other, place in sorted(others.items()):
+            if other not in links:
+                wrong.append(f"{place}, but src/{part}/CMakeLists.txt does not link cotan_{other}")
+
+
+def eachPartHasOnePublicHeader():
+    for part in parts:
+        if part not in WITHOUT_HEADER and not (SRC / part / "include/cotan" / f"{part}.hpp").is_file():
+            wrong.append(f"src/{part} has no include/cotan/{part}.hpp")
+    headers = [p for p in SRC.glob("*/include/**/*") if p.is_file()]
+    if len(headers) > MOST_HEADERS:
+        wrong.append(f"{len(headers)} public headers: expected at most {MOST_HEADERS}")
+    for header in headers:
+        for include in INCLUDE.findall(header.read_text()):
+            if part_of(include, header) and include not in owner:
+                wrong.append(f"{header.relative_to(ROOT)} is public and includes {include}, which is not")
+
+
+def noTwoFilesHaveOneName():
+    names = collections.defaultdict(list)
+    for file in SRC.rglob("*"):
+        if file.is_file() and file.name != "CMakeLists.txt":
+            names[file.name].append(str(file.relative_to(ROOT)))
+    for name, places in sorted(names.items()):
+        if len(places) > 1:
+            wrong.append(f"{name} occurs {len(places)} times: {', '.join(sorted(places))}")
+
+
+def judgesAreIndependent():
+    for folder, other in (("src/render/reference", "render/vulkan/"), ("src/render/vulkan", "render/reference/"),
+                          ("apps/lab/truth", "bake/"), ("src", "lab/")):
+        for file in (ROOT / folder).rglob("*.?pp"):
+            for include in INCLUDE.findall(file.read_text()):
+                if include.startswith(other):
+                    wrong.append(f"{file.relative_to(ROOT)} includes {include}")
+
+
+FACTS = (hasFewFolders, hasFewLines, hasFewArrows, hasNoCircle, partsIncludeWhatTheyLink, eachPartHasOnePublicHeader,
+         noTwoFilesHaveOneName, judgesAreIndependent)
+if __name__ == "__main__":
+    chosen = [f for f in FACTS if f.__name__ == sys.argv[2]] if len(sys.argv) > 2 else FACTS
+    if not chosen:
+        sys.exit(f"architecture_test: expected one of {', '.join(f.__name__ for f in FACTS)}; found {sys.argv[2]}")
+    for fact in chosen:
+        fact()
+    if not owner or len(files) < 300:
+        wrong.append("this test no longer finds the sources")
+    print(*wrong, sep="\n", end="\n" if wrong else "")
+    sys.exit(bool(wrong))
