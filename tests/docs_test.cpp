@@ -192,6 +192,29 @@ TEST(Documents, haveNoRiddles)
                         {R"([.!?] Of the )", "the subject first"}});
 }
 
+// One idea a paragraph: a list item counts as one.
+TEST(Documents, haveShortParagraphs)
+{
+    constexpr int kMaxLines = 7;
+    const std::regex item(R"(^\s*([-*]|\d+\.)\s)");
+    for (const fs::path& file : writtenPages()) {
+        if (shortName(file) == "docs/project/architecture.md")
+            continue;
+        std::istringstream text(readWhole(file));
+        int lines = 0;
+        bool fenced = false;
+        for (std::string line; std::getline(text, line);) {
+            fenced ^= line.find("```") != std::string::npos;
+            const std::size_t first = line.find_first_not_of(' ');
+            if (fenced || first == std::string::npos || std::string("|#<`").find(line[first]) != std::string::npos)
+                lines = 0;
+            else
+                lines = std::regex_search(line, item) ? 1 : lines + 1;
+            EXPECT_LE(lines, kMaxLines) << shortName(file) << ": " << line;
+        }
+    }
+}
+
 TEST(Documents, everyPictureIsSmallAndShownSomewhere)
 {
     std::string pages;
