@@ -450,6 +450,12 @@ double fromAccuracy(const std::string& row, std::size_t column)
     return -1;
 }
 
+std::string trimmed(const std::string& text)
+{
+    const std::size_t first = text.find_first_not_of(' ');
+    return first == std::string::npos ? "" : text.substr(first, text.find_last_not_of(' ') + 1 - first);
+}
+
 // A cell of the first table of docs/explanation/cost.md behind a heading that begins so, with this row and card.
 double fromCost(const std::string& row, const std::string& column, const std::string& heading = "What perturbing")
 {
@@ -465,7 +471,7 @@ double fromCost(const std::string& row, const std::string& column, const std::st
             std::vector<std::string> cells;
             std::istringstream stream(line.substr(1));
             for (std::string cell; std::getline(stream, cell, '|');)
-                cells.push_back(std::regex_replace(cell, std::regex(R"(^\s+|\s+$)"), ""));
+                cells.push_back(trimmed(cell));
             if (heads.empty() || cells[0].empty()) // makers, then cards
                 heads = cells;
             const auto at = std::find(heads.begin(), heads.end(), column);
@@ -520,7 +526,39 @@ TEST(Documents, repeatNumbersAsTheMeasuredTablesHaveThem)
             numbers.push_back(fromCost(row, card, heading));
         return numbers;
     };
+    // Instructions on three cards, and the bound in cycles on the first.
+    auto ofTriangle = [](const char* row) {
+        std::vector<double> numbers;
+        for (const char* card : {"NAVI21", "NAVI31", "POLARIS10"})
+            numbers.push_back(fromCost(row, card));
+        numbers.push_back(fromCost(row, "NAVI21", "Whole fragment shaders, bound"));
+        return numbers;
+    };
     const Claim claims[] = {
+        {"docs/explanation/triangle.md", "| `mikktspace` | +{} | +{} | +{} | {} |", ofTriangle("mikktspace")},
+        {"docs/explanation/triangle.md", "| `triangle`, six halfs | **+{}** | **+{}** | +{} | **{}** |",
+         ofTriangle("triangle-halfs")},
+        {"docs/explanation/triangle.md", "| `triangle`, six floats | +{} | +{} | **+{}** | {} |",
+         ofTriangle("triangle-fused")},
+        {"docs/explanation/triangle.md", "| `smooth`, fused | +{} | +{} | **+{}** | {} |", ofTriangle("smooth-fused")},
+        {"docs/explanation/triangle.md", "| `cotangent`, fused | +{} | +{} | +{} | {} |",
+         ofTriangle("cotangent-fused")},
+        {"docs/explanation/triangle.md", "| `cotangent`, n on the side that is seen | +{} | +{} | +{} | {} |",
+         ofTriangle("cotangent-seen")},
+        {"docs/explanation/triangle.md",
+         "costs {} instructions more a pixel, or {} if U and V are read. Stored tangents cost {},",
+         {fromCost("triangle-fused", "NAVI21", "What a frame adds where a visibility buffer"),
+          fromCost("triangle-read", "NAVI21", "What a frame adds where a visibility buffer"),
+          fromCost("mikktspace", "NAVI21", "What a frame adds where a visibility buffer")}},
+        {"docs/explanation/triangle.md",
+         "costs {} instructions more if 24 bytes are stored, {} for 8 bytes, {} for 4.",
+         {fromCost("two cotangents", "NAVI21", "What stored tangents add"),
+          fromCost("two cotangents in 8 bytes", "NAVI21", "What stored tangents add"),
+          fromCost("two cotangents in 4 bytes", "NAVI21", "What stored tangents add")}},
+        {"docs/explanation/triangle.md",
+         "Each vertex costs {} instructions more, where a stored tangent costs {},",
+         {fromCost("triangle, six halfs", "NAVI21", "What stored tangents add"),
+          fromCost("tangent", "NAVI21", "What stored tangents add")}},
         {"README.md",
          "| flat patch, square texels, against the exact slope | {} degrees | {} degrees |",
          {fromAccuracy(flat("square", "cotangent"), kMean), fromAccuracy(flat("square", "mikktspace"), kMean)},
