@@ -88,7 +88,7 @@ function wrongGreen(lint) {
   return (lint.maps ?? []).filter(map => map.decided && !map.as_declared && !meant.has(map.image));
 }
 
-// What a program in three.js takes in place of a new file.
+// The lines for a program in three.js that needs no new file.
 function linesFor(lint) {
   const wrong = wrongGreen(lint).length > 0, all = wrong && wrongGreen(lint).length === lint.maps.length;
   return [el('h2', { class: 'part' }, 'Without a new file'), el('p', {}, 'In three.js, after the model is loaded:'), el('pre', { tabindex: 0 }, el('code', { 'data-paste': '' },
@@ -97,7 +97,7 @@ function linesFor(lint) {
 
 // The verdict of the library in a few words, and its own.
 function verdictOf(lint, name) {
-  if (lint.error) return [el('p', { class: 'verdict' }, 'The model is drawn, but could not be judged.'), el('p', {}, lint.error.message)];
+  if (lint.error) return [el('p', { class: 'verdict' }, 'The model is drawn, but it could not be judged.'), el('p', {}, lint.error.message)];
   const green = lint.maps.some(map => map.decided && !map.as_declared), changes = lint.maps_converted > 0, empty = lint.maps.length === 0;
   const reversed = lint.primitives.some(({ stored_tangents: stored }) => stored?.reversed_w > 0.5), distrusted = lint.distrust_stored;
   const words = empty ? 'It has no normal map: there is nothing to judge.'
@@ -106,7 +106,7 @@ function verdictOf(lint, name) {
         : distrusted ? `Its stored tangents contradict its texture coordinates${reversed ? ': without them green is read as they mean it' : ''}.`
           : changes ? `Without stored tangents its maps have to be made again for the frame ${lint.advice}.`
             : lint.advice ? `It needs no stored tangents: its maps are read as they are, with the frame ${lint.advice}.`
-              : 'Of its normal maps nothing was judged as a whole.';
+              : 'None of its normal maps was judged as a whole.';
   const off = frame => {
     const means = lint.fits.map(fit => fit[frame].mean).filter(mean => typeof mean === 'number');
     return means.length > 0 ? degrees(Math.max(...means)) : undefined;

@@ -23,7 +23,7 @@ export type Frame = 'auto' | 'cotangent' | 'orthonormal' | 'smooth' | 'triangle'
 export interface UntangleOptions {
   /** Default: `auto`; materials that have a frame from an earlier call keep it, unless `auto` is said. */
   frame?: Frame;
-  /** Which way green points, `gltf`: up the picture; `directx`: down. Default: as stored tangents say where they contradict
+  /** Which way green points, `gltf`: up the image; `directx`: down. Default: as stored tangents say where they contradict
    * the texture coordinates on at least 90 % of the area of a map; else as the model declares. */
   convention?: 'gltf' | 'directx';
   /** Gets lines that are worth knowing and no fault: green that is read the other way, a frame that is not the map's own.
@@ -39,10 +39,10 @@ export interface LoadedModel {
 /**
  * Removes the tangents of all meshes, and lets every material with a `normalScale` take its frame from Cotan: for bumps, clear
  * coat and anisotropy, right in mirrored transforms, on both sides, and in targets with y down. `normalScale.y` gets the sign
- * that tangents stood for: what was drawn with them is what is drawn without. Materials that meshes share but want different
+ * that tangents meant: what was drawn with them is what is drawn without. Materials that meshes share but want different
  * things of are cloned. Call it again for meshes that come later; what is done stays. Hooks of your own (`onBeforeCompile`)
  * are kept, also those that you set later, and so is the frame by `material.clone()` (not by `copy()`). What the renderer holds
- * of tangents and of geometries that are replaced is freed; what takes their place is freed when they are disposed of.
+ * of tangents and of geometries that are replaced is freed; what replaces them is freed when they are disposed of.
  * Throws a CotanError with code `usage` on anything but an Object3D or a loaded model, on unknown frames and on unknown
  * options, and with code `unavailable` where this three, or the shader of a material when it is drawn, has no place for the
  * frame. three 0.160 and later.

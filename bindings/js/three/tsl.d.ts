@@ -7,7 +7,7 @@ import type { Frame, LoadedModel, UntangleOptions } from './index.js';
 
 export interface UntangleNodesOptions extends UntangleOptions {
   /** Needed for the frame `triangle`, after `await renderer.init()`: WebGPU takes flat values from the first vertex, WebGL from
-   * the last. Instanced meshes get `cotangent` here in place of `triangle` and `smooth`, skins in place of `smooth`. */
+   * the last. Instanced meshes get `cotangent` here instead of `triangle` and `smooth`, skins instead of `smooth`. */
   renderer?: Renderer;
 }
 

@@ -18,7 +18,7 @@ export type Bits = 8 | 16 | 32;
 /** Which way green points, from the map alone. */
 export function detect(map: Picture): {
   green: 'up' | 'down' | 'unknown';
-  /** Whether red and green are exchanged; null: cannot be told. */
+  /** Whether red and green are exchanged; null: unknown. */
   swapped: boolean | null;
   confidence: 'none' | 'likely' | 'certain';
   /** The correlation that the verdict rests on, -1 to 1. */
@@ -26,10 +26,10 @@ export function detect(map: Picture): {
   reason: string;
 };
 
-/** What the numbers of a picture say about it as a normal map. Shares are 0 to 1, tilt is in degrees. */
+/** Statistics of an image as a normal map. Fractions are 0 to 1, tilt is in degrees. */
 export function info(map: Picture): {
   content: string;
-  /** The code of 255 that stands for zero: 128; 127 for 127.5; null: cannot be told. */
+  /** The code of 255 that stands for zero: 128; 127 for 127.5; null: unknown. */
   zero: 127 | 128 | null;
   transfer: 'linear' | 'srgb' | 'linearised';
   background: number;
@@ -166,14 +166,14 @@ export type LimitFrame = 'cotangent' | 'orthonormal' | 'smooth' | 'exact' | 'tri
 
 /** What to expect of a model (.glb or .gltf) whose normal maps are read without stored tangents. */
 export function lint(model: Bytes, options?: ModelOptions & Limits & {
-  /** From eye to surface, units of the model; 0, the default: where the whole model fills the picture. */
+  /** From eye to surface, units of the model; 0, the default: where the whole model fills the image. */
   distance?: number;
 }): Promise<LintReport>;
 
 /** over_limit of a report for other limits. */
 export function overLimits(report: LintReport, limits?: Limits): OverLimit[];
 
-/** A normal map that stays as it is, with the tangents that it needs, since its format is not read here. */
+/** A normal map that stays as it is, with the tangents that it needs, because its format is not read here. */
 export interface UnreadMap {
   image: number;
   name: string;
@@ -189,18 +189,18 @@ export interface ConvertReport {
     image: number;
     name: string;
     size: [number, number];
-    /** It stays, since the new frame reads it as well as a new one. */
+    /** It stays, because the new frame reads it as well as a new one. */
     kept: boolean;
     bytes_before: number;
     bytes_after: number;
     [more: string]: any;
   }[];
   unread_maps: UnreadMap[];
-  /** What was done. keep: tangents stay, since they say how a map's green is read and no new map could be made. */
+  /** What was done. keep: tangents stay, because they say how a map's green is read, and no new map could be made. */
   mode: 'drop' | 'convert' | 'keep';
   /** Of the model with the files that it names. */
   bytes: { before: number; after: number };
-  /** Names of the maps that `mendGreen` has turned. */
+  /** Names of the maps whose green `mendGreen` has reversed. */
   green_mended?: string[];
   tangents: { kept?: true; given_primitives?: number; dropped_primitives?: number; vertices?: number; bytes?: number; [more: string]: any };
   /** What the user should know, one line each; unread maps are among it. */
@@ -224,18 +224,18 @@ export function convert(model: Bytes, options?: ModelOptions & {
   bits?: 0 | 8 | 16;
   keepTangents?: boolean;
   generateTangents?: boolean;
-  /** Maps whose green points the other way than the model says, by the maps themselves (`lint`), are turned first. */
+  /** First reverses green of maps in which it points the other way than the model says, by the map itself (`lint`). */
   mendGreen?: boolean;
   /** How engines take the numbers of the maps: "biased" (2c - 1, as stock engines do; the default) or "exact". */
   unsigned?: 'biased' | 'exact';
-  /** The PNG file of a picture; default: encodePng. */
+  /** The PNG file of an image; default: encodePng. */
   encode?: (picture: Picture) => Promise<Bytes>;
 }): Promise<{ glb: Uint8Array; report: ConvertReport }>;
 
-// ---- pictures
+// ---- images
 
 /** A PNG file of 8 or 16 bits, without loss. */
 export function decodePng(bytes: Uint8Array): Promise<Picture & { bits: 8 | 16 }>;
 export function encodePng(picture: Picture & { bits: number }): Promise<Uint8Array>;
-/** Any picture that is read here: PNG; others by the browser, or by the package sharp in node. */
+/** Any image that is read here: PNG; others by the browser, or by the package sharp in node. */
 export function decodePicture(bytes: Uint8Array, name?: string): Promise<Picture & { bits: number }>;

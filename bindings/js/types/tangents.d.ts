@@ -16,7 +16,7 @@ export class CotanError extends Error {
 
 type Numbers = ArrayLike<number>;
 
-/** Triangles. uvs as in glTF, v downwards in the picture. */
+/** Triangles. uvs as in glTF, v downwards in the image. */
 export interface Mesh {
   /** 3 each. */
   positions: Numbers;
