@@ -21,13 +21,14 @@ namespace {
 
 // All in times the picture. On Mesa's driver for the CPU, 1280 x 720 pixels at one of these limits take about 10 s of
 // processor.
-constexpr double kDroppedFrom = 20; // from which on it is worth looking for triangles that repeat
-constexpr double kMostCovered = 96; // by what hides what is behind
-constexpr double kMostLayers = 16;  // by what is translucent: each is shaded, and put in order
-constexpr double kPlainLayer = 0.5; // of such a one without a coat and the like
-constexpr double kMostLights = 400; // times what is covered, at most once
-constexpr double kMostEdges = 2.5;  // by pixels along long edges, of which each is shaded and shows little
-constexpr double kLongEdge = 16;    // pixels: shorter ones are what many small triangles have
+constexpr double kDroppedFrom = 20;  // from which on it is worth looking for triangles that repeat
+constexpr double kMostCovered = 96;  // by what hides what is behind
+constexpr double kMostLayers = 16;   // by what is translucent: each is shaded, and put in order
+constexpr double kPlainLayer = 0.5;  // of such a one without a coat and the like; with one of these it is 1
+constexpr double kFurtherLobe = 0.3; // for each more: coat, sheen, other highlights
+constexpr double kMostLights = 400;  // times what is covered, at most once
+constexpr double kMostEdges = 2.5;   // by pixels along long edges, of which each is shaded and shows little
+constexpr double kLongEdge = 16;     // pixels: shorter ones are what many small triangles have
 constexpr double kFewPoints =
     30'000; // models of n times as many vertices, each in its own place, may take n times as long
 
@@ -84,6 +85,12 @@ struct Covered {
     double opaque = 0, translucent = 0, edges = 0; // pixels
 };
 
+double weightOfLayer(const Material& material)
+{
+    const int lobes = int(material.glossy()) + int(material.sheen.present()) + int(material.coat.strength > 0);
+    return lobes == 0 ? kPlainLayer : 1 + kFurtherLobe * (lobes - 1);
+}
+
 Covered coveredBy(const Scene& scene, const View& view)
 {
     const Seeing see(view);
@@ -92,8 +99,7 @@ Covered coveredBy(const Scene& scene, const View& view)
         const Mesh& mesh = scene.meshes[std::size_t(instance.mesh)];
         const glm::dmat4 toWorld(instance.toWorld);
         const Material& material = scene.materials[std::size_t(mesh.material)];
-        const bool extended = material.glossy() || material.sheen.present() || material.coat.strength > 0;
-        const double weight = material.translucent() && !extended ? kPlainLayer : 1;
+        const double weight = material.translucent() ? weightOfLayer(material) : 1;
         double& area = material.translucent() ? all.translucent : all.opaque;
         const int side = material.doubleSided ? 0 : glm::determinant(glm::dmat3(toWorld)) < 0 ? -1 : 1;
         for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {

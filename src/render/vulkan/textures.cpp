@@ -12,7 +12,7 @@ namespace cotan {
 
 namespace {
 
-// Images whose chains are built before they are uploaded: bounds the memory for it.
+// Of the chains that are built before they are uploaded: bounds the memory for it.
 constexpr std::size_t kBatchBytes = std::size_t(256) << 20;
 
 // Normal maps that take no more are kept in 16 bits where 8 would be filtered too roughly.
@@ -67,6 +67,9 @@ template<class Work> void onAllCores(std::size_t count, Work work)
     if (failure)
         std::rethrow_exception(failure);
 }
+
+// Of all levels of a chain, as the device holds them.
+std::size_t chainBytes(const MipRequest& r) { return r.image->pixelCount() * bytesPerTexel(r.format) / 3 * 4; }
 
 const Image& whiteImage()
 {
@@ -181,8 +184,9 @@ void Textures::load(const Scene& scene, Uploader& uploader)
                 request(scene, use, missing);
     for (std::size_t first = 0; first < missing.size();) {
         std::size_t end = first;
-        for (std::size_t bytes = 0; end < missing.size() && bytes < kBatchBytes; ++end)
-            bytes += missing[end].image->data.size();
+        for (std::size_t bytes = 0;
+             end < missing.size() && (end == first || bytes + chainBytes(missing[end]) <= kBatchBytes); ++end)
+            bytes += chainBytes(missing[end]);
         std::vector<MipChain> chains(end - first);
         onAllCores(chains.size(), [&](std::size_t i) { chains[i] = buildMips(missing[first + i]); });
         for (const MipChain& chain : chains)
