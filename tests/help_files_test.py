@@ -30,8 +30,14 @@ class Option:
 
 
 def words_of(command, option):
-    """Those of an option that takes no others: what it says of one that it does not take, before it asks for more."""
-    said = subprocess.run([tool, *command.split(), option, "zzz"], capture_output=True, text=True).stderr
+    """Those of an option that takes no others: what it says of one that it does not take, before it asks for more. A
+    command that takes it begins its work, which may be long: whatever it has to say of words it says first."""
+    with tempfile.TemporaryDirectory() as folder:
+        try:
+            said = subprocess.run([tool, *command.split(), option, "zzz"], capture_output=True, text=True, cwd=folder,
+                                  timeout=15).stderr
+        except subprocess.TimeoutExpired:
+            return []
     told = re.search(rf"error: {option}: expected ([\w, -]+); found 'zzz' \(see", said)
     words = re.split(", | or ", told.group(1)) if told else []
     return [] if any(" " in word for word in words) else words  # "a number from 0 to 1"
