@@ -359,16 +359,14 @@ def main(count, seed, beside, jobs, seconds, only, again):
         return d, *plant.try_mistake(d.number, chosen, seconds)
 
     results, known, start = [], equivalents(), time.monotonic()
-    rows = []
-    with concurrent.futures.ThreadPoolExecutor(jobs) as pool:
+    with concurrent.futures.ThreadPoolExecutor(jobs) as pool, open(table, "w") as written:
         for d, outcome, took in pool.map(judge, inside):
             results.append((d, outcome))
             word = outcome or ("equivalent" if d.place in known else "UNNOTICED")
             reached = "" if d.script or reach.programs(d.part, d.number, 1e9) else " (no test comes to it)"
-            rows.append("\t".join((str(d.number), word, f"{took:.1f}", d.place, d.said)))
+            print(d.number, word, f"{took:.1f}", d.place, d.said, sep="\t", file=written, flush=True)
             if word == "UNNOTICED":
                 print(f"unnoticed{reached}: {d.said}", flush=True)
             if len(results) % 50 == 0:
                 print(f"{len(results)} of {len(inside)} tried in {time.monotonic() - start:.0f} s", flush=True)
-    table.write_text("\n".join(rows) + "\n")
     return report(results, outside, known, seed)

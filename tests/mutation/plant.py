@@ -93,7 +93,7 @@ def command_of(program):
     if name == "c_api":
         return ["/usr/bin/python3", HOME / "tests/c_api_test.py", library(), HOME / "src/c/cotan.map"]
     if name == "output_bytes":
-        return ["/usr/bin/python3", HOME / "tests/output_bytes.py", BUILD / "bin/cotan", HOME / "tests/output_bytes.txt"]
+        return ["/usr/bin/python3", HOME / "tests/output_bytes.py", BUILD / "bin/cotan", HOME / "tests/output_bytes.txt", "--first"]
     if name == "json_fields":
         return ["/usr/bin/python3", HOME / "tests/json_fields_test.py", BUILD / "bin/cotan",
                 HOME / "docs/reference/json.md"]
