@@ -28,7 +28,7 @@ if(Python3_FOUND)
 endif()
 # Words as values, without a process.
 cotan_test(words_test
-  SOURCES arguments_test.cpp picture_options_test.cpp turntable_test.cpp
+  SOURCES arguments_test.cpp picture_light_test.cpp picture_options_test.cpp turntable_test.cpp
   LIBRARIES cotan_app cotan_shapes fmt::fmt)
 # The manual's pages, and completion by the shells themselves.
 foreach(part man words bash zsh fish)
