@@ -209,6 +209,36 @@ TEST_F(ViewPanels, problemsKeysAndSpotsAreShownInTheirColours)
     EXPECT_EQ(report("spot.txt", "camera moved"), "yes");
 }
 
+// What the command line says is what the session begins with.
+TEST_F(ViewPanels, wordsOfTheCommandLineAreThoseOfBothSides)
+{
+    ASSERT_TRUE(writeImage(folder / "n.png", makeReliefMap(Relief::domes, 16)));
+    show("0 do report r.txt\n0 key d\n0 wait\n0 do report off.txt\n",
+         {"--frame", "smooth", "--second", "exact", "--tangents", "generated", "--normal-map", "n.png", "--convention",
+          "directx", "--view", "normal", "--do", "divider 0.25", "--do", "toggle card", "--json", "end.json"});
+    const std::vector<std::pair<const char*, const char*>> lines = {{"first", "smooth generated n.png directx"},
+                                                                    {"second", "exact generated n.png directx"},
+                                                                    {"compare", "divider"},
+                                                                    {"divider", "0.250"},
+                                                                    {"view", "normal"},
+                                                                    {"size", "640x480"},
+                                                                    {"loads", "1 failed 0"}};
+    for (const auto& [name, value] : lines)
+        EXPECT_EQ(report("r.txt", name), value) << name;
+    EXPECT_EQ(report("r.txt", "degrees").find("first against second: mean "), 0u) << report("r.txt", "degrees");
+    EXPECT_EQ(report("off.txt", "compare"), "off");
+    const json end = json::parse(readWhole(folder / "end.json"));
+    EXPECT_EQ(end["command"], "view");
+    EXPECT_EQ(end["device"], "reference");
+    EXPECT_EQ(end["loads"], 1);
+    EXPECT_EQ(end["failed_loads"], 0);
+    EXPECT_EQ(end["events_played"], 6);
+    EXPECT_EQ(end["pictures"], 2); // with the divider, and without
+    EXPECT_EQ(end["ended"], "last event");
+    for (const char* what : {"window", "load", "first_picture", "first_shown"})
+        EXPECT_GT(end["seconds"][what].get<double>(), 0) << what;
+}
+
 TEST_F(ViewPanels, theClipboardGivesBackWhatWasCopied)
 {
     show("0 do copy camera\n0 do paste\n0 wait\n0 do report pasted.txt\n");
