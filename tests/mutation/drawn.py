@@ -17,7 +17,7 @@ from plant import HOME, WORK
 
 # Which tests could notice a mistake in a folder, the nearest first; `python:` and `c_api` run over the C library.
 TESTS = {
-    "apps/cotan": "cli_test tangents_command_test files_test help_test words_test judgement_command_test map_command_test bake_command_test",
+    "apps/cotan": "words_test cli_test output_bytes map_command_test bake_command_test tangents_command_test judgement_command_test files_test help_test",
     "apps/viewer": "viewer_test view_window_test",
     "bindings/js": "web",
     "bindings/python": "python:arrays python:bake python:maps python:models python:geometry python:render python:work python:json",
@@ -37,22 +37,22 @@ TESTS = {
     "src/image": "image_test map_test gltf_test",
     "src/inspect": "viewer_test draw_test",
     "src/lint": "lint_test judgement_test auto_frame_test",
-    "src/map_files": "map_command_test python:maps",
+    "src/map_files": "map_command_test output_bytes python:maps",
     "src/maps": "map_test map_command_test",
     "src/model": "obj_test assimp_test gltf_test models_test",
     "src/parallel": "map_test bake_test",
-    "src/picture": "environment_test cli_test models_test",
+    "src/picture": "words_test viewer_test cli_test environment_test models_test",
     "src/reference": "reference_test draw_test",
     "src/render": "render_test",
-    "src/report": "report_test lint_test judgement_test",
+    "src/report": "report_test cost_test accuracy_test lint_test judgement_test",
     "src/sandbox": "sandbox_test assimp_test",
     "src/scene": "geometry_test shapes_test gltf_test reference_test environment_test",
     "src/shader_text": "shader_text_test frame_table_test",
     "src/shapes": "shapes_test",
     "src/surface": "figures_test reference_test draw_test",
     "src/surroundings": "environment_test",
-    "src/terminal": "cli_test words_test",
-    "src/truth": "figures_test lighting_test accuracy_test",
+    "src/terminal": "words_test help_test cli_test",
+    "src/truth": "accuracy_test figures_test lighting_test",
     "src/verify": "draw_test bake_command_test",
 }
 ENDINGS = (".cpp", ".hpp", ".h", ".py", ".js")
@@ -280,7 +280,7 @@ class Reach:
                 print(f"{program}: {passed}{f', without a mistake: {outcome}' if outcome else ''}", flush=True)
 
     def programs(self, part, number, seconds):
-        """Each program with the tests that come to a mistake, the quickest first as far as they take so long together, and
+        """Each program with the tests that come to a mistake, the quickest first as far as a third of the time goes, and
         its limit; of scripts (number None) the part's."""
         near, found = TESTS[part].split(), []
         for program in self.tests:
@@ -289,7 +289,7 @@ class Reach:
                 continue
             chosen, took = [], 0.0
             for name, s, _ in sorted(here, key=lambda t: t[1]):
-                if chosen and took + s > seconds / 2:
+                if chosen and took + s > seconds / 3:
                     break
                 chosen.append(name)
                 took += s
