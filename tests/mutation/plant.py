@@ -22,7 +22,7 @@ extern "C" void* cotan_mutant_map(void*, unsigned long, int, int, int, long) __a
 inline const int cotanChosenMutant = std::getenv("COTAN_MUTANT") ? std::atoi(std::getenv("COTAN_MUTANT")) : 0;
 inline unsigned char* const cotanReachedMutants = [] {
     const char* name = std::getenv("COTAN_MUTANTS_REACHED");
-    const int file = name ? cotan_mutant_open(name, 2) : -1;  // 2: to read and write
+    const int file = name ? cotan_mutant_open(name, 02000002) : -1;  // to read and write, and not for children
     void* bytes = file < 0 ? nullptr : cotan_mutant_map(nullptr, @SIZE@, 3, 1, file, 0);  // both, shared
     return bytes == reinterpret_cast<void*>(-1) ? nullptr : static_cast<unsigned char*>(bytes);
 }();
