@@ -168,6 +168,16 @@ TEST(GltfBounds, theSceneThatIsNamedIsShownAndWithoutScenesAllRoots)
     EXPECT_EQ(all.instances.size(), 2u);
 }
 
+// The name says what a file is to be; what it is say its first bytes.
+TEST(GltfBounds, aGlbBeginsWithItsMagicAndATextMayNotBeCalledOne)
+{
+    const auto named = loadText(square().text(), "model.glb");
+    ASSERT_FALSE(named);
+    EXPECT_NE(named.error().message.find("GLB header: expected the file to begin with \"glTF\""), std::string::npos)
+        << named.error().message;
+    EXPECT_TRUE(loadText(square().text(), "model.gltf"));
+}
+
 // A camera or a light of a node whose axes have no length keeps the directions that it would have without.
 TEST(GltfBounds, camerasOfFlatNodesLookAlongMinusZ)
 {

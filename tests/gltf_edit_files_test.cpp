@@ -191,6 +191,24 @@ TEST(GltfFiles, newImagesBesideAModelGetPlainNamesThatAreFree)
     EXPECT_EQ(same, uris);
 }
 
+// Whatever was there, it goes; only the images that it calls its own may go with it.
+TEST(GltfFiles, aModelThatIsReplacedMayHaveNoImagesOrBeNoModel)
+{
+    const TemporaryFolder folder;
+    auto document = cotan::openGltfDocument(writeModel(folder));
+    ASSERT_TRUE(document);
+    cotan::replaceGltfImage(*document, 1, bytesOf(flatPng()), "image/png");
+    for (const char* const before :
+         {R"({"asset":{"version":"2.0"}})", R"({"images":3})", R"({"images":[1,{"uri":2}]})", "[1]", "no model", ""}) {
+        folder.write("m.gltf", before);
+        folder.write("m-c.png", "someone's");
+        ASSERT_TRUE(cotan::writeGltf(*document, folder.path / "m.gltf")) << before;
+        EXPECT_EQ(wholeFile(folder.path / "m-c.png"), "someone's") << before;
+        EXPECT_EQ(readBack(folder.path / "m.gltf").root["images"][1]["uri"], "m-c-2.png") << before;
+        stdfs::remove(folder.path / "m-c-2.png");
+    }
+}
+
 TEST(GltfFiles, viewsKeepTheirBytesAndGapsBetweenThemGo)
 {
     Gltf g = square();

@@ -36,6 +36,7 @@ TEST(PictureLight, lampsTurnWithTheEnvironmentAndShineByItsIntensity)
     const Light evening = lampsOf([](Options& o) { o.environment = "evening"; }).at(0);
     EXPECT_GT(evening.color.x, 2 * evening.color.z); // the sun when it is low
     EXPECT_LT(std::abs(evening.direction.y), std::abs(studio.direction.y));
+    EXPECT_LT(evening.direction.y, -0.1f); // and still above the horizon
     for (const double degrees : {90.0, -30.0, 180.0}) {
         Options o;
         o.environmentRotation = degrees;

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "cotan/scene/bounds.hpp"
+#include "player.hpp"
 #include "session.hpp"
 #include "settings.hpp"
 #include "viewer_state.hpp"
@@ -170,6 +171,23 @@ TEST(ViewerCommandLine, anExposureThatWasMeteredIsNotSaidWhereAnglesAreCompared)
     EXPECT_EQ(commandLine(s, "a.png", {7, 5}).find("--exposure"), std::string::npos);
     s.compare = Compare::divider;
     EXPECT_NE(commandLine(s, "a.png", {7, 5}).find("--exposure 0.5"), std::string::npos);
+}
+
+// ---- played sessions -----------------------------------------------------------------------------------
+
+TEST(ViewerPlayer, tellsTheSecondsSinceTheStepBefore)
+{
+    const std::vector<Event> events = {{0.5, EventKind::key, 0, 0, "1"},
+                                       {0.75, EventKind::key, 0, 0, "2"},
+                                       {2, EventKind::wait, 0, 0, ""},
+                                       {2, EventKind::key, 0, 0, "3"}};
+    Player player(events);
+    for (const double passed : {0.5, 0.25, 1.25, 0.0}) {
+        const auto step = player.step(/*idle*/ true, 0);
+        ASSERT_TRUE(step);
+        EXPECT_EQ(step->passed, passed);
+    }
+    EXPECT_EQ(player.played(), 4u);
 }
 
 // ---- where the state is kept ---------------------------------------------------------------------------
