@@ -1,7 +1,7 @@
 # The tool itself, run as a user would run it.
 cotan_test(cli_test
   SOURCES cli_test.cpp cli_bad_input_test.cpp cli_packed_input_test.cpp capital_endings_test.cpp own_maps_test.cpp
-    render_turntable_test.cpp
+    render_turntable_test.cpp command_words_test.cpp
   LIBRARIES cotan_model cotan_scene cotan_inspect nlohmann_json::nlohmann_json fmt::fmt)
 target_compile_definitions(cli_test PRIVATE COTAN_TOOL="$<TARGET_FILE:cotan>")
 add_dependencies(cli_test cotan)
@@ -28,7 +28,7 @@ if(Python3_FOUND)
 endif()
 # Words as values, without a process.
 cotan_test(words_test
-  SOURCES arguments_test.cpp picture_options_test.cpp turntable_test.cpp
+  SOURCES arguments_test.cpp picture_light_test.cpp picture_options_test.cpp turntable_test.cpp
   LIBRARIES cotan_app cotan_scene fmt::fmt)
 # The manual's pages, and completion by the shells themselves.
 foreach(part man words bash zsh fish)

@@ -1,6 +1,6 @@
 find_package(ZLIB REQUIRED)
 cotan_test(gltf_bad_test
-  SOURCES gltf_bad_test.cpp gltf_hostile_test.cpp
+  SOURCES gltf_bad_test.cpp gltf_bounds_test.cpp gltf_hostile_test.cpp
   LIBRARIES cotan_model cotan_scene cotan_gltf_json ZLIB::ZLIB)
 cotan_test(gltf_test
   SOURCES gltf_test.cpp gltf_accessor_test.cpp gltf_mesh_test.cpp gltf_scene_test.cpp gltf_material_test.cpp gltf_unpack_test.cpp gltf_animation_test.cpp

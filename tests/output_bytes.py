@@ -3,6 +3,7 @@
 
   output_bytes.py TOOL TABLE                says which outputs are others than the table's; exit code 1 if one is
   output_bytes.py TOOL TABLE --accept       writes the outputs of now into the table
+  output_bytes.py TOOL TABLE --first        the same, and ends at the first that is another one
   output_bytes.py TOOL TABLE --keep FOLDER  leaves all outputs there, to be looked at
 
 The table has a command a line, and below it its outputs with the first 16 digits of their SHA-256. Commands run in one
@@ -258,8 +259,8 @@ def difference(old, new):
 
 
 def main(arguments):
-    accept = "--accept" in arguments
-    arguments = [a for a in arguments if a != "--accept"]
+    accept, first = "--accept" in arguments, "--first" in arguments
+    arguments = [a for a in arguments if a not in ("--accept", "--first")]
     kept = None
     if "--keep" in arguments and arguments.index("--keep") + 1 < len(arguments):
         at = arguments.index("--keep")
@@ -296,6 +297,8 @@ def main(arguments):
             if old != new:
                 changed += 1
                 print(f"{line}\n    {', '.join(difference(old, new))}")
+                if first:
+                    return 1
     finally:
         if not kept:
             shutil.rmtree(folder)

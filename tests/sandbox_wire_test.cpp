@@ -107,6 +107,34 @@ TEST(Wire, aSceneArrivesAsItWasHoweverItsBytesArePutIntoPieces)
     }
 }
 
+// A field that neither side exchanges would leave equal bytes.
+TEST(Wire, everyFieldOfALightAndACameraArrives)
+{
+    const Bytes bytes = bytesOf(everything());
+    std::size_t at = 0;
+    WireIn in = arriving(bytes, at, 100);
+    Scene back;
+    exchangeScene(in, back);
+    ASSERT_TRUE(in.good());
+    const Light& light = back.lights.at(0);
+    EXPECT_EQ(light.kind, LightKind::spot);
+    EXPECT_EQ(light.color, glm::vec3(1, 2, 3));
+    EXPECT_EQ(light.intensity, 4);
+    EXPECT_EQ(light.position, glm::vec3(5, 6, 7));
+    EXPECT_EQ(light.direction, glm::vec3(0, 0, 1));
+    EXPECT_EQ(light.range, 8);
+    EXPECT_EQ(light.innerCone, 0.1f);
+    EXPECT_EQ(light.outerCone, 0.2f);
+    const Camera& camera = back.cameras.at(0);
+    EXPECT_EQ(camera.name, "camera");
+    EXPECT_TRUE(camera.orthographic);
+    EXPECT_EQ(camera.verticalFieldOfView, 0.3f);
+    EXPECT_EQ(camera.verticalExtent, 4);
+    EXPECT_EQ(camera.eye, glm::vec3(1, 2, 3));
+    EXPECT_EQ(camera.target, glm::vec3(4, 5, 6));
+    EXPECT_EQ(camera.up, glm::vec3(0, 0, 1));
+}
+
 TEST(Wire, largeArraysArriveWhole)
 {
     std::vector<std::uint32_t> numbers(9'000'000), back; // over the step in which memory is taken

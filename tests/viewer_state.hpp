@@ -25,6 +25,38 @@ inline State withModel()
     return state;
 }
 
+// The built-in scene, made once.
+inline State builtIn()
+{
+    static const State state = withModel();
+    return state;
+}
+
+// The built-in scene with something under the pointer; no two numbers of it are the same.
+inline State probed()
+{
+    State s = builtIn();
+    PickedPoint hit;
+    hit.mesh = 3;
+    hit.triangle = 17;
+    hit.position = s.camera.target;
+    hit.depth = glm::length(s.camera.target - s.camera.eye);
+    s.probe.hit = hit;
+    Probed& p = s.probe.surface;
+    p.normal = {0, 0, 1};
+    p.t = {2, 0, 0};
+    p.b = {0, 0.5f, 0};
+    p.storedTangent = {0.6f, 0.8f, 0};
+    p.w = -1;
+    p.hasUv = true;
+    p.uv = {0.25f, 0.75f};
+    p.texel = {5, 9};
+    s.probe.degrees = 12.345f;
+    s.statisticsOf = "triangle against exact";
+    s.pointer = {100, 60};
+    return s;
+}
+
 // Events as text.
 inline void send(State& state, const std::string& text)
 {

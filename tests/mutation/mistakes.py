@@ -336,7 +336,7 @@ def constants(f):
     return spans
 
 
-FIXED = re.compile(r"^\s*(?:inline |static |export )*constexpr [^(]*(?:=|\{)|^\s*(?:static_assert|case |template|using |enum |import |from |@|export \{)|= (?:delete|default);|operator")
+FIXED = re.compile(r"^\s*(?:inline |static |export )*constexpr [^(]*(?:=|\{)|^\s*(?:static_assert|case |template|using |enum |import |from |@|export \{)|= (?:delete|default);|operator|array<[^;(]*,\s*\d+>")
 
 
 def mistakes_in(text, script=False):

@@ -1,0 +1,195 @@
+// Both sides of each limit of a glTF model, and what its warnings say and count.
+#include "gltf_edit_maker.hpp"
+
+namespace {
+
+using namespace cotan::test;
+using cotan::LoadLimits;
+
+std::string refusalOf(const Gltf& g, const LoadLimits& limits)
+{
+    const auto scene = g.load(limits);
+    return scene ? "" : scene.error().message;
+}
+
+// Two squares in one mesh, shown by two nodes, and a third node that shows nothing.
+Gltf squares()
+{
+    Gltf g = square();
+    g.root["meshes"][0]["primitives"].push_back(primitive(g));
+    g.add("nodes", {{"mesh", 0}, {"name", "again"}});
+    g.add("nodes", {{"name", "empty"}});
+    g.root["scenes"][0]["nodes"] = {0, 1, 2};
+    return g;
+}
+
+TEST(GltfBounds, limitsAreReachedAndNotPassed)
+{
+    const Gltf g = squares();
+    ASSERT_EQ(refusalOf(g, {}), "");
+    struct Row {
+        std::size_t LoadLimits::*field;
+        std::size_t enough;
+        const char* said;
+    };
+    const std::size_t bytes = g.text().size();
+    for (const Row& row :
+         {Row{&LoadLimits::vertices, 8, "meshes[0].primitives[1]: the limit is 7 vertices in all, this one brings 4"},
+          {&LoadLimits::triangles, 4, "meshes[0].primitives[1]: the limit is 3 triangles in all, this one brings 2"},
+          {&LoadLimits::nodes, 4, "the limit is 3 instances in all"}, // two primitives by two nodes
+          {&LoadLimits::fileBytes, bytes, "the limit is"}}) {
+        LoadLimits limits;
+        limits.*row.field = row.enough;
+        EXPECT_EQ(refusalOf(g, limits), "");
+        limits.*row.field = row.enough - 1;
+        EXPECT_NE(refusalOf(g, limits).find(row.said), std::string::npos) << refusalOf(g, limits);
+    }
+    LoadLimits limits;
+    limits.nodes = 2; // fewer than nodes are listed
+    EXPECT_NE(refusalOf(g, limits).find("nodes: the limit is 2, found 3"), std::string::npos);
+}
+
+TEST(GltfBounds, imagesOfAllAndOfOneAreHeldToTheirBytes)
+{
+    Gltf g = square();
+    addNormalMap(g);                                                                // 2 x 2: 16 bytes
+    g.add("images", {{"uri", "data:image/png;base64," + base64(flatPng() + " ")}}); // the same with another byte
+    g.add("textures", {{"source", 1}});
+    g.root["materials"][0]["emissiveTexture"] = {{"index", 1}};
+    struct Row {
+        std::size_t LoadLimits::*field;
+        std::size_t enough;
+    };
+    for (const Row& row : {Row{&LoadLimits::allImageBytes, 32}, {&LoadLimits::imageBytes, 16}}) {
+        LoadLimits limits;
+        limits.*row.field = row.enough;
+        EXPECT_EQ(refusalOf(g, limits), "") << row.enough;
+        limits.*row.field = row.enough - 1;
+        EXPECT_NE(refusalOf(g, limits), "") << row.enough;
+    }
+    LoadLimits limits;
+    limits.imageSide = 2;
+    EXPECT_EQ(refusalOf(g, limits), "");
+    limits.imageSide = 1;
+    EXPECT_NE(refusalOf(g, limits).find("images[0]"), std::string::npos);
+    limits = {};
+    limits.pixels = cotan::Pixels::none; // then none is decoded
+    limits.allImageBytes = 0;
+    COTAN_LOADED(scene, g.load(limits));
+    EXPECT_TRUE(scene.images.at(0).data.empty());
+}
+
+TEST(GltfBounds, theBudgetOfImagesGrowsWithTheirFilesUpToTheLimitOfAll)
+{
+    LoadLimits limits;
+    limits.imageBytesBeyond = 1000;
+    limits.allImageBytes = 5000;
+    EXPECT_EQ(cotan::imageBudget(limits, 0), 1000u);
+    EXPECT_EQ(cotan::imageBudget(limits, 10), 1000u + 1280);
+    EXPECT_EQ(cotan::imageBudget(limits, 31), 1000u + 31 * 128);
+    EXPECT_EQ(cotan::imageBudget(limits, 32), 5000u);
+    EXPECT_EQ(cotan::imageBudget(limits, std::uint64_t(1) << 60), 5000u);
+}
+
+TEST(GltfBounds, instancesOfOneNodeAreHeldToTheLimitOfNodes)
+{
+    Gltf g = square();
+    g.root["extensionsUsed"] = {"EXT_mesh_gpu_instancing"};
+    const int at = g.floats({0, 0, 0, 1, 2, 3, 4, 5, 6}, "VEC3");
+    g.root["nodes"][0]["extensions"]["EXT_mesh_gpu_instancing"]["attributes"] = {{"TRANSLATION", at}};
+    LoadLimits limits;
+    limits.nodes = 3;
+    COTAN_LOADED(scene, g.load(limits));
+    ASSERT_EQ(scene.instances.size(), 3u);
+    EXPECT_EQ(glm::vec3(scene.instances[1].toWorld[3]), glm::vec3(1, 2, 3));
+    limits.nodes = 2;
+    EXPECT_NE(
+        refusalOf(g, limits).find("nodes[0].extensions.EXT_mesh_gpu_instancing: the limit is 2 instances, found 3"),
+        std::string::npos)
+        << refusalOf(g, limits);
+}
+
+// One line for each kind, with the first place, how many more there are, and what they count together.
+TEST(GltfBounds, warningsOfOneKindAreOneLineThatCountsThem)
+{
+    Gltf g = square();
+    const json flat = {{"mesh", 0}, {"scale", {1, 0, 1}}};
+    for (int i = 0; i < 3; ++i)
+        g.add("nodes", flat);
+    g.root["scenes"][0]["nodes"] = {0, 1, 2, 3};
+    COTAN_LOADED(scene, g.load());
+    EXPECT_TRUE(warns(scene, "nodes[1] and 2 more: its transform is singular (a scale of zero)"));
+    Gltf one = square();
+    one.root["nodes"][0]["scale"] = {1, 0, 1};
+    COTAN_LOADED(once, one.load());
+    EXPECT_TRUE(warns(once, "nodes[0]: its transform is singular (a scale of zero)"));
+    EXPECT_FALSE(warns(once, "more:"));
+    one.root["nodes"][0]["scale"] = {1e-6, 1e-6, 1e-6}; // small is not flat
+    COTAN_LOADED(small, one.load());
+    EXPECT_FALSE(warns(small, "singular"));
+}
+
+TEST(GltfBounds, skinsWithoutJointsAreIgnoredAndNodesThatAreNoRootsSaid)
+{
+    Gltf g = square();
+    g.add("nodes", {{"name", "joint"}});
+    g.add("skins", {{"joints", {1}}});
+    g.root["nodes"][0]["skin"] = 0;
+    g.root["nodes"][0]["translation"] = {1, 2, 3};
+    COTAN_LOADED(scene, g.load());
+    EXPECT_TRUE(warns(scene, "nodes[0]: its mesh lacks JOINTS_0, so its skin is ignored"));
+    EXPECT_EQ(glm::vec3(scene.instances.at(0).toWorld[3]), glm::vec3(1, 2, 3)); // and the node counts again
+    Gltf child = square();
+    child.add("nodes", {{"children", {0}}, {"translation", {0, 5, 0}}});
+    COTAN_LOADED(listed, child.load()); // the scene lists the child alone
+    EXPECT_TRUE(warns(listed, "scenes[0]: it lists nodes that are not roots"));
+    ASSERT_EQ(listed.instances.size(), 1u);
+    EXPECT_EQ(listed.instances[0].toWorld[3].y, 5); // where its parent puts it
+    child.root["scenes"][0]["nodes"] = {1};
+    COTAN_LOADED(root, child.load());
+    EXPECT_FALSE(warns(root, "roots"));
+}
+
+TEST(GltfBounds, theSceneThatIsNamedIsShownAndWithoutScenesAllRoots)
+{
+    Gltf g = square();
+    g.add("nodes", {{"mesh", 0}, {"name", "second"}});
+    g.add("scenes", {{"nodes", {1}}});
+    COTAN_LOADED(first, g.load());
+    ASSERT_EQ(first.instances.size(), 1u);
+    EXPECT_EQ(first.instances[0].name, "square"); // its mesh's, for it has none
+    g.root["scene"] = 1;
+    COTAN_LOADED(second, g.load());
+    ASSERT_EQ(second.instances.size(), 1u);
+    EXPECT_EQ(second.instances[0].name, "second");
+    g.root.erase("scene");
+    g.root.erase("scenes");
+    COTAN_LOADED(all, g.load());
+    EXPECT_EQ(all.instances.size(), 2u);
+}
+
+// The name says what a file is to be; what it is say its first bytes.
+TEST(GltfBounds, aGlbBeginsWithItsMagicAndATextMayNotBeCalledOne)
+{
+    const auto named = loadText(square().text(), "model.glb");
+    ASSERT_FALSE(named);
+    EXPECT_NE(named.error().message.find("GLB header: expected the file to begin with \"glTF\""), std::string::npos)
+        << named.error().message;
+    EXPECT_TRUE(loadText(square().text(), "model.gltf"));
+}
+
+// A camera or a light of a node whose axes have no length keeps the directions that it would have without.
+TEST(GltfBounds, camerasOfFlatNodesLookAlongMinusZ)
+{
+    Gltf g = square();
+    g.add("cameras", {{"type", "perspective"}, {"name", "own"}, {"perspective", {{"yfov", 0.5}, {"znear", 0.1}}}});
+    g.add("nodes", {{"camera", 0}, {"name", "node"}, {"translation", {0, 0, 9}}, {"scale", {0, 0, 0}}});
+    g.root["scenes"][0]["nodes"] = {0, 1};
+    COTAN_LOADED(scene, g.load());
+    ASSERT_EQ(scene.cameras.size(), 1u);
+    EXPECT_EQ(scene.cameras[0].name, "own"); // before its node's
+    expectNear(scene.cameras[0].target, {0, 0, 8});
+    expectNear(scene.cameras[0].up, {0, 1, 0});
+}
+
+} // namespace

@@ -1,0 +1,214 @@
+// Images that the viewer draws for a state, and files that it watches; with a window that only remembers.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <fstream>
+
+#include "quad_model.hpp"
+#include "viewer_session.hpp"
+
+namespace cotan::viewer {
+namespace {
+
+TEST(ViewerPictures, aSideIsWhatItsOwnOptionsDrawAndIsDrawnOnceUntilTheyChange)
+{
+    HeadlessSession at;
+    at.parts.pictures.ask(at.state()); // of no model
+    EXPECT_TRUE(at.parts.pictures.idle(at.state()));
+    at.load("");
+    at.draw();
+    State& s = at.state();
+    EXPECT_EQ(s.pictures, 1u);
+    EXPECT_GT(s.metered, 0); // found by the first image
+    EXPECT_GT(s.drawSeconds, 0);
+    EXPECT_NE(s.device.find("reference"), std::string::npos) << s.device;
+    EXPECT_EQ(s.statisticsOf.find(" against exact"), s.statisticsOf.size() - 14) << s.statisticsOf;
+    EXPECT_GT(s.statistics.count, 0);
+    const auto same = [](const Image& a, const Image& b) { return a.data == b.data; };
+    ASSERT_TRUE(at.parts.pictures.shown(s).picture);
+    const Image first = *at.parts.pictures.shown(s).picture;
+    EXPECT_EQ(first.width, 64);
+    EXPECT_EQ(first.height, 48);
+    const auto serial = at.parts.pictures.shown(s).serial;
+    at.draw();
+    EXPECT_EQ(s.pictures, 1u);
+    EXPECT_EQ(at.parts.pictures.shown(s).serial, serial);
+    s.b.frame = "paper-nodet";
+    s.compare = Compare::flip;
+    s.second = true;
+    at.draw();
+    EXPECT_EQ(s.pictures, 2u);
+    EXPECT_NE(at.parts.pictures.shown(s).serial, serial);
+    const Image second = *at.parts.pictures.shown(s).picture;
+    EXPECT_FALSE(same(first, second));
+    s.compare = Compare::divider;
+    s.second = false;
+    s.divider = 0.25f;
+    at.draw();
+    const Shown both = at.parts.pictures.shown(s);
+    ASSERT_TRUE(both.picture && both.other);
+    EXPECT_TRUE(same(*both.picture, first));
+    EXPECT_TRUE(same(*both.other, second));
+    EXPECT_EQ(both.divider, 16);
+    EXPECT_EQ(s.statisticsOf, "first against second");
+    s.compare = Compare::angle;
+    at.draw();
+    EXPECT_FALSE(at.parts.pictures.shown(s).other);
+    EXPECT_FALSE(same(*at.parts.pictures.shown(s).picture, first));
+    EXPECT_GT(s.statistics.maximum, 0.1);
+}
+
+TEST(ViewerPictures, degreesAtThePointerAreThoseOfItsPixel)
+{
+    HeadlessSession at;
+    at.load("");
+    State& s = at.state();
+    s.b.frame = "paper-nodet";
+    s.compare = Compare::angle;
+    at.draw();
+    double most = -1;
+    int covered = 0;
+    for (int y = 0; y < 48; ++y)
+        for (int x = 0; x < 64; ++x) {
+            s.pointer = {float(x) + 0.75f, float(y) + 0.25f};
+            const double here = at.parts.pictures.degreesAtPointer(s);
+            most = std::max(most, here);
+            covered += here >= 0;
+        }
+    EXPECT_EQ(covered, int(s.statistics.count));
+    EXPECT_NEAR(most, s.statistics.maximum, 1e-4);
+    for (const glm::vec2 outside : {glm::vec2(-1, 5), {5, -1}, {64, 5}, {5, 48}}) {
+        s.pointer = outside;
+        EXPECT_LT(at.parts.pictures.degreesAtPointer(s), 0) << outside.x << " " << outside.y;
+    }
+    s.size = {63, 48}; // another size than the image has
+    s.pointer = {30, 20};
+    EXPECT_LT(at.parts.pictures.degreesAtPointer(s), 0);
+}
+
+TEST(ViewerPictures, whatCannotBeDrawnIsSaidAndTheOptionsThatCouldBeDrawnComeBack)
+{
+    HeadlessSession at;
+    at.load("");
+    at.draw();
+    State& s = at.state();
+    s.picture.environment = "evening";
+    s.a.frame = "smooth";
+    at.draw();
+    const auto pictures = s.pictures;
+    s.picture.environment = at.in("missing.hdr");
+    s.a.frame = "exact";
+    s.picture.camera = "left"; // what is no cause of it stays
+    at.draw();
+    EXPECT_NE(s.problem.find("missing.hdr"), std::string::npos) << s.problem;
+    EXPECT_EQ(s.picture.environment, "evening");
+    EXPECT_EQ(s.a.frame, "smooth");
+    EXPECT_EQ(s.picture.camera, "left");
+    at.draw();
+    EXPECT_EQ(s.picture.environment, "evening");
+    EXPECT_NE(s.problem, ""); // it stays until something is done about it
+    EXPECT_GE(s.pictures, pictures);
+}
+
+// While the camera is moved an image that took more than a twentieth of a second has 160,000 pixels of one sample.
+TEST(ViewerPictures, aSlowOneIsDrawnSmallerWhileTheCameraMovesAndWholeWhenItRests)
+{
+    State state = HeadlessSession::small();
+    state.size = {1000, 640};
+    state.statisticsShown = false;
+    HeadlessSession at(state);
+    at.load("");
+    at.draw();
+    State& s = at.state();
+    if (s.drawSeconds <= 0.05)
+        GTEST_SKIP() << "this machine draws it in " << s.drawSeconds << " s";
+    EXPECT_EQ(at.parts.pictures.shown(s).picture->width, 1000);
+    s.moving = true;
+    at.draw();
+    EXPECT_EQ(at.parts.pictures.shown(s).picture->width, 500);
+    EXPECT_EQ(at.parts.pictures.shown(s).picture->height, 320);
+    s.moving = false;
+    at.draw();
+    EXPECT_EQ(at.parts.pictures.shown(s).picture->width, 1000);
+    EXPECT_EQ(at.parts.pictures.shown(s).picture->height, 640);
+}
+
+TEST(ViewerPictures, ofFloatsAreLightBeforeTheToneCurve)
+{
+    HeadlessSession at;
+    at.load("");
+    State& s = at.state();
+    s.picture.exposure = "1";
+    s.picture.toneMapping = "none";
+    s.picture.background = "none";
+    const Order order = orderOf(s);
+    const auto bytes = at.parts.pictures.drawNow(order, false);
+    Order light = order;
+    light.first.use = light.second.use = PictureUse::radiance;
+    const auto floats = at.parts.pictures.drawNow(light, true);
+    ASSERT_TRUE(bytes && floats);
+    EXPECT_EQ(bytes->data.size(), 4 * bytes->pixelCount());
+    EXPECT_EQ(floats->data.size(), 16 * floats->pixelCount());
+    std::size_t compared = 0;
+    const float* linear = reinterpret_cast<const float*>(floats->data.data());
+    for (std::size_t i = 0; i < 4 * bytes->pixelCount(); ++i) {
+        const double c = linear[i];
+        if (i % 4 == 3 || c < 0.02 || c > 0.98)
+            continue;
+        EXPECT_NEAR(bytes->bytes8()[i] / 255.0, 1.055 * std::pow(c, 1 / 2.4) - 0.055, 1.01 / 255); // sRGB
+        ++compared;
+    }
+    EXPECT_GT(compared, 500u);
+}
+
+// ---- files that change --------------------------------------------------------------------------------
+
+TEST(ViewerFiles, areLookedAtFourTimesASecondAndReadOnceTheyRested)
+{
+    test::TemporaryFolder folder;
+    const fs::path file = folder / "a.glb";
+    std::ofstream(file) << "one";
+    Watch watch;
+    EXPECT_FALSE(watch.changed(0)); // of nothing
+    watch.on({file, file, fs::path()});
+    EXPECT_FALSE(watch.changed(1));
+    std::ofstream(file) << "longer";
+    EXPECT_FALSE(watch.changed(1.2));  // not looked at yet
+    EXPECT_FALSE(watch.changed(1.3));  // seen
+    EXPECT_FALSE(watch.changed(1.58)); // rested for 0.28 s
+    EXPECT_TRUE(watch.changed(1.84));  // 0.54 s
+    std::ofstream(file) << "longer still";
+    EXPECT_FALSE(watch.changed(3));
+    EXPECT_FALSE(watch.changed(3.29));
+    EXPECT_TRUE(watch.changed(3.6));
+    EXPECT_FALSE(watch.changed(4));
+}
+
+TEST(ViewerFiles, everyFileThatIsShownIsWatchedAndReadAgainWhenItChanges)
+{
+    HeadlessSession at;
+    test::write(test::quad(2), at.folder.path());
+    at.load(at.in("quad.gltf"));
+    State& s = at.state();
+    for (const char* name : {"n.png", "n2.png", "base.png", "rough.png", "occlusion.png", "light.hdr"})
+        std::ofstream(at.folder / name) << "x";
+    s.a.normalMap = at.in("n.png");
+    s.b.normalMap = at.in("n2.png");
+    s.picture.maps.baseColor = at.in("base.png");
+    s.picture.maps.metallicRoughness = at.in("rough.png");
+    s.picture.maps.occlusion = at.in("occlusion.png");
+    s.picture.environment = at.in("light.hdr");
+    watchShown(at.parts);
+    double now = 0;
+    EXPECT_FALSE(at.parts.watch.changed(now));
+    for (const char* name :
+         {"n.png", "n2.png", "base.png", "rough.png", "occlusion.png", "light.hdr", "quad.gltf", "waves.png"}) {
+        ASSERT_TRUE(fs::exists(at.folder / name)) << name;
+        std::ofstream(at.folder / name, std::ios::app) << " ";
+        EXPECT_FALSE(at.parts.watch.changed(now += 1)) << name;
+        EXPECT_TRUE(at.parts.watch.changed(now += 1)) << name;
+    }
+}
+
+} // namespace
+} // namespace cotan::viewer

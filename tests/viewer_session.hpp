@@ -1,0 +1,123 @@
+// A session of the viewer without a display: its window only remembers what it was asked for.
+#pragma once
+
+#include <chrono>
+#include <functional>
+#include <thread>
+
+#include "run_tool.hpp"
+#include "viewer_state.hpp"
+#include "wishes.hpp"
+
+namespace cotan::viewer {
+
+namespace fs = std::filesystem;
+
+struct Asked { // of the window
+    std::vector<glm::ivec2> sizes;
+    std::string copied, folder;
+    int lost = 0, shows = 0;
+};
+
+class RememberingWindow : public Window {
+public:
+    explicit RememberingWindow(Asked& asked) : asked_(asked) {}
+    std::vector<Event> poll(double) override { return {}; }
+    std::vector<Event> interact(const Interface&, const std::vector<Event>& events) override { return events; }
+    Status show(const Interface&, const Shown&) override
+    {
+        ++asked_.shows;
+        return Done{};
+    }
+    Result<Image> read() override
+    {
+        Image image;
+        image.width = 2;
+        image.height = 1;
+        image.data.resize(8);
+        for (std::size_t i = 0; i < 8; ++i)
+            image.bytes8()[i] = std::uint8_t(i % 4 == 3 ? 255 : 20 * i);
+        return image;
+    }
+    glm::ivec2 size() const override { return {64, 48}; }
+    void resize(int width, int height) override { asked_.sizes.emplace_back(width, height); }
+    void setTitle(const std::string&) override {}
+    std::string clipboard() override { return pasted; }
+    void setClipboard(const std::string& text) override { asked_.copied = text; }
+    void askForFile(const std::string& folder) override { asked_.folder = folder; }
+    FileAnswer fileAnswer() override { return answer; }
+    void loseSurface() override { ++asked_.lost; }
+    std::string device() const override { return {}; }
+    const std::vector<std::string>& messages() const override { return messages_; }
+    void wake() override {}
+
+    std::string pasted;
+    FileAnswer answer;
+
+private:
+    Asked& asked_;
+    std::vector<std::string> messages_;
+};
+
+// A session of a small image on the reference renderer, without a display.
+struct HeadlessSession {
+    test::TemporaryFolder folder;
+    Asked asked;
+    SessionOptions options;
+    Parts parts;
+    RememberingWindow* window;
+
+    static State small()
+    {
+        State state;
+        state.size = {64, 48};
+        state.picture.device = "reference";
+        state.picture.samples = 1;
+        state.picture.ground = "off";
+        return state;
+    }
+    explicit HeadlessSession(State state = small()) : parts(std::move(state), quiet(options))
+    {
+        auto made = std::make_unique<RememberingWindow>(asked);
+        window = made.get();
+        parts.window = std::move(made);
+    }
+    static SessionOptions& quiet(SessionOptions& o)
+    {
+        o.common.quiet = true;
+        o.common.threads = 1;
+        return o;
+    }
+    State& state() { return parts.state; }
+
+    Status wish(Wish::Kind kind, const std::string& text = {}, glm::ivec2 size = {0, 0})
+    {
+        parts.state.wishes.push_back({kind, text, size});
+        return fulfil(parts);
+    }
+    void work(const std::function<bool()>& until)
+    {
+        for (int i = 0; i < 6000 && !until(); ++i) { // at most a minute
+            while (auto loaded = parts.loader.take())
+                take(parts.state, *loaded);
+            parts.pictures.receive(parts.state, true);
+            std::this_thread::sleep_for(std::chrono::milliseconds(10));
+        }
+        EXPECT_TRUE(until());
+    }
+    void load(const std::string& file)
+    {
+        ASSERT_TRUE(wish(Wish::Kind::load, file));
+        work([&] { return !parts.loader.busy(); });
+    }
+    void draw()
+    {
+        work([&] {
+            parts.pictures.ask(parts.state); // as the session does: what was put back is drawn again
+            return parts.pictures.idle(parts.state);
+        });
+    }
+    std::string in(const std::string& name) const { return (folder / name).string(); }
+};
+
+} // namespace cotan::viewer

@@ -1,0 +1,258 @@
+// What the viewer does beside changing its state: wishes fulfilled, models taken over.
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+#include "cotan/image.hpp"
+#include "quad_model.hpp"
+#include "viewer_session.hpp"
+
+namespace cotan::viewer {
+namespace {
+
+TEST(ViewerWishes, eachAsksTheWindowForOneThingOnce)
+{
+    HeadlessSession at;
+    EXPECT_TRUE(at.wish(Wish::Kind::resize, "", {300, 200}));
+    EXPECT_EQ(at.asked.sizes, (std::vector<glm::ivec2>{{300, 200}}));
+    EXPECT_TRUE(at.wish(Wish::Kind::loseSurface));
+    EXPECT_EQ(at.asked.lost, 1);
+    EXPECT_TRUE(at.wish(Wish::Kind::copy, "some text"));
+    EXPECT_EQ(at.asked.copied, "some text");
+    EXPECT_EQ(at.state().said, "copied: some text");
+    EXPECT_FALSE(at.parts.quits);
+    EXPECT_TRUE(at.wish(Wish::Kind::quit));
+    EXPECT_TRUE(at.parts.quits);
+    EXPECT_EQ(at.asked.sizes.size(), 1u);
+    EXPECT_EQ(at.asked.lost, 1);
+    EXPECT_TRUE(at.state().wishes.empty());
+    EXPECT_EQ(at.state().problem, "");
+}
+
+TEST(ViewerWishes, aPastedPathIsOpenedAndNoneIsSaid)
+{
+    HeadlessSession at;
+    EXPECT_FALSE(at.wish(Wish::Kind::paste));
+    EXPECT_NE(at.state().problem.find("paste: expected the path of a file"), std::string::npos) << at.state().problem;
+    at.state().picture.model = "x.glb";
+    at.window->pasted = " 'a map.png'\n";
+    EXPECT_TRUE(at.wish(Wish::Kind::paste));
+    EXPECT_EQ(at.state().a.normalMap, "a map.png");
+}
+
+TEST(ViewerWishes, theDialogBeginsInTheFolderOfTheModelAndWhatIsChosenIsOpened)
+{
+    HeadlessSession at;
+    at.state().picture.model = at.in("sub/x.glb");
+    at.window->answer = {FileAnswer::open, ""};
+    EXPECT_TRUE(at.wish(Wish::Kind::chooseFile));
+    EXPECT_EQ(at.asked.folder, at.in("sub/"));
+    EXPECT_TRUE(at.parts.dialog.open());
+    at.asked.folder.clear();
+    EXPECT_TRUE(at.wish(Wish::Kind::chooseFile)); // one is open
+    EXPECT_EQ(at.asked.folder, "");
+    at.window->answer = {FileAnswer::closed, "file:///m/a%20b.png"};
+    at.state().wishes.clear();
+    EXPECT_TRUE(fulfil(at.parts));
+    EXPECT_EQ(at.state().a.normalMap, "/m/a b.png");
+    EXPECT_FALSE(at.parts.dialog.open());
+    at.window->answer = {FileAnswer::closed, ""}; // nothing was chosen
+    EXPECT_TRUE(at.wish(Wish::Kind::chooseFile));
+    EXPECT_EQ(at.state().a.normalMap, "/m/a b.png");
+}
+
+TEST(ViewerWishes, theReportAndTheWindowAreWrittenWhereTheyAreToldTo)
+{
+    HeadlessSession at;
+    EXPECT_TRUE(at.wish(Wish::Kind::writeReport, at.in("r.txt")));
+    EXPECT_EQ(test::readWhole(at.folder / "r.txt"), reportOf(at.state()));
+    EXPECT_TRUE(at.wish(Wish::Kind::writeWindow, at.in("w.png")));
+    EXPECT_EQ(at.asked.shows, 1); // what is written is what is shown now
+    const auto image = readImage(at.folder / "w.png");
+    ASSERT_TRUE(image);
+    EXPECT_EQ(image->width, 2);
+    EXPECT_EQ(image->bytes8()[4], 80);
+    for (const auto kind : {Wish::Kind::writeReport, Wish::Kind::writeWindow}) {
+        at.state().problem.clear();
+        const Status done = at.wish(kind, at.in("no/such/folder.png"));
+        ASSERT_FALSE(done);
+        EXPECT_EQ(done.error().kind, ErrorKind::output);
+        EXPECT_EQ(at.state().problem, done.error().message);
+    }
+}
+
+// The first failure is the one that is returned; later wishes are done all the same.
+TEST(ViewerWishes, oneThatFailsDoesNotHoldBackTheOthers)
+{
+    HeadlessSession at;
+    at.state().wishes = {{Wish::Kind::paste, "", {}},
+                         {Wish::Kind::writeReport, at.in("no/such.txt"), {}},
+                         {Wish::Kind::resize, "", {7, 5}}};
+    const Status done = fulfil(at.parts);
+    ASSERT_FALSE(done);
+    EXPECT_NE(done.error().message.find("paste"), std::string::npos);
+    EXPECT_NE(at.state().problem.find("such.txt"), std::string::npos);
+    EXPECT_EQ(at.asked.sizes.size(), 1u);
+}
+
+TEST(ViewerWishes, imagesAreWrittenAsTheStateShowsThemUnderANameThatIsFree)
+{
+    HeadlessSession at;
+    EXPECT_FALSE(at.wish(Wish::Kind::writeFile, at.in("a.png"))); // there is no model yet
+    EXPECT_FALSE(fs::exists(at.folder / "a.png"));
+    at.load("");
+    const fs::path before = fs::current_path();
+    fs::current_path(at.folder.path());
+    std::ofstream(at.folder / "cotan-picture-1.png") << "taken";
+    EXPECT_TRUE(at.wish(Wish::Kind::writeFile, "", {20, 10}));
+    EXPECT_TRUE(at.wish(Wish::Kind::writeFile, "-", {30, 12}));
+    EXPECT_TRUE(at.wish(Wish::Kind::writeFile, ".exr"));
+    EXPECT_TRUE(at.wish(Wish::Kind::writeFile, "named.png", {40, 14}));
+    fs::current_path(before);
+    EXPECT_EQ(test::readWhole(at.folder / "cotan-picture-1.png"), "taken");
+    const std::vector<std::tuple<const char*, int, int>> written = {{"cotan-picture-2.png", 20, 10},
+                                                                    {"cotan-picture-3.png", 30, 12},
+                                                                    {"cotan-picture-1.exr", 64, 48},
+                                                                    {"named.png", 40, 14}};
+    for (const auto& [name, width, height] : written) {
+        const auto image = readImage(at.folder / name);
+        ASSERT_TRUE(image) << name;
+        EXPECT_EQ(image->width, width) << name;
+        EXPECT_EQ(image->height, height) << name;
+    }
+    EXPECT_NE(at.state().said.find("-o named.png --size 40x14"), std::string::npos) << at.state().said;
+    EXPECT_EQ(at.state().size, glm::ivec2(64, 48)); // and the window stays as it is
+}
+
+TEST(ViewerWishes, hotSpotsAreThoseOfTheModelThatIsShown)
+{
+    HeadlessSession at;
+    EXPECT_TRUE(at.wish(Wish::Kind::findHotSpots)); // of nothing
+    EXPECT_FALSE(at.parts.loader.busy());
+    at.load("");
+    EXPECT_TRUE(at.wish(Wish::Kind::findHotSpots));
+    at.work([&] { return at.state().hotSpots.has_value(); });
+    EXPECT_EQ(at.state().hotSpots->size(), hotSpots(at.state().model->scene).size());
+}
+
+TEST(ViewerWishes, anotherModelForgetsTheShapeTheVariantAndTheMoment)
+{
+    HeadlessSession at;
+    test::write(test::quad(2), at.folder.path());
+    State& s = at.state();
+    s.picture.shape = "torus";
+    at.load("");
+    EXPECT_EQ(s.picture.shape, "torus");
+    EXPECT_TRUE(s.model);
+    EXPECT_EQ(s.loads, 1u);
+    EXPECT_TRUE(s.recent.empty()); // a shape is no file
+    s.picture.camera = "left";
+    s.metered = 3;
+    s.meteredFrom = "right";
+    s.cameraMoved = true;
+    s.statisticsOf = "old";
+    s.playing = true;
+    at.state().wishes.push_back({Wish::Kind::load, at.in("quad.gltf"), {}});
+    loadWished(at.parts);
+    EXPECT_EQ(s.loading, "quad.gltf");
+    EXPECT_EQ(s.progress, 0);
+    at.work([&] { return !at.parts.loader.busy(); });
+    EXPECT_EQ(s.picture.model, at.in("quad.gltf"));
+    EXPECT_EQ(s.picture.shape, "");
+    EXPECT_EQ(s.picture.camera, "");
+    EXPECT_EQ(s.meteredFrom, "");
+    EXPECT_EQ(s.metered, 0);
+    EXPECT_EQ(s.statisticsOf, "");
+    EXPECT_FALSE(s.cameraMoved);
+    EXPECT_FALSE(s.playing);
+    EXPECT_EQ(s.loads, 2u);
+    EXPECT_EQ(s.recent, std::vector<std::string>{at.in("quad.gltf")});
+    s.cameraMoved = true; // read again, the hand's camera and what was metered stay
+    s.metered = 2;
+    const glm::vec3 eye = s.camera.eye += glm::vec3(1, 2, 3);
+    const std::uint64_t number = s.model->number;
+    at.load(at.in("quad.gltf"));
+    EXPECT_EQ(s.camera.eye, eye);
+    EXPECT_EQ(s.metered, 2);
+    EXPECT_TRUE(s.cameraMoved);
+    EXPECT_NE(s.model->number, number);
+    EXPECT_EQ(s.recent.size(), 1u);
+    EXPECT_EQ(s.loads, 3u);
+    at.load(at.in("missing.glb")); // the last model stays, and why is said
+    EXPECT_EQ(s.failedLoads, 1u);
+    EXPECT_EQ(s.loads, 3u);
+    EXPECT_EQ(s.picture.model, at.in("quad.gltf"));
+    EXPECT_NE(s.problem.find("missing.glb"), std::string::npos) << s.problem;
+    at.load(at.in("quad.gltf"));
+    EXPECT_EQ(s.problem, "");
+}
+
+TEST(ViewerLoader, recentFilesAreTenTheLatestFirstAndEachOnce)
+{
+    State s;
+    auto model = std::make_shared<Model>();
+    const auto opened = [&](const std::string& file) {
+        Loaded loaded;
+        loaded.options.model = file;
+        loaded.model = model;
+        take(s, loaded);
+    };
+    for (int i = 0; i < 12; ++i)
+        opened("/f/" + std::to_string(i) + ".glb");
+    ASSERT_EQ(s.recent.size(), kMostRecent);
+    EXPECT_EQ(s.recent.front(), "/f/11.glb");
+    EXPECT_EQ(s.recent.back(), "/f/2.glb");
+    opened("/f/x/../5.glb");
+    EXPECT_EQ(s.recent.front(), "/f/5.glb");
+    EXPECT_EQ(s.recent.size(), kMostRecent);
+    EXPECT_EQ(std::ranges::count(s.recent, "/f/5.glb"), 1);
+    EXPECT_EQ(s.loads, 13u);
+}
+
+TEST(ViewerLoader, posesOfAMovingModelKeepItsImagesAndTellTheirMoment)
+{
+    HeadlessSession at;
+    test::write(test::movingQuad(), at.folder.path());
+    at.load(at.in("quad.gltf"));
+    State& s = at.state();
+    ASSERT_EQ(s.model->animations.size(), 2u);
+    s.cameraMoved = true;
+    s.picture.animation = "high";
+    const auto heightAt = [&](double time) {
+        s.picture.time = time;
+        EXPECT_TRUE(at.wish(Wish::Kind::pose));
+        at.work([&] { return !at.parts.loader.busy(); });
+        EXPECT_EQ(s.model->read.time, time);
+        EXPECT_EQ(s.model->read.animation, "high");
+        EXPECT_EQ(s.model->animations.size(), 2u);
+        EXPECT_FALSE(s.model->scene.images.empty());
+        return s.model->scene.instances.at(0).toWorld[3];
+    };
+    const glm::vec4 early = heightAt(1), late = heightAt(3);
+    EXPECT_GT(glm::length(glm::vec3(late - early)), 0.1f);
+    EXPECT_EQ(heightAt(1), early);
+    EXPECT_EQ(s.loads, 1u);
+    s.playing = true;
+    s.picture.animation = "none of these"; // what cannot be done is not asked for any longer
+    EXPECT_TRUE(at.wish(Wish::Kind::pose));
+    at.work([&] { return !at.parts.loader.busy(); });
+    EXPECT_EQ(s.picture.animation, "high");
+    EXPECT_EQ(s.picture.time, 1);
+    EXPECT_FALSE(s.playing);
+    EXPECT_NE(s.problem.find("none of these"), std::string::npos) << s.problem;
+    EXPECT_EQ(s.failedLoads, 0u); // its file can be read
+}
+
+TEST(ViewerLoader, aModelThatDoesNotMoveHasNoAnimationToGoTo)
+{
+    HeadlessSession at;
+    at.load("");
+    at.state().picture.animation = "0";
+    EXPECT_TRUE(at.wish(Wish::Kind::pose));
+    at.work([&] { return !at.parts.loader.busy(); });
+    EXPECT_NE(at.state().problem.find("animation: expected a glTF model with animations"), std::string::npos);
+    EXPECT_EQ(at.state().picture.animation, "");
+}
+
+} // namespace
+} // namespace cotan::viewer
