@@ -201,12 +201,12 @@ TEST(SceneParts, inTranslucentLayersAreRefusedEarlierAndOfRichMaterialsEarlierSt
     scene.materials[0].coat.strength = 1;
     EXPECT_NE(refusalOf(scene, triangleView()).find("cover the picture 30 times over, expected at most 16"),
               std::string::npos);
-    scene.instances.resize(22); // 11 times
+    scene.instances.resize(16); // 8 times
     EXPECT_EQ(refusalOf(scene, triangleView()), "");
     scene.materials[0].sheen.color = glm::vec3(1);
-    EXPECT_EQ(refusalOf(scene, triangleView()), "") << "1.3 times as much each: 14.3";
-    scene.materials[0].anisotropy.strength = 1; // 1.6: 17.6
-    EXPECT_NE(refusalOf(scene, triangleView()).find("18 times over, expected at most 16"), std::string::npos);
+    EXPECT_EQ(refusalOf(scene, triangleView()), "") << "1.8 times as much each: 14.4";
+    scene.materials[0].anisotropy.strength = 1; // 2.6: 20.8
+    EXPECT_NE(refusalOf(scene, triangleView()).find("21 times over, expected at most 16"), std::string::npos);
 }
 
 TEST(SceneParts, ofLongEdgesAreRefusedUnlessTheModelIsLarge)
