@@ -39,6 +39,7 @@ inline cotan_vec3 operator*(cotan_vec3 a, cotan_vec3 b) { return {a.x * b.x, a.y
 inline cotan_vec3 operator*(cotan_vec3 a, cotan_real k) { return {a.x * k, a.y * k, a.z * k}; }
 inline cotan_vec3 operator/(cotan_vec3 a, cotan_vec3 b) { return {a.x / b.x, a.y / b.y, a.z / b.z}; }
 inline cotan_vec3 operator/(cotan_vec3 a, cotan_real k) { return {a.x / k, a.y / k, a.z / k}; }
+inline cotan_vec2 operator+(cotan_vec2 a, cotan_vec2 b) { return {a.x + b.x, a.y + b.y}; }
 inline cotan_vec2 operator*(cotan_vec2 a, cotan_real k) { return {a.x * k, a.y * k}; }
 inline cotan_vec2 operator-(cotan_vec2 a, cotan_vec2 b) { return {a.x - b.x, a.y - b.y}; }
 inline cotan_vec4 operator*(cotan_vec4 a, cotan_real k) { return {a.x * k, a.y * k, a.z * k, a.w * k}; }
