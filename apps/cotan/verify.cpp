@@ -4,6 +4,7 @@
 
 #include "cotan/inspect.hpp"
 #include "cotan/model.hpp"
+#include "inspect/statistics.hpp"
 #include "inspect/verify/view_files.hpp"
 #include "loading.hpp"
 
