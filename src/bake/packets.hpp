@@ -62,7 +62,8 @@ inline bool facesAway(glm::vec3 front, glm::vec3 direction, glm::vec3 normal)
 {
     constexpr float kUprightCosine = 1e-3f; // cosine
     const float off = glm::dot(front, normal);
-    return glm::dot(front, direction) >= 0 || (off < 0 && off * off > kUprightCosine * kUprightCosine * glm::dot(front, front));
+    return glm::dot(front, direction) >= 0
+        || (off < 0 && off * off > kUprightCosine * kUprightCosine * glm::dot(front, front));
 }
 
 // The same, and only triangles that face the ray. For single rays.
