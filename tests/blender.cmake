@@ -17,5 +17,8 @@ cotan_blender(checksAndExports check_facts.py)
 cotan_blender(saysWhatIsWrongInOneSentence state_facts.py)
 cotan_blender(isInstalledFromItsZip install_facts.py --installed)
 cotan_blender(bakesWhileTheWindowGoesOn window_facts.py --window)
-cotan_door(Blender.leadsToGodotAsTheLessonSays COMMAND ${Python3_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/blender/to_godot.py
-  $<TARGET_FILE:cotan_c> $<TARGET_FILE:cotan>)
+# With the Python that has numpy.
+if(COTAN_PYTHON)
+  cotan_door(Blender.leadsToGodotAsTheLessonSays COMMAND ${COTAN_PYTHON} ${CMAKE_CURRENT_SOURCE_DIR}/blender/to_godot.py
+    $<TARGET_FILE:cotan_c> $<TARGET_FILE:cotan>)
+endif()
