@@ -55,11 +55,11 @@ void append(Mesh& whole, const Mesh& part, const glm::mat4& toWorld)
             whole.indices.push_back(base + part.indices[i + k]);
 }
 
-bool sameArrays(const Mesh& a, const Mesh& b)
+// All that says how a mesh looks, but for its material.
+auto arraysOf(const Mesh& m)
 {
-    return a.material == b.material && a.positions == b.positions && a.indices == b.indices && a.normals == b.normals
-        && a.tangents == b.tangents && a.texcoords == b.texcoords && a.colors == b.colors
-        && a.cotangentsU == b.cotangentsU && a.cotangentsV == b.cotangentsV;
+    return std::tie(m.positions, m.indices, m.normals, m.tangents, m.texcoords[0], m.texcoords[1], m.colors,
+                    m.cotangentsU, m.cotangentsV);
 }
 
 template<class T> std::size_t hashOf(const std::vector<T>& array)
@@ -76,12 +76,12 @@ std::vector<int> firstSame(const std::vector<Mesh>& meshes)
     for (int n = 0; n < int(meshes.size()); ++n) {
         const Mesh& mesh = meshes[std::size_t(n)];
         std::size_t hash = std::size_t(mesh.material);
-        for (const std::size_t one : {hashOf(mesh.positions), hashOf(mesh.indices), hashOf(mesh.normals),
-                                      hashOf(mesh.texcoords[0]), hashOf(mesh.texcoords[1]), hashOf(mesh.colors)})
-            hash = hash * 31 + one;
+        std::apply([&](const auto&... arrays) { ((hash = hash * 31 + hashOf(arrays)), ...); }, arraysOf(mesh));
         const auto [begin, end] = known.equal_range(hash);
-        const auto found = std::find_if(
-            begin, end, [&](const auto& other) { return sameArrays(meshes[std::size_t(other.second)], mesh); });
+        const auto found = std::find_if(begin, end, [&](const auto& entry) {
+            const Mesh& other = meshes[std::size_t(entry.second)];
+            return other.material == mesh.material && arraysOf(other) == arraysOf(mesh);
+        });
         first[std::size_t(n)] = found != end ? found->second : n;
         if (found == end)
             known.emplace(hash, n);
