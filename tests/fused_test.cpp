@@ -125,6 +125,12 @@ TEST_P(FusedIsPlain, overTwoUvSetsItIsTheSumOfTheirGradients)
         ASSERT_NEAR(glm::length(found), 1, 1e-6);
         const glm::vec3 flat = f32::cotan_perturb_footprint(f, f32::cotan_footprint_slope(f, i.duvdx, i.duvdy, {}));
         ASSERT_LT(degreesBetween(glm::normalize(glm::dvec3(i.n)), flat), 1e-4) << "an empty texel";
+        Input steep = i;
+        steep.m.z = -steep.m.z; // below the horizon: held at the steepest slope
+        const glm::vec3 held =
+            f32::cotan_perturb_footprint(f, f32::cotan_footprint_slope(f, i.duvdx, i.duvdy, steep.m));
+        const glm::dvec3 horizon = f64::cotan_resolve_gradient(glm::normalize(glm::dvec3(i.n)), gradientOf(steep));
+        ASSERT_LT(degreesBetween(horizon, held), kStated) << "below the horizon";
     }
 }
 
