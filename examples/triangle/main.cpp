@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <cstring>
 #include <exception>
+#include <span>
 #include <string>
 
 #include <cotan/gpu_meshes.hpp>
@@ -45,7 +46,7 @@ struct Way {
     const char* name;
     std::vector<Stage> stages;
     bool meshShader = false;
-    bool visibility = false;
+    std::span<const std::uint32_t> resolve{}; // of a visibility buffer
     bool ring = false; // meshlets with the ring around them; frames are made before, where no mesh shader makes them
 };
 
@@ -58,10 +59,10 @@ const std::vector<Way>& ways()
         {"read", {{S::eVertex, plain_vert}, {S::eFragment, read_frag}}},
         {"smooth", {{S::eVertex, smooth_vert}, {S::eFragment, smooth_frag}}},
         {"mesh", {{S::eMeshEXT, meshlet_mesh}, {S::eFragment, flat_mesh_frag}}, true},
-        {"mesh-smooth", {{S::eMeshEXT, meshlet_smooth_mesh}, {S::eFragment, smooth_frag}}, true, false, true},
-        {"ring", {{S::eVertex, smooth_vert}, {S::eFragment, smooth_frag}}, false, false, true},
-        {"visibility", {{S::eVertex, plain_vert}, {S::eFragment, visibility_frag}}, false, true},
-        {"visibility-read", {{S::eVertex, plain_vert}, {S::eFragment, visibility_frag}}, false, true},
+        {"mesh-smooth", {{S::eMeshEXT, meshlet_smooth_mesh}, {S::eFragment, smooth_frag}}, true, {}, true},
+        {"ring", {{S::eVertex, smooth_vert}, {S::eFragment, smooth_frag}}, false, {}, true},
+        {"visibility", {{S::eVertex, plain_vert}, {S::eFragment, visibility_frag}}, false, visibility_comp},
+        {"visibility-read", {{S::eVertex, plain_vert}, {S::eFragment, visibility_frag}}, false, visibility_read_comp},
         {"derivatives", {{S::eVertex, plain_vert}, {S::eFragment, derivatives_frag}}},
     };
     return list;
@@ -122,7 +123,8 @@ Prepared prepare(const Gpu& gpu, const Way& way, const Mesh& given)
 void draw(const Gpu& gpu, const Way& way, const Mesh& mesh, std::vector<float>& pixels)
 {
     const Prepared p = prepare(gpu, way, mesh);
-    const vk::Format format = way.visibility ? vk::Format::eR32Uint : vk::Format::eR32G32B32A32Sfloat;
+    const bool visibility = !way.resolve.empty();
+    const vk::Format format = visibility ? vk::Format::eR32Uint : vk::Format::eR32G32B32A32Sfloat;
     using U = vk::ImageUsageFlagBits;
     using A = vk::ImageAspectFlagBits;
     using L = vk::ImageLayout;
@@ -135,11 +137,8 @@ void draw(const Gpu& gpu, const Way& way, const Mesh& mesh, std::vector<float>& 
     const vk::raii::PipelineLayout layout(gpu.device, vk::PipelineLayoutCreateInfo({}, {}, range));
     const vk::raii::Pipeline pipeline = makePipeline(gpu, *layout, way.stages, format, kSize);
     vk::raii::Pipeline resolve{nullptr};
-    if (way.visibility) {
-        const bool reads = std::string(way.name) == "visibility-read";
-        const Stage stage{S::eCompute, reads ? std::span<const std::uint32_t>(visibility_read_comp) : visibility_comp};
-        resolve = makePipeline(gpu, *layout, std::array{stage}, format, kSize);
-    }
+    if (visibility)
+        resolve = makePipeline(gpu, *layout, std::array{Stage{S::eCompute, way.resolve}}, format, kSize);
     vk::raii::Pipeline derive{nullptr};
     if (way.ring && !way.meshShader)
         derive = makePipeline(gpu, *layout, std::array{Stage{S::eCompute, ring_comp}}, format, kSize);
@@ -188,9 +187,8 @@ void draw(const Gpu& gpu, const Way& way, const Mesh& mesh, std::vector<float>& 
     commands.endRendering();
     barrier(commands, *color.image, A::eColor, L::eColorAttachmentOptimal, L::eTransferSrcOptimal);
     const vk::BufferImageCopy region(0, 0, 0, {A::eColor, 0, 0, 1}, {}, {kSize.width, kSize.height, 1});
-    commands.copyImageToBuffer(*color.image, L::eTransferSrcOptimal, way.visibility ? *ids.buffer : *result.buffer,
-                               region);
-    if (way.visibility) {
+    commands.copyImageToBuffer(*color.image, L::eTransferSrcOptimal, visibility ? *ids.buffer : *result.buffer, region);
+    if (visibility) {
         using P = vk::PipelineStageFlagBits2;
         const vk::MemoryBarrier2 written(P::eTransfer, vk::AccessFlagBits2::eTransferWrite, P::eComputeShader,
                                          vk::AccessFlagBits2::eShaderStorageRead);
