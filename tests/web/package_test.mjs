@@ -6,10 +6,9 @@ import fs from 'node:fs';
 import path from 'node:path';
 import { gzipSync } from 'node:zlib';
 
-import { emptyFolder, filesUnder, hills, imageOf, installed, load, parseGlb, skip } from './shared.mjs';
+import { emptyFolder, filesUnder, here, hills, imageOf, installed, load, parseGlb, skip } from './shared.mjs';
 
 const [tarball, library, data, only] = process.argv.slice(2), modules = path.join(path.dirname(path.dirname(path.dirname(tarball))), 'npm/node_modules');
-const here = import.meta.dirname;
 if (!fs.existsSync(tarball)) skip('the package has not been built (emscripten, npm)');
 const folder = installed(tarball);
 const cotan = await load(folder), small = await load(folder, 'tangents');

@@ -3,6 +3,9 @@ import { execFileSync } from 'node:child_process';
 import fs from 'node:fs';
 import os from 'node:os';
 import path from 'node:path';
+import { fileURLToPath } from 'node:url';
+
+export const here = fileURLToPath(new URL('.', import.meta.url)); // this folder; Node.js 18 has no import.meta.dirname
 
 export function skip(why) {
   console.log(`skipped: ${why}`);

@@ -6,13 +6,13 @@ import assert from 'node:assert/strict';
 import fs from 'node:fs';
 import path from 'node:path';
 import { launch, serve } from './chromium.mjs';
-import { skip } from './shared.mjs';
+import { here, skip } from './shared.mjs';
 
 const [sources, modules, data, only] = process.argv.slice(2);
 if (!fs.existsSync(path.join(modules, 'three'))) skip('three is not installed (see the test npm_packages)');
 if (!fs.existsSync(process.env.CHROMIUM ?? '/usr/bin/chromium')) skip('no chromium');
 if (!fs.existsSync(path.join(data, 'models'))) skip(`${data} is not here`);
-const { address, close } = await serve({ package: sources, modules, data, tests: import.meta.dirname });
+const { address, close } = await serve({ package: sources, modules, data, tests: here });
 const browser = await launch(modules);
 
 // A page with that version of three, by the name of its package.

@@ -5,10 +5,11 @@
 // Prints what was found as JSON. Exit code 77 and a line: skipped.
 import fs from 'node:fs';
 import path from 'node:path';
-import { fileURLToPath, pathToFileURL } from 'node:url';
+import { pathToFileURL } from 'node:url';
 
-const [modules, folder] = process.argv.slice(2), root = fileURLToPath(new URL('../..', import.meta.url));
-const skip = why => { console.log(why); process.exit(77); };
+import { here, skip } from './shared.mjs';
+
+const [modules, folder] = process.argv.slice(2), root = path.resolve(here, '../..');
 const package_ = path.resolve(modules, 'webgpu/index.js');
 if (!fs.existsSync(package_)) skip("npm's webgpu is not installed");
 const { create, globals } = await import(pathToFileURL(package_));

@@ -5,7 +5,7 @@ import fs from 'node:fs';
 import path from 'node:path';
 import { pathToFileURL } from 'node:url';
 
-import { installed, skip } from './shared.mjs';
+import { here, installed, skip } from './shared.mjs';
 
 const [tarball, modules, only] = process.argv.slice(2);
 if (!fs.existsSync(tarball)) skip('the package has not been built (emscripten, npm)');
@@ -24,7 +24,7 @@ function compiled(name, text) {
   // Those of other packages are not ours to mend; theirs are checked because ours have to be.
   return stdout.split('\n').filter((line) => /error TS/.test(line) && !/^node_modules\/(?!cotan\/)|^\.\.\//.test(line));
 }
-const program = (name) => fs.readFileSync(path.join(import.meta.dirname, 'types', name), 'utf8');
+const program = (name) => fs.readFileSync(path.join(here, 'types', name), 'utf8');
 
 const cases = {
   typingsTakeEveryExportInStrictMode() {
