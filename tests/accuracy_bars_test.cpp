@@ -298,7 +298,7 @@ TEST(Accuracy, collectorCountsWhatIsNotFiniteApart)
     EXPECT_EQ(m.samples, 5u);
     EXPECT_DOUBLE_EQ(m.mean, 2);
     EXPECT_DOUBLE_EQ(m.maximum, 3);
-    EXPECT_DOUBLE_EQ(m.percentile95, 2); // rank floor(0.95 * 2) of 1 2 3
+    EXPECT_DOUBLE_EQ(m.percentile95, 3); // 95 % of three are more than two
     EXPECT_DOUBLE_EQ(m.invalid, 0.4);
 }
 

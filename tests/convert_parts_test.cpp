@@ -13,7 +13,6 @@
 #include "cotan/convention.hpp"
 #include "judgement_cases.hpp"
 #include "place_finder.hpp"
-#include "tally.hpp"
 
 namespace cotan {
 namespace {
@@ -169,39 +168,6 @@ TEST(Padding, isWithinAFractionOfATexelOfTheNearestAndDoesNotJoinTheBorders)
     EXPECT_EQ(spreadFrom({0}, 1, 5), std::vector<std::uint32_t>(5, 0));
     EXPECT_EQ(spreadFrom({4}, 1, 5), std::vector<std::uint32_t>(5, 4)); // upwards
     EXPECT_EQ(spreadFrom({0}, 5, 1), std::vector<std::uint32_t>(5, 0));
-}
-
-// ---- tally ----------------------------------------------------------------------------------
-
-TEST(Tally, knowsMeanAndMaximumExactlyAnd95PercentToFourPercent)
-{
-    convert::Tally a, b;
-    for (int i = 1; i <= 1000; ++i)
-        (i % 3 == 0 ? a : b).add(0.01 * i);
-    a.add(b);
-    const Spread s = a.spread();
-    EXPECT_EQ(s.count, 1000u);
-    EXPECT_NEAR(s.mean, 5.005, 1e-9);
-    EXPECT_EQ(s.maximum, 10);
-    EXPECT_GE(s.percentile95, 9.5);
-    EXPECT_LE(s.percentile95, 9.5 * 1.04);
-}
-
-TEST(Tally, ofNothingIsNotZeroAndOfZerosIs)
-{
-    EXPECT_EQ(convert::Tally().spread().count, 0u);
-    EXPECT_TRUE(std::isnan(convert::Tally().spread().mean));
-    convert::Tally zeros, none;
-    zeros.add(0);
-    zeros.add(none);
-    EXPECT_EQ(zeros.spread().count, 1u);
-    EXPECT_EQ(zeros.spread().mean, 0);
-    EXPECT_EQ(zeros.spread().percentile95, 0);
-    none.add(zeros);
-    EXPECT_EQ(none.spread().count, 1u);
-    convert::Tally far;
-    far.add(180);
-    EXPECT_EQ(far.spread().percentile95, 180);
 }
 
 // ---- which places show a texel --------------------------------------------------------------

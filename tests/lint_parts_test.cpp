@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "bake/lint/spread.hpp"
 #include "bake/lint/texel.hpp"
 #include "judgement_cases.hpp"
 #include "lint_parts.hpp"
@@ -317,37 +316,6 @@ TEST(EdgeSteps, ofManyEdgesEvenlyChosenOnesAreMeasured)
     EXPECT_NEAR(some.cotangent.mean / all.cotangent.mean, 1, 0.2); // of 472 values that vary by as much as themselves
 }
 
-TEST(SpreadCounter, holdsAnyNumberOfValuesToAFifthOfAPercent)
-{
-    std::vector<std::pair<double, double>> values;
-    SpreadCounter counter;
-    std::vector<double> sorted;
-    for (std::size_t i = 0; i < 3 * SpreadCounter::kExactValues; ++i) {
-        const double value = std::exp(double(i * 7919 % 100003) / 10000 - 5), weight = 1 + double(i % 3);
-        values.emplace_back(value, weight);
-        sorted.push_back(value);
-        counter.add(value, weight);
-        if (i + 1 == SpreadCounter::kExactValues) { // so far to the bit
-            const Spread exact = spreadOf(values), counted = counter.spread();
-            EXPECT_EQ(counted.mean, exact.mean);
-            EXPECT_EQ(counted.percentile95, exact.percentile95);
-        }
-    }
-    counter.add(NAN, 1);
-    counter.add(1, 0);
-    counter.add(INFINITY, 1);
-    const Spread exact = spreadOf(values), counted = counter.spread();
-    EXPECT_EQ(counted.count, exact.count);
-    EXPECT_NEAR(counted.mean / exact.mean, 1, 1e-12);
-    EXPECT_EQ(counted.maximum, exact.maximum);
-    EXPECT_GE(counted.percentile95, exact.percentile95);
-    EXPECT_LE(counted.percentile95, exact.percentile95 * (1 + 1 / 512.0));
-    std::nth_element(sorted.begin(), sorted.begin() + std::ptrdiff_t(sorted.size() / 2), sorted.end());
-    EXPECT_NEAR(counter.middle() / sorted[sorted.size() / 2], 1, 1 / 512.0);
-    EXPECT_EQ(SpreadCounter().spread().count, 0u);
-    EXPECT_EQ(SpreadCounter().middle(), 0);
-}
-
 // Overlap of surfaces at 64 texels a side, exact for uv in 64ths.
 std::vector<UvQuality> overlapsOf(const std::vector<MappedSurface>& surfaces, int side = 64)
 {
@@ -454,26 +422,6 @@ TEST(Texels, anImageHasPixelsOnlyWithAllOfThem)
     image.data.pop_back();
     EXPECT_FALSE(hasPixels(image));
     EXPECT_FALSE(hasPixels(Image{}));
-}
-
-TEST(Spreads, weighEveryValue)
-{
-    // 0.94 of the weight is at most 1, 0.96 at most 2.
-    const Spread s = spreadOf({{2, 2}, {1, 94}, {8, 4}, {100, 0}, {NAN, 5}, {5, -1}});
-    EXPECT_EQ(s.count, 3u);
-    EXPECT_NEAR(s.mean, (94 + 4 + 32) / 100.0, 1e-12);
-    EXPECT_EQ(s.percentile95, 2);
-    EXPECT_EQ(s.maximum, 8);
-    EXPECT_EQ(spreadOf({{1, 95}, {2, 5}}).percentile95, 1);
-    EXPECT_EQ(spreadOf({{1, 94}, {2, 6}}).percentile95, 2);
-}
-
-TEST(Spreads, ofNothingAreNotZero)
-{
-    for (const Spread& s : {spreadOf({}), spreadOf({{1, 0}}), spreadOf({{NAN, 1}})}) {
-        EXPECT_EQ(s.count, 0u);
-        EXPECT_TRUE(std::isnan(s.mean) && std::isnan(s.percentile95) && std::isnan(s.maximum));
-    }
 }
 
 } // namespace

@@ -28,23 +28,23 @@ SmoothStatistics smoothStatistics(const MeshView& mesh)
     const auto normals = gathered(mesh.normals, split.sources);
     const auto texcoords = gathered(mesh.texcoords, split.sources);
     const Cotangents c = smoothCotangents({positions, normals, texcoords, split.indices});
-    std::vector<float> shear, stretch;
+    std::vector<float> shear;
+    ValueStatistics stretch;
     for (std::size_t i = 0; i < c.u.size(); ++i) {
         const double u = glm::length(glm::dvec3(c.u[i])), v = glm::length(glm::dvec3(c.v[i]));
         if (!(u > 0) || !(v > 0))
             continue;
         const double sine = std::abs(glm::dot(glm::dvec3(c.u[i]), glm::dvec3(c.v[i]))) / (u * v);
         shear.push_back(float(std::asin(std::min(sine, 1.0)) * 57.29577951308232));
-        stretch.push_back(float(std::max(u, v) / std::min(u, v)));
+        stretch.add(std::max(u, v) / std::min(u, v));
     }
     SmoothStatistics s;
     s.vertices = c.u.size();
     s.added = split.sources.size() - mesh.positions.size();
     s.without = c.u.size() - shear.size();
-    s.shear = statisticsOf(std::move(shear));
-    const AngleStatistics ratios = statisticsOf(std::move(stretch)); // no angles: only ranks are asked for
-    s.stretchMedian = ratios.median;
-    s.stretchMaximum = ratios.maximum;
+    s.shear = angleStatistics(shear);
+    s.stretchMedian = stretch.percentile(0.5);
+    s.stretchMaximum = stretch.maximum();
     return s;
 }
 

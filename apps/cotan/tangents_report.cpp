@@ -32,7 +32,7 @@ std::string directions(const AngleStatistics& s)
 
 std::string toText(const TangentDifference& d, const std::string& reference)
 {
-    const AngleStatistics s = statisticsOf(d.degrees);
+    const AngleStatistics s = angleStatistics(d.degrees);
     std::string line;
     switch (verdictOf(d)) {
     case TangentVerdict::nothing: line = "nothing to compare"; break;
@@ -62,7 +62,7 @@ std::string toText(const TangentDifference& d, const std::string& reference)
 
 Json toJson(const TangentDifference& d)
 {
-    Json directions = toJson(statisticsOf(d.degrees));
+    Json directions = toJson(angleStatistics(d.degrees));
     directions.erase("pixels"); // corners here
     return {{"verdict", name(verdictOf(d))},   {"corners", d.corners},     {"degenerate", d.degenerate},
             {"w_different", invertedShare(d)}, {"turned", turnedShare(d)}, {"directions", directions}};

@@ -98,14 +98,6 @@ std::vector<float> interiorAngles(const Image& a, const Image& b)
     return degrees;
 }
 
-AngleStatistics angleStatistics(const std::vector<float>& degrees)
-{
-    std::vector<float> valid;
-    valid.reserve(degrees.size());
-    std::copy_if(degrees.begin(), degrees.end(), std::back_inserter(valid), [](float d) { return d >= 0; });
-    return statisticsOf(std::move(valid));
-}
-
 double shareOpposed(const std::vector<float>& degrees)
 {
     std::size_t compared = 0, opposed = 0;

@@ -20,9 +20,6 @@ void keepInterior(std::vector<float>& degrees, int width, int height);
 // anglesBetween of the pixels that keepInterior leaves: for shapes that cover a little more or less.
 std::vector<float> interiorAngles(const Image& a, const Image& b);
 
-// The statistics of the entries that are not -1.
-AngleStatistics angleStatistics(const std::vector<float>& degrees);
-
 // Share of compared pixels where the two directions point away from each other (over 90 degrees); NaN
 // where nothing was compared.
 double shareOpposed(const std::vector<float>& degrees);

@@ -1,85 +1,41 @@
 #include "inspect/statistics.hpp"
 
-#include <algorithm>
-#include <bit>
-#include <cstdint>
-#include <numeric>
+#include <cmath>
 
 #include <fmt/format.h>
+
 namespace cotan {
 
-namespace {
-
-double percentile(std::vector<float>& values, double q)
+void AngleCounter::add(float degrees)
 {
-    const auto rank = std::ptrdiff_t(q * double(values.size() - 1));
-    std::nth_element(values.begin(), values.begin() + rank, values.end());
-    return values[std::size_t(rank)];
-}
-
-double shareOver(const std::vector<float>& values, float limit)
-{
-    const auto n = std::count_if(values.begin(), values.end(), [&](float v) { return v > limit; });
-    return double(n) / double(values.size());
-}
-
-} // namespace
-
-AngleStatistics statisticsOf(std::vector<float> degrees)
-{
-    AngleStatistics s;
-    s.count = degrees.size();
-    if (degrees.empty())
-        return s;
-    s.mean = std::accumulate(degrees.begin(), degrees.end(), 0.0) / double(degrees.size());
-    s.median = percentile(degrees, 0.5);
-    s.percentile95 = percentile(degrees, 0.95);
-    s.percentile99 = percentile(degrees, 0.99);
-    s.maximum = *std::max_element(degrees.begin(), degrees.end());
-    s.over1 = shareOver(degrees, 1);
-    s.over5 = shareOver(degrees, 5);
-    return s;
-}
-
-AngleHistogram::AngleHistogram() : counts_(std::size_t(1) << 20) {}
-
-void AngleHistogram::add(float degrees)
-{
-    if (!(degrees >= 0))
+    if (!(degrees >= 0) || !std::isfinite(degrees))
         return;
-    ++counts_[std::bit_cast<std::uint32_t>(degrees) << 1 >> 12]; // bits of positive floats sort as the floats do
-    ++count_;
+    values_.add(double(degrees));
     over1_ += degrees > 1;
     over5_ += degrees > 5;
-    sum_ += double(degrees);
-    maximum_ = std::max(maximum_, degrees);
 }
 
-double AngleHistogram::percentile(double q) const
+AngleStatistics AngleCounter::statistics()
 {
-    const auto rank = std::size_t(q * double(count_ - 1));
-    std::size_t below = 0;
-    for (std::size_t i = 0; i < counts_.size(); ++i)
-        if (below += counts_[i]; below > rank)
-            return double(std::bit_cast<float>(std::uint32_t(i) << 11));
-    return double(maximum_);
+    if (values_.count() == 0)
+        return {};
+    const double n = double(values_.count());
+    return {.count = values_.count(),
+            .mean = values_.mean(),
+            .median = values_.percentile(0.5),
+            .percentile95 = values_.percentile(0.95),
+            .percentile99 = values_.percentile(0.99),
+            .maximum = values_.maximum(),
+            .over1 = double(over1_) / n,
+            .over5 = double(over5_) / n};
 }
 
-AngleStatistics AngleHistogram::statistics() const
+AngleStatistics angleStatistics(const std::vector<float>& degrees)
 {
-    AngleStatistics s;
-    s.count = count_;
-    if (count_ == 0)
-        return s;
-    const double n = double(count_);
-    s.mean = sum_ / n;
-    s.median = percentile(0.5);
-    s.percentile95 = percentile(0.95);
-    s.percentile99 = percentile(0.99);
-    s.maximum = double(maximum_);
-    s.over1 = double(over1_) / n;
-    s.over5 = double(over5_) / n;
-    return s;
+    AngleCounter counter;
+    for (float d : degrees)
+        counter.add(d);
+    return counter.statistics();
 }
 
 std::string toText(const AngleStatistics& s)

@@ -69,7 +69,7 @@ Result<ComparedFiles> compareFiles(const std::filesystem::path& fileA, const Sta
             return writer.error();
         picture = *std::move(writer);
     }
-    AngleHistogram angles;
+    AngleCounter angles;
     const auto work = [&](std::span<Image> strips, int) -> std::function<Status()> {
         a->put(strips[0]);
         b->put(strips[1]);

@@ -45,7 +45,7 @@ AngleStatistics vertexAngles(const glm::dmat3& m, NormalTransform way)
         degrees.push_back(float(
             glm::degrees(angle(transformNormal(way, m, n), transformNormal(NormalTransform::inverseTranspose, m, n)))));
     }
-    return statisticsOf(std::move(degrees));
+    return angleStatistics(degrees);
 }
 
 glm::dmat3 scaled(double x, double y, double z) { return glm::dmat3(x, 0, 0, 0, y, 0, 0, 0, z); }

@@ -94,7 +94,7 @@ AngleStatistics sweep(double tilt)
             degrees.push_back(float(angleBetween(p, q) / kDegree));
         }
     }
-    return statisticsOf(std::move(degrees));
+    return angleStatistics(degrees);
 }
 
 // Draws both frames and the angle between them.

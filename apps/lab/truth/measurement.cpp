@@ -2,27 +2,25 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 namespace cotan {
 
 void AngleCollector::add(double degrees)
 {
     if (std::isfinite(degrees))
-        angles_.push_back(degrees);
+        angles_.add(degrees);
     else
         ++invalid_;
 }
 
 Measurement AngleCollector::finish(Measurement row)
 {
-    std::sort(angles_.begin(), angles_.end());
-    row.samples = angles_.size() + invalid_;
+    row.samples = angles_.count() + invalid_;
     row.invalid = row.samples == 0 ? 0 : double(invalid_) / double(row.samples);
-    if (!angles_.empty()) {
-        row.mean = std::accumulate(angles_.begin(), angles_.end(), 0.0) / double(angles_.size());
-        row.percentile95 = angles_[std::size_t(0.95 * double(angles_.size() - 1))];
-        row.maximum = angles_.back();
+    if (angles_.count() > 0) {
+        row.mean = angles_.mean();
+        row.percentile95 = angles_.percentile(0.95);
+        row.maximum = angles_.maximum();
     }
     return row;
 }

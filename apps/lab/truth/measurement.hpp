@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "core/value_statistics.hpp"
 #include "cotan/frame.hpp"
 #include "cotan/result.hpp"
 
@@ -30,12 +31,11 @@ struct Measurement {
 class AngleCollector {
 public:
     void add(double degrees);
-    // The statistics, with the names of `row`. The 95th percentile is the value at rank
-    // floor(0.95 * (count - 1)).
+    // The statistics, with the names of `row`.
     Measurement finish(Measurement row);
 
 private:
-    std::vector<double> angles_;
+    ValueStatistics angles_;
     std::size_t invalid_ = 0;
 };
 

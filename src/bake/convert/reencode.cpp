@@ -2,18 +2,19 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 
 #include "bake/convert/solve_texel.hpp"
+#include "bake/lint/spread.hpp"
 #include "bake/lint/texel.hpp"
 #include "bake/surface/nearest_texels.hpp"
 #include "core/loops.hpp"
 #include "place_finder.hpp"
 #include "scene/normal_format.hpp"
 #include "scene/texture_sample.hpp"
-#include "tally.hpp"
 
 namespace cotan {
 
@@ -32,8 +33,11 @@ glm::dmat3 matrixOf(const f64::cotan_frame& f, const MapUse& use)
 
 struct RowCounts {
     std::size_t covered = 0, padded = 0, several = 0, disagreeing = 0, belowHorizon = 0;
-    convert::Tally moved, disagreement;
+    std::vector<float> moved, disagreement; // degrees, until the row is counted
 };
+
+// Rows whose angles wait in memory until they are counted.
+constexpr int kRowsAtATime = 64;
 
 class Reencoder {
 public:
@@ -54,31 +58,32 @@ public:
     Reencoded run(CountedSteps* rows)
     {
         auto overRows = [&](const auto& work) { parallelFor(0, map_.height, work); };
-        overRows([&](int y) {
-            if (rows && rows->stopped())
-                return;
-            solveRow(y);
-            if (rows)
-                rows->step();
-        });
+        for (int first = 0; first < map_.height; first += kRowsAtATime) {
+            const int last = std::min(first + kRowsAtATime, map_.height);
+            parallelFor(first, last, [&](int y) {
+                if (rows && rows->stopped())
+                    return;
+                solveRow(y);
+                if (rows)
+                    rows->step();
+            });
+            countAngles(first, last);
+        }
         if (rows && rows->stopped())
             return std::move(result_);
         spreadNearest(owner_, map_.width, map_.height, AskFirst::beside);
         markNeeded();
         overRows([&](int y) { findPlaces(y); });
         overRows([&](int y) { padRow(y); });
-        RowCounts all;
-        for (const RowCounts& r : rows_) { // in order: sums are the same however many threads there are
-            all.moved.add(r.moved);
-            all.disagreement.add(r.disagreement);
+        for (const RowCounts& r : rows_) {
             result_.covered += r.covered;
             result_.padded += r.padded;
             result_.several += r.several;
             result_.disagreeing += r.disagreeing;
             result_.belowHorizon += r.belowHorizon;
         }
-        result_.moved = all.moved.spread();
-        result_.disagreement = all.disagreement.spread();
+        result_.moved = spreadOf(std::move(moved_));
+        result_.disagreement = spreadOf(std::move(disagreement_));
         std::vector<const MapUse*> shown;
         for (const MapUse& use : uses_)
             shown.push_back(&use);
@@ -183,9 +188,21 @@ private:
         const double conflict = worst(demands, texel);
         if (conflict > kDisagree) {
             ++c.disagreeing;
-            c.disagreement.add(conflict);
+            c.disagreement.push_back(float(conflict));
         }
-        c.moved.add(degreesOff({glm::dmat3(1), glm::normalize(old)}, texel));
+        c.moved.push_back(float(degreesOff({glm::dmat3(1), glm::normalize(old)}, texel)));
+    }
+
+    // In the order of rows, so that sums are the same however many threads there are.
+    void countAngles(int first, int last)
+    {
+        for (int y = first; y < last; ++y) {
+            RowCounts& row = rows_[std::size_t(y)];
+            for (float degrees : std::exchange(row.moved, {}))
+                moved_.add(double(degrees));
+            for (float degrees : std::exchange(row.disagreement, {}))
+                disagreement_.add(double(degrees));
+        }
     }
 
     // Which texels lend their place to others; only their places are kept.
@@ -244,6 +261,7 @@ private:
     Expansion expansion_ = Expansion::exact;       // of the result
     PlaceFinder finder_;
     std::vector<RowCounts> rows_;
+    ValueStatistics moved_, disagreement_; // degrees
     std::vector<std::uint32_t> owner_;
     std::vector<std::vector<Lent>> nearest_; // per row, by column
     Reencoded result_;

@@ -2,6 +2,7 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
@@ -137,7 +138,7 @@ double degreesByChord(glm::dvec3 a, glm::dvec3 b)
     return half <= 0.5 ? glm::degrees(2 * arcSine(half)) : degreesBetween(a, b); // also where one has no direction
 }
 
-void addSteps(const f64::cotan_frame& a, const f64::cotan_frame& b, double weight, SpreadCounter& steps)
+void addSteps(const f64::cotan_frame& a, const f64::cotan_frame& b, double weight, ValueStatistics& steps)
 {
     for (const glm::dvec3& m : tilted())
         steps.add(degreesByChord(a.t * m.x + a.b * m.y + a.n * m.z, b.t * m.x + b.b * m.y + b.n * m.z), weight);
@@ -157,7 +158,7 @@ EdgeSteps edgeSteps(const MappedSurface& s, std::size_t mostEdges)
         orientations[i] = std::int8_t(orientationOf(s, i));
     const std::size_t edges = s.triangleCount() * 3 / 2; // of a closed mesh; others have fewer pairs
     const std::size_t every = std::max<std::size_t>((edges + mostEdges - 1) / mostEdges, 1);
-    SpreadCounter cotangent, orthonormal;
+    ValueStatistics cotangent, orthonormal;
     SidesByVertex(s).eachPair([&](const Side& a, const Side& b) {
         const int orientation = orientations[a.triangle()];
         if (orientation == 0 || orientation != orientations[b.triangle()])
@@ -169,8 +170,8 @@ EdgeSteps edgeSteps(const MappedSurface& s, std::size_t mostEdges)
         addSteps(frameOf(atA, Frame::cotangent), frameOf(atB, Frame::cotangent), weight, cotangent);
         addSteps(frameOf(atA, Frame::orthonormal), frameOf(atB, Frame::orthonormal), weight, orthonormal);
     });
-    result.cotangent = cotangent.spread();
-    result.orthonormal = orthonormal.spread();
+    result.cotangent = spreadOf(std::move(cotangent));
+    result.orthonormal = spreadOf(std::move(orthonormal));
     return result;
 }
 

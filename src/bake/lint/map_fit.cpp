@@ -78,7 +78,7 @@ std::vector<Spread> mapErrors(const Image& before, const Image& after, const std
 {
     const std::size_t each = std::clamp(kMostPoints / std::max<std::size_t>(uses.size(), 1), kLeast, kPointsOfSurface);
     const std::size_t count = std::min(each, most);
-    std::vector<std::vector<std::pair<double, double>>> errors(frames.size());
+    std::vector<ValueStatistics> errors(frames.size());
     const std::size_t step = (uses.size() + kMostUses - 1) / kMostUses;
     for (std::size_t k = 0; k < uses.size(); k += step) {
         const MapUse* const use = uses[k];
@@ -90,7 +90,7 @@ std::vector<Spread> mapErrors(const Image& before, const Image& after, const std
         stored.expansion = expansionAfter.value_or(stored.expansion);
         for (const MeshPoint& p : points)
             for (std::size_t i = 0; i < frames.size(); ++i)
-                errors[i].emplace_back(
+                errors[i].add(
                     lint::degreesBetween(normalOf(before, *use, use->stored, frames[i].from, frames[i].fromTangents, p),
                                          normalOf(after, *use, stored, frames[i].to, frames[i].toTangents, p)),
                     area / double(count));
@@ -115,7 +115,7 @@ Spread mapError(const Image& before, const Image& after, const std::vector<const
 
 Spread directionTurn(const MappedSurface& surface, const std::vector<MeshPoint>& points, const FramePair& frames)
 {
-    std::vector<std::pair<double, double>> turns;
+    ValueStatistics turns;
     for (const MeshPoint& p : points) {
         const auto way = [&](Frame frame, TangentOrigin tangents) {
             const f64::cotan_frame f = frameAt(surface, frame, tangents, p.triangle, p.barycentric);
@@ -125,7 +125,7 @@ Spread directionTurn(const MappedSurface& surface, const std::vector<MeshPoint>&
         const glm::dvec3 from = way(frames.from, frames.fromTangents), to = way(frames.to, frames.toTangents);
         if (from == glm::dvec3(0) || to == glm::dvec3(0))
             return {};
-        turns.emplace_back(lint::degreesBetween(from, glm::dot(from, to) < 0 ? -to : to), 1);
+        turns.add(lint::degreesBetween(from, glm::dot(from, to) < 0 ? -to : to));
     }
     return spreadOf(std::move(turns));
 }

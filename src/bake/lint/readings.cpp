@@ -39,7 +39,7 @@ std::vector<Reading> readings(const MappedSurface& s, const std::vector<MeshPoin
         std::string name;
         Frame frame;
         TangentOrigin tangents;
-        std::vector<std::pair<double, double>> errors;
+        ValueStatistics errors;
     };
     std::vector<Reader> readers;
     for (Frame f : {Frame::cotangent, Frame::orthonormal, Frame::smooth, Frame::exact, Frame::triangle})
@@ -58,7 +58,7 @@ std::vector<Reading> readings(const MappedSurface& s, const std::vector<MeshPoin
         const glm::dvec3 generated = readBy(madeFor, TangentOrigin::generated);
         const glm::dvec3 meant = madeFor == Frame::mikktspace ? f64::cotan_apply(meantFrame(s, p), m) : generated;
         for (Reader& r : readers)
-            r.errors.emplace_back(
+            r.errors.add(
                 degreesBetween(readBy(r.frame, r.tangents), r.tangents == TangentOrigin::stored ? generated : meant),
                 weights[k]);
     }

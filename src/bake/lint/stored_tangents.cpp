@@ -1,4 +1,5 @@
 #include <cmath>
+#include <utility>
 
 #include <glm/geometric.hpp>
 
@@ -42,7 +43,7 @@ StoredTangents storedTangents(const MappedSurface& s)
     if (!result.present || !s.hasUv())
         return result;
     double compared = 0;
-    SpreadCounter angles;
+    ValueStatistics angles;
     for (std::size_t i = 0; i < s.triangleCount(); ++i) {
         const TriangleEdges edges = edgesOf(s, i);
         const double third = areaOf(edges) / 3;
@@ -57,7 +58,7 @@ StoredTangents storedTangents(const MappedSurface& s)
     }
     result.reversedW /= compared; // of nothing: NaN
     result.turned /= compared;
-    result.angle = angles.spread();
+    result.angle = spreadOf(std::move(angles));
     return result;
 }
 

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
@@ -85,7 +86,7 @@ namespace cotan::lint {
 UvQuality uvQuality(const MappedSurface& s)
 {
     UvQuality q;
-    SpreadCounter stretch, shear, gradient;
+    ValueStatistics stretch, shear, gradient;
     for (std::size_t i = 0; i < s.triangleCount(); ++i) {
         const TriangleEdges edges = edgesOf(s, i);
         const double area = areaOf(edges);
@@ -113,9 +114,9 @@ UvQuality uvQuality(const MappedSurface& s)
     q.mirrored /= whole;
     q.stretched /= whole;
     q.sheared /= whole;
-    q.stretch = stretch.spread();
-    q.shear = shear.spread();
-    q.gradient = gradient.middle();
+    q.stretch = spreadOf(std::move(stretch));
+    q.shear = spreadOf(std::move(shear));
+    q.gradient = gradient.count() > 0 ? gradient.percentile(0.5) : 0;
     return q;
 }
 

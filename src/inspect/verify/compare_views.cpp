@@ -37,7 +37,7 @@ void ViewComparison::add(const Image& expected, const Image& drawn)
                              heatMap(degrees, drawn.width, drawn.height)});
     for (const float d : degrees)
         if (d >= 0)
-            all_.push_back(d);
+            all_.add(d);
 }
 
 void ViewComparison::add(const Image& expected, const Image& drawn, const SeenHigh& seen)
@@ -56,7 +56,7 @@ void ViewComparison::add(const Image& expected, const Image& drawn, const SeenHi
 
 ComparedViews ViewComparison::finish()
 {
-    result_.all = statisticsOf(std::move(all_));
+    result_.all = all_.statistics();
     return std::move(result_);
 }
 

@@ -5,6 +5,7 @@
 #include "cotan/frame.hpp"
 #include "cotan/inspect.hpp"
 #include "cotan/render.hpp"
+#include "inspect/statistics.hpp"
 
 namespace cotan {
 
@@ -41,7 +42,7 @@ public:
 
 private:
     ComparedViews result_;
-    std::vector<float> all_;
+    AngleCounter all_;
 };
 
 } // namespace cotan

@@ -35,7 +35,7 @@ struct Spread {
     std::size_t count = 0; // of the values that count
     double mean = std::numeric_limits<double>::quiet_NaN();
     double percentile95 =
-        std::numeric_limits<double>::quiet_NaN(); // the smallest value that 95 % of the weight does not exceed
+        std::numeric_limits<double>::quiet_NaN(); // the smallest that 95 % of the weight do not exceed
     double maximum = std::numeric_limits<double>::quiet_NaN();
 };
 
