@@ -27,7 +27,7 @@ constexpr float kLeastSlope = 0.3f; // cosine by which distances are divided at 
 constexpr float kFaces = 0.1f;      // cosine from which two surfaces count as facing the same way
 constexpr float kAside = 0.35f;     // cosine below which the nearest point lies aside
 constexpr std::size_t kMostVertices = 400000; // that are measured: of more every second, third and so on
-constexpr double kMostAsked = 6e7;            // triangles that all points together may look at
+constexpr double kMostAsked = 2e7;            // triangles that all points together may look at
 constexpr std::size_t kTried = 256;           // triangles that say how many a point looks at
 constexpr std::size_t kCrowded = 2000;        // triangles that half of all points look at least at: too many
 constexpr float kSpacing = 1.0f / 256;        // of the diagonal, between points of large triangles
@@ -199,8 +199,8 @@ public:
             raise(below.triangle, below.b1, below.b2, below.distance, normal);
     }
 
-    // Vertices that nothing belongs to.
-    void addRays()
+    // Vertices that nothing belongs to: of all, or of every second, third and so on.
+    void addRays(std::size_t every)
     {
         std::vector<std::uint32_t> open;
         std::vector<std::uint8_t> asked(groups_.count, 0);
@@ -209,9 +209,9 @@ public:
                 asked[g] = 1;
                 open.push_back(std::uint32_t(i));
             }
-        parallelRanges<std::size_t>(0, open.size(), 64, [&](std::size_t begin, std::size_t end) {
+        parallelRanges<std::size_t>(0, (open.size() + every - 1) / every, 64, [&](std::size_t begin, std::size_t end) {
             for (std::size_t i = begin; i != end; ++i)
-                addRay(open[i]);
+                addRay(open[i * every]);
         });
     }
 
@@ -329,7 +329,8 @@ Result<std::size_t> stepFor(const HighSurface& high, float spacing, const Measur
     return 1 + std::size_t(work / kMostAsked);
 }
 
-Status measure(const HighSurface& high, float spacing, Measuring& measuring)
+// The result: which part of the points had to do, as by stepFor.
+Result<std::size_t> measure(const HighSurface& high, float spacing, Measuring& measuring)
 {
     std::size_t vertices = 0;
     for (std::size_t instance = 0; instance < high.names().size(); ++instance)
@@ -357,8 +358,8 @@ Status measure(const HighSurface& high, float spacing, Measuring& measuring)
         });
         before += part.indices.size() / 3;
     }
-    measuring.addRays();
-    return Done{};
+    measuring.addRays(every);
+    return every;
 }
 
 // Whether some of the rays of a triangle would start behind another one.
@@ -438,14 +439,17 @@ Result<RayStarts> makeRayStarts(const LowSurface& low, const HighSurface& high, 
         return starts;
     }
     starts.tree = body->tree;
-    Status measured = Done{};
+    Result<std::size_t> measured = 1;
     withThreads(options.threads, [&] {
         Measuring measuring(low, high, options, *body, groups, starts);
         measured = measure(high, std::max(body->edge, kSpacing * body->diagonal), measuring);
         if (!measured)
             return;
         starts.distances = measuring.distances();
-        findCrossed(low, body->diagonal, starts);
+        if (*measured == 1)
+            findCrossed(low, body->diagonal, starts);
+        else // so crowded that the rays of all triangles are looked at as they are shot
+            starts.crossed.assign(low.triangleCount(), 1);
     });
     if (!measured)
         return measured.error();

@@ -306,22 +306,24 @@ void UvRaster::row(int y, UvReach reach, UvRow& result, const UvFew& few) const
         orders.push_back(order);
         full[std::size_t(x)] = ++next[std::size_t(x)] >= few.most;
     };
-    const auto eachShown = [&](const auto& scan) {
+    const auto eachShown = [&](bool untilFull, const auto& scan) {
         Spreading spreading(std::max<std::size_t>(listed.size(), 1));
         for (std::size_t i = 0; i < listed.size(); ++i) {
+            if (untilFull && i % 128 == 0 && !std::memchr(full.data(), 0, full.size()))
+                return;
             order = std::uint32_t(limited && few.most > 1 ? spreading.next() : i);
             if (const Shown t = shownAt(listed[order]); t.first.y <= y && y <= t.last.y)
                 scan(t);
         }
     };
     if (reach == UvReach::touching)
-        eachShown([&](const Shown& t) { scanTouching(t, y, nullptr, emit); });
+        eachShown(false, [&](const Shown& t) { scanTouching(t, y, nullptr, emit); });
     else
-        eachShown([&](const Shown& t) { scanCentres(t, y, limited ? full.data() : nullptr, emit); });
+        eachShown(true, [&](const Shown& t) { scanCentres(t, y, limited ? full.data() : nullptr, emit); });
     if (reach == UvReach::gaps) {
         for (std::size_t x = 0; x < full.size(); ++x)
             full[x] = next[x] > 0;
-        eachShown([&](const Shown& t) { scanTouching(t, y, full.data(), emit); });
+        eachShown(true, [&](const Shown& t) { scanTouching(t, y, full.data(), emit); });
     }
     result.first.assign(std::size_t(width_) + 1, 0);
     std::inclusive_scan(next.begin(), next.end() - 1, result.first.begin() + 1);
