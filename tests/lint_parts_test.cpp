@@ -282,6 +282,18 @@ TEST(Readings, theStoredTangentsAreHeldAgainstGeneratedOnes)
     EXPECT_NEAR(read[5].error.mean, angleBetween({0.4, 0.3, 1}, {0.4, -0.3, 1}), 1e-4);
 }
 
+// A speck above the middle of a floor, and a point beside it: larger pixels take it for hidden.
+TEST(Seen, drawsSmallerPicturesWherePixelsAreFew)
+{
+    std::vector<Corner> speck = rectangle({0.495, 0.495}, {0.505, 0.505}, {0, 0}, {1, 1});
+    for (Corner& corner : speck)
+        corner.position.z = 0.1f;
+    const MappedSurface surface = surfaceOf(rectangle({0, 0}, {1, 1}, {0, 0}, {1, 1}) + speck);
+    const std::vector<MeshPoint> points(4096, {0, {0.48, 0, 0.52}});
+    EXPECT_EQ(lint::seen(surface, points, false).front(), 5); // the five of a floor's 14 directions that are above it
+    EXPECT_LT(lint::seen(surface, points, false, 1).front(), 5);
+}
+
 // A floor under a roof of its size: the middle of the floor shows only from below.
 TEST(Seen, countsTheDirectionsThatAPointShowsFrom)
 {

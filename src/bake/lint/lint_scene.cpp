@@ -103,16 +103,28 @@ struct Told {
 // meshes together in three steps.
 constexpr double kOfSurface = 0.4, kOfLook = 0.15, kOfWhole = 0.05;
 
+// What one surface may take, so that many of them end too.
+struct LookLimits {
+    std::size_t points = 0; // that are measured
+    double pixels = 0;      // that lint::seen draws
+};
+
+LookLimits limitsOfEach(std::size_t surfaces)
+{
+    constexpr double kOfAll = 10 * lint::kMostPixels;
+    return {pointsOfEach(surfaces), std::min(lint::kMostPixels, kOfAll / double(std::max<std::size_t>(surfaces, 1)))};
+}
+
 // Not whole where `told` has said to stop; tells three looks of that many triangles.
 PrimitiveLint lintPrimitive(const Scene& scene, const Mesh& mesh, const MappedSurface& surface, double distance,
-                            std::size_t pointCount, Told& told, double triangles)
+                            LookLimits limits, Told& told, double triangles)
 {
     const Material& material = scene.materials[std::size_t(mesh.material)];
     PrimitiveLint p;
     p.mesh = mesh.name;
     p.material = material.name;
     p.tangentsFor = material.tangentsFor;
-    const std::vector<MeshPoint> points = pointsOver(surface, pointCount);
+    const std::vector<MeshPoint> points = pointsOver(surface, limits.points);
     if (!p.tangentsFor.empty())
         eachAdvised(p.turned, [&](Frame frame) {
             return directionTurn(surface, points, {.from = Frame::mikktspace, .to = frame});
@@ -139,7 +151,8 @@ PrimitiveLint lintPrimitive(const Scene& scene, const Mesh& mesh, const MappedSu
     if (material.normalMap.present() && std::size_t(image) < scene.images.size()) {
         p.image = image;
         if (p.hasUv && hasPixels(scene.images[std::size_t(image)]))
-            p.readings = lint::readings(surface, points, madeFor(material), material, scene.images[std::size_t(image)]);
+            p.readings = lint::readings(surface, points, madeFor(material), material, scene.images[std::size_t(image)],
+                                        limits.pixels);
         p.unread = !hasPixels(scene.images[std::size_t(image)]);
         p.notJudged = whyNotJudged(p, scene.images[std::size_t(image)]);
     }
@@ -276,7 +289,7 @@ Result<LintReport> lintScene(const Scene& scene, const LintOptions& options, con
     std::size_t surfaces = 0;
     for (const auto& ways : placed)
         surfaces += std::min(ways.size(), kMostPlacings);
-    const std::size_t points = pointsOfEach(surfaces);
+    const LookLimits limits = limitsOfEach(surfaces);
     for (std::size_t i = 0; i < scene.meshes.size(); ++i) {
         const Mesh& mesh = scene.meshes[i];
         const Material& material = scene.materials[std::size_t(mesh.material)];
@@ -295,7 +308,7 @@ Result<LintReport> lintScene(const Scene& scene, const LintOptions& options, con
         for (std::size_t k = 0; k < count; ++k) {
             uses.push_back({placedBy(own, placed[i][k]), material.normalFormat, double(material.normalScale),
                             sampler.wrapU, sampler.wrapV});
-            PrimitiveLint p = lintPrimitive(scene, mesh, uses.back().surface, report.distance, points, told, share);
+            PrimitiveLint p = lintPrimitive(scene, mesh, uses.back().surface, report.distance, limits, told, share);
             if (told.stopped)
                 return stoppedError();
             p.placing = k;

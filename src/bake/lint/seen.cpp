@@ -14,7 +14,6 @@ namespace cotan::lint {
 namespace {
 
 constexpr std::size_t kWays = 14, kMostSide = 512, kLeastSide = 16; // depth pictures, and their pixels
-constexpr double kMostDrawn = 2e8;                                  // pixels of all triangles in all pictures
 constexpr double kLeastCosine = 0.05;                               // flatter faces show next to nothing
 
 struct DepthPicture {
@@ -110,12 +109,12 @@ void draw(const std::array<glm::dvec3, 3>& corners, DepthPicture& picture)
 }
 
 // Eight pixels for a point along each axis; fewer where triangles lie on one another by the hundred, so that drawing
-// them stays within kMostDrawn. area: of all triangles.
-std::size_t sideFor(std::size_t points, double area, double radius)
+// them stays within mostPixels. area: of all triangles.
+std::size_t sideFor(std::size_t points, double area, double radius, double mostPixels)
 {
     const double wanted = 8 * std::sqrt(double(points));
     const double drawn = 2 * double(kWays) * area / (4 * radius * radius); // pixels of their boxes at side 1
-    const double side = std::min(wanted, std::sqrt(kMostDrawn / drawn));
+    const double side = std::min(wanted, std::sqrt(mostPixels / drawn));
     return std::size_t(std::clamp(side, double(kLeastSide), double(kMostSide)));
 }
 
@@ -129,7 +128,8 @@ bool shows(const DepthPicture& picture, glm::dvec3 position, double cosine)
 
 } // namespace
 
-std::vector<double> seen(const MappedSurface& s, const std::vector<MeshPoint>& points, bool bothSides)
+std::vector<double> seen(const MappedSurface& s, const std::vector<MeshPoint>& points, bool bothSides,
+                         double mostPixels)
 {
     std::vector<double> weights(points.size(), 0);
     glm::dvec3 low(std::numeric_limits<double>::infinity()), high = -low;
@@ -145,7 +145,7 @@ std::vector<double> seen(const MappedSurface& s, const std::vector<MeshPoint>& p
     if (!(radius > 0) || !std::isfinite(radius))
         return std::vector<double>(points.size(), 1);
     std::vector<DepthPicture> pictures =
-        picturesAround((low + high) / 2.0, radius, sideFor(points.size(), area, radius));
+        picturesAround((low + high) / 2.0, radius, sideFor(points.size(), area, radius, mostPixels));
     const auto cosineOf = [&](glm::dvec3 face, const DepthPicture& picture) {
         const double cosine = glm::dot(face, picture.toEye);
         return bothSides ? std::abs(cosine) : cosine;
