@@ -282,16 +282,22 @@ TEST(Readings, theStoredTangentsAreHeldAgainstGeneratedOnes)
     EXPECT_NEAR(read[5].error.mean, angleBetween({0.4, 0.3, 1}, {0.4, -0.3, 1}), 1e-4);
 }
 
-// A speck above the middle of a floor, and a point beside it: larger pixels take it for hidden.
+// A speck above the middle of a floor hides a point of it that is a tenth of the largest pixel wide.
 TEST(Seen, drawsSmallerPicturesWherePixelsAreFew)
 {
-    std::vector<Corner> speck = rectangle({0.495, 0.495}, {0.505, 0.505}, {0, 0}, {1, 1});
+    std::vector<Corner> speck = rectangle({0.495, 0.495}, {0.01, 0.01}, {0, 0}, {1, 1});
     for (Corner& corner : speck)
-        corner.position.z = 0.1f;
+        corner.position.z = 0.4f;
     const MappedSurface surface = surfaceOf(rectangle({0, 0}, {1, 1}, {0, 0}, {1, 1}) + speck);
-    const std::vector<MeshPoint> points(4096, {0, {0.48, 0, 0.52}});
-    EXPECT_EQ(lint::seen(surface, points, false).front(), 5); // the five of a floor's 14 directions that are above it
-    EXPECT_LT(lint::seen(surface, points, false, 1).front(), 5);
+    std::vector<MeshPoint> points;
+    for (int i = 0; i < 4096; ++i) // along the diagonal
+        points.push_back({0, {0.3 + 0.4 * i / 4096, 0, 0.7 - 0.4 * i / 4096}});
+    const auto hidden = [&](double mostPixels) {
+        const std::vector<double> seen = lint::seen(surface, points, false, mostPixels);
+        return std::count_if(seen.begin(), seen.end(), [](double directions) { return directions < 5; });
+    };
+    EXPECT_GT(hidden(lint::kMostPixels), 0);
+    EXPECT_GT(hidden(1), 3 * hidden(lint::kMostPixels));
 }
 
 // A floor under a roof of its size: the middle of the floor shows only from below.
