@@ -26,18 +26,15 @@ class Option:
         # The help comes after two spaces, or in the next line.
         names, self.value = re.match(r"  ((?:-\w, )?--?[\w-]+(?:, --[\w-]+)*) ?(\S*)", line).groups()
         self.names = names.split(", ")
-        self.words = words_of(command, self.names[-1]) if self.value else []
+        # Any word names a file, and the command would begin its work.
+        self.words = words_of(command, self.names[-1]) if self.value and not re.match("FILE|PATH", self.value) else []
 
 
 def words_of(command, option):
-    """Those of an option that takes no others: what it says of one that it does not take, before it asks for more. A
-    command that takes it begins its work, which may be long: whatever it has to say of words it says first."""
+    """Those of an option that takes no others: what it says of one that it does not take, before it begins its work."""
     with tempfile.TemporaryDirectory() as folder:
-        try:
-            said = subprocess.run([tool, *command.split(), option, "zzz"], capture_output=True, text=True, cwd=folder,
-                                  timeout=15).stderr
-        except subprocess.TimeoutExpired:
-            return []
+        said = subprocess.run([tool, *command.split(), option, "zzz"], capture_output=True, text=True, cwd=folder,
+                              timeout=60).stderr
     told = re.search(rf"error: {option}: expected ([\w, -]+); found 'zzz' \(see", said)
     words = re.split(", | or ", told.group(1)) if told else []
     return [] if any(" " in word for word in words) else words  # "a number from 0 to 1"

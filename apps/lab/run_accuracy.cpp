@@ -1,6 +1,7 @@
 #include "lab.hpp"
 
 #include <algorithm>
+#include <memory>
 
 #include <fmt/format.h>
 
@@ -112,18 +113,22 @@ Status runAccuracy(const AccuracyCommandOptions& o)
     const auto selection = chooseRows(o);
     if (!selection)
         return selection.error();
+    std::unique_ptr<Painter> painter; // opened first: a device that is not there is no reason to measure for minutes
+    if (tables->rendered && o.device != "none") {
+        auto opened = openDevice(o.device, o);
+        if (!opened)
+            return opened.error();
+        painter = *std::move(opened);
+    }
     auto measured = withProgress(o, 1, "measuring tables", [&](const Progress& progress) {
         return measureTables(tables->computed, *selection, o.threads, progress);
     });
     if (!measured)
         return measured.error();
     std::vector<Measurement> rows = *std::move(measured);
-    if (tables->rendered && o.device != "none") {
-        const auto painter = openDevice(o.device, o);
-        if (!painter)
-            return painter.error();
+    if (painter) {
         const auto rendered = withProgress(o, 1, "drawing surfaces", [&](const Progress& progress) {
-            return figures::measureRendered(**painter, *selection, progress);
+            return figures::measureRendered(*painter, *selection, progress);
         });
         if (!rendered)
             return rendered.error();
