@@ -380,8 +380,8 @@ TEST_F(BatchRun, anInputThatChangesWhileTheJobRunsBelongsToTheNextRun)
 {
     write("a", "x");
     add({"copy", "a", "b", "a"}); // it logs into what it reads
-    EXPECT_FALSE(run()[0].kept);
-    EXPECT_FALSE(run()[0].kept);
+    for (int i = 0; i < 30; ++i)  // also where it does so within one step of the file system's clock
+        EXPECT_FALSE(run()[0].kept) << i;
 }
 
 TEST(BatchReport, worstFirstAndNothingInAJobEndsThePageEarly)

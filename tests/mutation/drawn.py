@@ -144,8 +144,8 @@ def those_that_do_not_compile(output, changed):
             if "error" in what:
                 errors |= here
         bad |= errors or mentioned
-        if not mentioned:
-            files |= named
+        if not mentioned:  # an error in a header of fmt names the file only where it says what included it
+            files |= named or {name for name in changed if f"/source/{name}" in block}
     return bad | {n for file in files for n in changed[file][1]}
 
 

@@ -1,6 +1,7 @@
 #include "batch/digest.hpp"
 
 #include <chrono>
+#include <ctime>
 #include <memory>
 #include <vector>
 
@@ -78,6 +79,13 @@ std::int64_t nowNanoseconds()
 {
     return std::chrono::duration_cast<std::chrono::nanoseconds>(std::chrono::system_clock::now().time_since_epoch())
         .count();
+}
+
+std::int64_t fileClockNanoseconds()
+{
+    timespec now{};
+    ::clock_gettime(CLOCK_REALTIME_COARSE, &now);
+    return nanoseconds(now);
 }
 
 FileState FileStates::of(const std::string& file)

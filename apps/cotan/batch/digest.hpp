@@ -26,6 +26,10 @@ struct FileState {
 // Nanoseconds since 1970, now.
 std::int64_t nowNanoseconds();
 
+// The same by the clock of file systems, which goes in steps of some milliseconds: a file that is written later is
+// never changed earlier than that, but it can be changed earlier than nowNanoseconds().
+std::int64_t fileClockNanoseconds();
+
 // The states of files in a folder. A file is read once, and again only where the system says that it was touched.
 class FileStates {
 public:

@@ -30,6 +30,7 @@ namespace {
 constexpr int kTick = 50;                                  // milliseconds between two looks at deadlines
 constexpr int kSoon = 1;                                   // where a process has closed its output and is about to end
 constexpr auto kTryAgain = std::chrono::milliseconds(200); // where all that is left runs elsewhere
+constexpr auto kFileClockStep = std::chrono::milliseconds(1);
 constexpr std::size_t kMostReportBytes = std::size_t(256) << 20;
 
 struct Running {
@@ -38,7 +39,7 @@ struct Running {
     fs::path work;
     JobProcess process;
     Claim claim;
-    std::int64_t began;
+    std::int64_t began; // by the clock of files
 };
 
 // As the record names it: relative to the folder of the jobs where it is within.
@@ -253,7 +254,10 @@ private:
             request.words.insert(request.words.end(), {"--threads", std::to_string(options_.threads)});
         if (asked.json.empty())
             request.words.insert(request.words.end(), {"--json", (request.work / kReportName).string()});
-        const std::int64_t began = nowNanoseconds();
+        // What was written before has an earlier time, what is written from now on has not.
+        while (fileClockNanoseconds() <= written_)
+            std::this_thread::sleep_for(kFileClockStep);
+        const std::int64_t began = fileClockNanoseconds();
         auto process =
             JobProcess::start(options_.program, list_.folder, request, asked.options.environment, limits.seconds);
         ++runs_[job];
@@ -335,7 +339,7 @@ private:
                 record.degrees = degreesIn({reinterpret_cast<const char*>(bytes->data()), bytes->size()});
         ChildAnswer answer = readAnswer(r.work);
         record.thumbnail = std::move(answer.thumbnail);
-        record.at = nowNanoseconds();
+        record.at = written_ = nowNanoseconds();
         record.outputs = statesOf(answer.outputs, r.work);
         answer.inputs.insert(answer.inputs.end(), job.inputs.begin(), job.inputs.end());
         record.inputs = statesOf(answer.inputs, r.work);
@@ -402,6 +406,7 @@ private:
     std::map<int, std::deque<std::size_t>, std::greater<>> ready_; // by priority
     std::vector<std::size_t> slots_;                               // that are free
     std::list<Running> running_;
+    std::int64_t written_ = nowNanoseconds(); // when files may last have been written that jobs read
     std::size_t finished_ = 0;
     CountedSteps steps_;
 };

@@ -36,8 +36,7 @@ void ViewComparison::add(const Image& expected, const Image& drawn)
     result_.views.push_back({angleStatistics(degrees), directionsAsColor(expected), directionsAsColor(drawn),
                              heatMap(degrees, drawn.width, drawn.height)});
     for (const float d : degrees)
-        if (d >= 0)
-            all_.add(d);
+        all_.add(d);
 }
 
 void ViewComparison::add(const Image& expected, const Image& drawn, const SeenHigh& seen)
