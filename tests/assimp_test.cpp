@@ -440,6 +440,23 @@ TEST_F(AssimpFile, plyKeepsColoursAsLinearLight)
     EXPECT_NEAR(glm::length(scene.meshes[0].colors[0] - glm::vec4(1, 0, 0.5029f, 1)), 0, 1e-4);
 }
 
+TEST_F(AssimpFile, positionsThatAreNotFiniteAreRefusedOnEachAxis)
+{
+    for (const std::string wrong : {"nan", "inf", "-inf"})
+        for (int axis = 0; axis < 3; ++axis) {
+            std::string numbers[3] = {"1", "1", "0"};
+            const auto file = [&] {
+                return "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
+                       "property float z\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n"
+                       "0 0 0\n1 0 0\n"
+                    + numbers[0] + " " + numbers[1] + " " + numbers[2] + "\n3 0 1 2\n";
+            };
+            EXPECT_EQ(problem("a.ply", file()), "");
+            numbers[axis] = wrong;
+            EXPECT_NE(problem("a.ply", file()), "") << wrong << ' ' << axis;
+        }
+}
+
 TEST_F(AssimpFile, plyThatCountsMoreThanItHoldsIsRefusedAtOnce)
 {
     for (const std::string count : {"4294967295", "100000000000", "-1", "x"}) {

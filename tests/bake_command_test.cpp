@@ -112,6 +112,23 @@ TEST(BakeCommand, bunnyIsDrawnLikeItsHighMesh)
         EXPECT_TRUE(std::filesystem::exists(folder / "views" / file)) << file;
 }
 
+TEST(BakeCommand, warnsOfATexelBelowTheHorizonAndOfNoneAbove)
+{
+    TemporaryFolder folder;
+    const std::string square = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n";
+    std::ofstream(folder / "low.obj") << square << "vt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nf 1/1 2/2 3/3 4/4\n";
+    for (const bool below : {true, false}) {
+        std::ofstream(folder / "high.obj")
+            << square << "vn 0 0.6 " << (below ? "-0.8" : "0.8") << "\nf 1//1 2//1 3//1 4//1\n";
+        const ToolRun r =
+            runTool({"bake", "--high", "high.obj", "--low", "low.obj", "--size", "1", "-o", "m.png", "--overwrite"},
+                    folder.path());
+        EXPECT_EQ(r.code, 0) << r.err;
+        EXPECT_EQ(r.err.find("1 of 1 covered texels look below the frame's horizon") != std::string::npos, below)
+            << r.err;
+    }
+}
+
 // A plane at z = 0 under a plane at z = 0, with a slab that floats over its middle and leans: it is what is seen.
 void writeSlab(const std::filesystem::path& folder)
 {

@@ -103,6 +103,10 @@ TEST_F(BatchCommand, runsInTheOrderOfFilesKeepsResultsAndDoesOnlyWhatChanged)
     batch({"jobs.jsonl", "-o", "report.html", "--json", "r.json", "--again"});
     EXPECT_EQ(states()["c.png"], "done");
     EXPECT_NE(readWhole(folder / "report.html").find("data:image/jpeg"), std::string::npos);
+    EXPECT_EQ(readWhole(folder / "report.html").find("the worst"), std::string::npos);
+    batch({"jobs.jsonl", "-o", "report.html", "--json", "r.json", "--rows", "3"});
+    EXPECT_NE(readWhole(folder / "report.html").find("the worst 3 of 4"), std::string::npos);
+    EXPECT_EQ(states().size(), 4u);
 }
 
 TEST_F(BatchCommand, filesThatOnlyTheModelNamesCountAsInputs)

@@ -7,12 +7,14 @@ target_compile_definitions(cli_test PRIVATE COTAN_TOOL="$<TARGET_FILE:cotan>")
 add_dependencies(cli_test cotan)
 # What is read and what is written: by functions, and by every command.
 cotan_test(files_test
-  SOURCES files_test.cpp overwrite_test.cpp
+  SOURCES files_test.cpp module_test.cpp overwrite_test.cpp
   LIBRARIES cotan_files cotan_model cotan_scene nlohmann_json::nlohmann_json fmt::fmt)
-target_compile_definitions(files_test PRIVATE COTAN_TOOL="$<TARGET_FILE:cotan>")
-add_dependencies(files_test cotan)
+add_library(module_versions MODULE module_versions.cpp)
+target_compile_definitions(files_test PRIVATE COTAN_TOOL="$<TARGET_FILE:cotan>"
+  MODULE_FOLDER="$<TARGET_FILE_DIR:module_versions>" MODULE_NAME="$<TARGET_FILE_NAME:module_versions>")
+add_dependencies(files_test cotan module_versions)
 cotan_test(help_test
-  SOURCES help_test.cpp progress_test.cpp
+  SOURCES help_test.cpp man_page_test.cpp progress_test.cpp
   LIBRARIES cotan_app cotan_scene fmt::fmt)
 target_compile_definitions(help_test PRIVATE COTAN_TOOL="$<TARGET_FILE:cotan>")
 add_dependencies(help_test cotan)

@@ -319,5 +319,17 @@ TEST(CostStages, bytesAreThoseOfWhatIsReadAndStored)
     EXPECT_EQ(stageOf(StageKind::pass, "triangle, six halfs").perTriangle, 3 * 4 + vertex / 2 + 6 * 2);
 }
 
+TEST(CostCsv, hasTheOperationsOfEachRowOfWhichFusedOnesAreFewer)
+{
+    const std::string csv = toCsv(madeUp());
+    for (const Row* row : madeUp().rows) {
+        const Operations counted = operationsOfRow(row->name);
+        const std::string lines = fmt::format("\n{0},scalar,,,total,{1}\n{0},scalar,,,total with fma,{2}\n", row->name,
+                                              counted.total(), counted.totalFused());
+        EXPECT_NE(csv.find(lines), std::string::npos) << lines;
+        EXPECT_LT(counted.totalFused(), counted.total()) << row->name;
+    }
+}
+
 } // namespace
 } // namespace cotan::cost

@@ -298,6 +298,12 @@ TEST(GltfMaterial, imagesInBufferViewsAndFilesAreRead)
     g.root["images"][0]["uri"] = "maps/flat%20map.png";
     COTAN_LOADED(file, loadGltf(folder.write("model.gltf", g.text())));
     EXPECT_EQ(file.images.at(0).width, 2);
+    for (const char* uri : {"maps/%66%6C%61%74%20map.png", "maps/fl%61t%20m%61p%2epng", "maps/flat%20map%2Epng"}) {
+        g.root["images"][0]["uri"] = uri; // digits of both cases: RFC 3986, 2.1
+        COTAN_LOADED(encoded, loadGltf(folder.write("encoded.gltf", g.text())));
+        EXPECT_EQ(encoded.images.at(0).data, file.images.at(0).data) << uri;
+        EXPECT_EQ(encoded.warnings, file.warnings) << uri;
+    }
     const int view = g.view(std::vector<char>(png.begin(), png.end()));
     g.root["images"][0] = {{"bufferView", view}, {"mimeType", "image/png"}};
     COTAN_LOADED(embedded, g.load());

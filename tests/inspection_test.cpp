@@ -301,5 +301,30 @@ TEST(Edges, areDrawnWhereTheyAreAndNotBehindOtherSurfaces)
     EXPECT_LE(seen(), 4);
 }
 
+TEST(Edges, thatGoFarBeyondTheImageAreDrawnWithoutGapsInIt)
+{
+    Scene scene = twoTriangles(0, false);
+    for (glm::vec3& p : scene.meshes[0].positions)
+        p = (p - 0.5f) * 4000.0f + glm::vec3(0, 2000, 2000); // of it only one side crosses the image, along x
+    scene.instances[0].toWorld = glm::mat4(1);
+    View view;
+    view.width = view.height = 64;
+    view.camera.orthographic = true;
+    view.camera.verticalExtent = 1.28f;
+    view.camera.eye = {0.01f, 0.01f, 5};
+    view.camera.target = {0.01f, 0.01f, 0};
+    view.output = Output::depth;
+    const auto depth = drawView(scene, view, "reference");
+    ASSERT_TRUE(depth) << depth.error().message;
+    Image picture = makeImage(64, 64, PixelType::unorm8);
+    drawEdges(picture, *depth, view.camera, surfaceEdges(scene), {false, true});
+    for (int x = 0; x < 64; ++x) {
+        int cyan = 0;
+        for (int y = 0; y < 64; ++y)
+            cyan += picture.bytes8()[4 * (y * 64 + x) + 2] == 255;
+        EXPECT_GE(cyan, 1) << x;
+    }
+}
+
 } // namespace
 } // namespace cotan

@@ -115,6 +115,11 @@ TEST(Judgement, comparisonsWithoutANormalMapHaveNoAverage)
         runTool({"convert", "quad.gltf", "--to", "smooth", "-o", "out.glb", "--verify", "v", "--device", "reference"},
                 folder.path());
     EXPECT_TRUE(says(said.err, "--verify compared nothing")) << said.err;
+    const ToolRun absent = runTool({"convert", "quad.gltf", "--to", "smooth", "-o", "o.glb", "--verify", "v",
+                                    "--device", "no such card", "--overwrite"},
+                                   folder.path());
+    EXPECT_EQ(absent.code, 3) << absent.err;
+    EXPECT_TRUE(says(absent.err, "no such card")) << absent.err;
     write(quad(2), folder.path()); // the control
     EXPECT_GT(jsonOf(compare, folder.path())["normals"]["mean_degrees"].get<double>(), 1);
     std::vector<std::string> plain = compare;

@@ -97,5 +97,20 @@ TEST(Turntable, aSceneWithoutExtentSweepsNothing)
     EXPECT_EQ(scene.instances.size(), 1u);
 }
 
+TEST(Turntable, isForThoseWhoAskForIt)
+{
+    const auto reach = [](const PictureOptions& options) {
+        auto picture = openPicture(options, 1, {FrameChoice()});
+        EXPECT_TRUE(picture) << picture.error().message;
+        return picture ? picture->scene.reach.size() : 0;
+    };
+    PictureOptions options;
+    options.shape = "torus";
+    options.device = "reference";
+    EXPECT_EQ(reach(options), 0u);
+    options.turntable = true;
+    EXPECT_GT(reach(options), 0u);
+}
+
 } // namespace
 } // namespace cotan

@@ -17,7 +17,7 @@ from plant import HOME, WORK
 
 # Which tests could notice a mistake in a folder, the nearest first; `python:` and `c_api` run over the C library.
 TESTS = {
-    "apps/cotan": "words_test cli_test output_bytes map_command_test bake_command_test tangents_command_test judgement_command_test files_test help_test batch_test batch_command_test",
+    "apps/cotan": "words_test help_test cli_test command_line output_bytes map_command_test bake_command_test tangents_command_test judgement_command_test files_test batch_test batch_command_test",
     "apps/viewer": "viewer_test view_window_test",
     "bindings/js": "web",
     "bindings/python": "python:arrays python:bake python:maps python:models python:geometry python:render python:work python:json",
@@ -32,11 +32,11 @@ TESTS = {
     "src/inspect": "viewer_test draw_test bake_command_test report_test",
     "src/maps": "map_test map_command_test",
     "src/model": "obj_test assimp_test gltf_test models_test",
-    "src/picture": "words_test viewer_test cli_test environment_test models_test",
+    "src/picture": "words_test command_line viewer_test cli_test environment_test models_test",
     "src/render": "reference_test draw_test render_test figures_test",
     "src/scene": "geometry_test shapes_test gltf_test reference_test environment_test",
     "src/shader_text": "shader_text_test frame_table_test",
-    "src/terminal": "words_test help_test cli_test",
+    "src/terminal": "words_test help_test command_line cli_test",
 }
 ENDINGS = (".cpp", ".hpp", ".h", ".py", ".js")
 BROKEN = WORK / "not_compiling.txt"  # so that another run over the same sources does not try them again
@@ -47,7 +47,7 @@ OTHERS = """defaults_test accuracy_test geometry_test assimp_test obj_test bake_
 environment_test figures_test files_test frame_table_test gltf_bad_test gltf_edit_test gltf_models_test gltf_test help_test image_test
 judgement_command_test judgement_test auto_frame_test lighting_test lint_test map_command_test map_test models_test reference_test
 render_test report_test sandbox_test shader_text_test shapes_test tangents_command_test tangents_gltf_test tangents_test viewer_test
-words_test bake_command_test batch_command_test c_facts c_api output_bytes json_fields python:arrays python:bake python:geometry
+words_test bake_command_test batch_command_test c_facts c_api command_line output_bytes json_fields python:arrays python:bake python:geometry
 python:json python:maps python:models python:render python:types python:work view_window_test""".split()
 MOST_OF_A_FILE = 6  # mistakes, so that none of them hides in another's text
 

@@ -97,6 +97,8 @@ def command_of(program):
     if name == "json_fields":
         return ["/usr/bin/python3", HOME / "tests/json_fields_test.py", BUILD / "bin/cotan",
                 HOME / "docs/reference/json.md"]
+    if name == "command_line":
+        return [HOME / "docs/reference/make-command-line", BUILD / "bin/cotan", BUILD / "share", "--check"]
     return [BUILD / "tests" / name, "--gtest_brief=1", "--gtest_fail_fast"] + ([f"--gtest_filter={chosen}"] if chosen else [])
 
 
@@ -104,9 +106,8 @@ def library():
     return next(iter(sorted(BUILD.glob("**/libcotan.so*"))), BUILD / "libcotan.so")
 
 
-
-
-SCRIPTS = {"python": {"cotan_c", "cotan"}, "c_api": {"cotan_c"}, "output_bytes": {"cotan"}, "json_fields": {"cotan"}}
+SCRIPTS = {"python": {"cotan_c", "cotan"}, "c_api": {"cotan_c"}, "output_bytes": {"cotan"}, "json_fields": {"cotan"},
+           "command_line": {"cotan"}}
 
 
 def targets_of(program):
