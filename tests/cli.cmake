@@ -10,6 +10,8 @@ cotan_test(files_test
   SOURCES files_test.cpp module_test.cpp overwrite_test.cpp
   LIBRARIES cotan_files cotan_model cotan_scene nlohmann_json::nlohmann_json fmt::fmt)
 add_library(module_versions MODULE module_versions.cpp)
+# Not beside the tests, where it would be found whatever folder is asked for.
+set_target_properties(module_versions PROPERTIES LIBRARY_OUTPUT_DIRECTORY ${CMAKE_CURRENT_BINARY_DIR}/modules)
 target_compile_definitions(files_test PRIVATE COTAN_TOOL="$<TARGET_FILE:cotan>"
   MODULE_FOLDER="$<TARGET_FILE_DIR:module_versions>" MODULE_NAME="$<TARGET_FILE_NAME:module_versions>")
 add_dependencies(files_test cotan module_versions)
