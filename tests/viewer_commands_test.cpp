@@ -119,7 +119,7 @@ TEST(ViewerCommands, sidesAreSetApartAndExchanged)
     for (const char* line : lines)
         all = after(line, all);
     EXPECT_EQ(all.a.frame, "smooth");
-    EXPECT_EQ(all.a.tangents, "generated");
+    EXPECT_EQ(all.a.tangents, TangentOrigin::generated);
     EXPECT_EQ(all.a.normalMap, "a b.png");
     EXPECT_EQ(all.a.convention, "directx");
     EXPECT_EQ(after("convention ", all).a.convention, "");
@@ -215,7 +215,8 @@ TEST(ViewerCommands, withoutSurroundingsTheirOptionsGo)
         bare = after("set environment none", bare);
         EXPECT_EQ(bare.picture.environmentRotation, 0);
         EXPECT_EQ(bare.picture.environmentIntensity, 1);
-        EXPECT_EQ(bare.picture.background, std::string(background) == "paper" ? "paper" : "");
+        EXPECT_EQ(bare.picture.background,
+                  std::string(background) == "paper" ? std::optional(Background::paper) : std::nullopt);
     }
 }
 

@@ -73,7 +73,7 @@ struct HeadlessSession {
         state.size = {64, 48};
         state.picture.device = "reference";
         state.picture.samples = 1;
-        state.picture.ground = "off";
+        state.picture.ground = false;
         return state;
     }
     explicit HeadlessSession(State state = small()) : parts(std::move(state), quiet(options))

@@ -63,9 +63,10 @@ Status setSide(Side& side, const std::string& what, const std::string& value)
     if (what == "frame")
         return setFrame(side, value);
     if (what == "tangents") {
-        if (value != "stored" && value != "generated")
+        const auto known = cotan::valueOf(kTangentOrigins, value);
+        if (!known)
             return expected("tangents", "stored or generated", value);
-        side.tangents = value;
+        side.tangents = *known;
     } else if (what == "normal-map") {
         side.normalMap = value;
     } else if (what == "convention") {
@@ -196,7 +197,7 @@ Status performSet(State& state, Words& words)
         return expected("set", "an option of the picture", name);
     if (Status set = setValue(*setting, words.rest, state.picture); !set)
         return set;
-    if (setting->meters)
+    if (setting->after == Setting::After::metering)
         state.metered = 0;
     if (name == "exposure")
         state.meteredFrom = state.cameraMoved ? cameraWords(state.camera) : "";
@@ -204,9 +205,9 @@ Status performSet(State& state, Words& words)
         state.picture.time = 0;
     if (state.picture.animation.empty())
         state.playing = false;
-    if (setting->loads)
+    if (setting->after == Setting::After::loading)
         wish(state, Wish::Kind::load, state.picture.model);
-    if (setting->poses)
+    if (setting->after == Setting::After::posing)
         wish(state, Wish::Kind::pose);
     return Done{};
 }
@@ -299,8 +300,8 @@ void settle(PictureOptions& o)
         return;
     o.environmentRotation = 0;
     o.environmentIntensity = 1;
-    if (o.background == "environment" || o.background == "blur")
-        o.background.clear();
+    if (o.background == Background::sharp || o.background == Background::blurred)
+        o.background.reset();
 }
 
 Status performOne(State& state, const std::string& line)

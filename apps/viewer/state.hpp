@@ -31,7 +31,7 @@ struct Model {
 // What one of two pictures differs in from the other.
 struct Side {
     std::string frame = "auto"; // or a frame's name
-    std::string tangents = "stored";
+    TangentOrigin tangents = TangentOrigin::stored;
     std::string normalMap;  // a file; empty: the model's own
     std::string convention; // words; empty: as the file says
 
