@@ -183,7 +183,7 @@ TEST(ViewerInput, whatCannotBeDoneIsSaidAndChangesNothing)
         state.problem.clear();
         state.said.clear();
         EXPECT_EQ(reportOf(state), before) << line;
-        EXPECT_TRUE(state.wishes.empty()) << line;
+        EXPECT_TRUE(state.requests.empty()) << line;
     }
 }
 

@@ -81,7 +81,7 @@ void forgetHotSpots(State& state)
     state.hotSpots.reset();
     state.hotSpot.reset();
     if (state.hotSpotsShown)
-        state.wishes.push_back({Wish::Kind::findHotSpots, {}, {}});
+        state.requests.push_back(request::FindHotSpots{});
 }
 
 void resetCamera(State& state)

@@ -89,13 +89,12 @@ void addUpOption(Arguments& a, Up& up, const std::string& what)
              "axis of " + what
                  + " that points up: y; or z, as in PLY and STL of Blender and CAD, which rotates it by 90 degrees "
                    "about x")
-        .in("NAME")
         .under(HelpGroup::input);
 }
 
 void addTangentsOption(Arguments& a, TangentOrigin& tangents, const std::string& help)
 {
-    a.choice("--tangents", tangents, kTangentOrigins, help).in("NAME").under(HelpGroup::frame);
+    a.choice("--tangents", tangents, kTangentOrigins, help).under(HelpGroup::frame);
 }
 
 void addDeviceOption(Arguments& a, std::string& device, const std::string& use)
@@ -126,7 +125,6 @@ void addLightOptions(Arguments& a, PictureOptions& o)
     a.choice("--tone-mapping", o.toneMapping, kToneMappings,
              "how bright light becomes a colour: none (clamped to 1), neutral (Khronos PBR Neutral), aces (Narkowicz's "
              "curve) or agx; files that keep floats stay linear")
-        .in("NAME")
         .under(HelpGroup::look);
     a.option(
          "--environment", o.environment,
@@ -145,11 +143,9 @@ void addLightOptions(Arguments& a, PictureOptions& o)
     a.choice("--background", o.background, kBackgrounds,
              "what is behind the model: paper (a photographer's; the default in the studio), blur (the environment out "
              "of focus; the default in others), environment, gradient (the default without), or none (transparent)")
-        .in("NAME")
         .under(HelpGroup::look);
     a.choice("--ground", o.ground, kGrounds,
-             "on: the model stands on level ground, which only shows its shadow; off: it floats")
-        .in("NAME");
+             "on: the model stands on level ground, which only shows its shadow; off: it floats");
     a.option("--shadow-softness", o.shadowSoftness,
              "angle that the light which casts shadows covers, seen from the model: 0 for sharp edges, 0.5 for the sun "
              "(default: 10, in the evening 3)")
@@ -229,8 +225,7 @@ void addPictureOptions(Arguments& a, PictureOptions& o)
     a.group(HelpGroup::input);
     a.option("MODEL", o.model, "glTF, GLB, OBJ, PLY, STL, COLLADA, FBX or 3DS file; the built-in scene if left out")
         .reads();
-    a.choice("--shape", o.shape, kShapes, "without MODEL: shape to show maps on: plane, sphere, torus or teapot")
-        .in("NAME");
+    a.choice("--shape", o.shape, kShapes, "without MODEL: shape to show maps on: plane, sphere, torus or teapot");
     addUpOption(a, o.up);
     addMemoryOption(a, o.memory);
     addOwnMaps(a, o.maps);
@@ -272,17 +267,14 @@ void addPictureOptions(Arguments& a, PictureOptions& o)
     addDeviceOption(a, o.device);
     a.group(HelpGroup::diagnostics);
     a.choice("--edges", o.edges, kEdges,
-             "lines over the image: none, triangles, seams (of uv: yellow; mirrored: magenta; borders: cyan) or all")
-        .in("NAME");
-    a.choice("--shading", o.shading, kShadings, "shading model: pbr or blinn-phong").in("NAME").under(HelpGroup::look);
+             "lines over the image: none, triangles, seams (of uv: yellow; mirrored: magenta; borders: cyan) or all");
+    a.choice("--shading", o.shading, kShadings, "shading model: pbr or blinn-phong").under(HelpGroup::look);
     a.choice("--lighting", o.lighting, kLightings,
              "space to light in: world; or tangent space, entered per vertex (tangent-vertex) or per pixel "
-             "(tangent-pixel), for comparison and on the reference device only")
-        .in("NAME");
+             "(tangent-pixel), for comparison and on the reference device only");
     a.choice("--normal-mapping", o.normalMapping, kNormalMappings,
              "what a perturbed normal does: shading; or by rays, on the reference device only: rays (light from below "
-             "the surface is lost), shadowed, facets (a second facet makes up for it), mirror-facet")
-        .in("NAME");
+             "the surface is lost), shadowed, facets (a second facet makes up for it), mirror-facet");
     addTangentsOption(
         a, o.tangents,
         "for the frames vertex and mikktspace: stored (as in the file, generated where missing) or generated");
@@ -294,9 +286,8 @@ void addPictureOptions(Arguments& a, PictureOptions& o)
     addLightOptions(a, o);
     a.group(HelpGroup::diagnostics);
     a.choice("--rows", o.rowsUpward, kRows,
-             "whether the rows of the render target run down or up; the image is upright either way")
-        .in("NAME");
-    a.choice("--derivatives", o.derivatives, kDerivatives, "screen derivatives: fine or coarse").in("NAME");
+             "whether the rows of the render target run down or up; the image is upright either way");
+    a.choice("--derivatives", o.derivatives, kDerivatives, "screen derivatives: fine or coarse");
     a.flag("--no-normal-maps", o.noNormalMaps, "use interpolated normals only");
     a.flag("--specular-antialiasing", o.specularAntialiasing,
            "light 16 to 256 normals of a pixel, the more the sharper, each rougher by what is smaller than its part of "

@@ -103,7 +103,7 @@ public:
             value = *valueOf(words, word);
             return Done{};
         };
-        return option(names, wordOf(words, value), take, help).from(wordsOf(words));
+        return option(names, wordOf(words, value), take, help).from(wordsOf(words)).in("NAME");
     }
     Argument flag(const std::string& name, bool& value, const std::string& help);
     // An option that prints a text and does nothing else, such as a list.
