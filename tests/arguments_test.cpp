@@ -96,6 +96,41 @@ TEST(Arguments, choicesAreTakenAndNothingElse)
         expectTaken("--word", bad, "expected a, b or c; found '" + std::string(bad) + "'");
 }
 
+// What an option's own reading refuses is an error of the work: help and plans of jobs come before it.
+TEST(Arguments, aTextThatIsNoValueEndsTheCommandInPlaceOfItsWork)
+{
+    Arguments tool("tool", "what it is", "1.2.3");
+    Arguments command = tool.command("do", "what it does");
+    std::string taken;
+    int runs = 0;
+    command.option(
+        "--even", "2",
+        [&](const std::string& text) -> Status {
+            taken = text;
+            return text == "4" ? Status(Done{}) : Status(usageError("--even: expected 4"));
+        },
+        "an even number");
+    command.does([&] {
+        ++runs;
+        return Status(Done{});
+    });
+    std::string printed;
+    const auto run = [&](std::vector<std::string> words) {
+        return tool.run(std::move(words), [&](const std::string& text) { printed += text; });
+    };
+    EXPECT_EQ(tool.describe().commands.at(0).options.back().usual, "2");
+    const Status wrong = run({"do", "--even", "3"});
+    ASSERT_FALSE(wrong);
+    EXPECT_EQ(wrong.error().message, "--even: expected 4");
+    EXPECT_EQ(runs, 0);
+    EXPECT_TRUE(run({"do", "--even", "3", "--help"}));
+    EXPECT_NE(printed.find("an even number"), std::string::npos);
+    EXPECT_TRUE(tool.parse({"do", "--even", "3"}));
+    EXPECT_TRUE(run({"do", "--even", "4"}));
+    EXPECT_EQ(taken, "4");
+    EXPECT_EQ(runs, 1);
+}
+
 TEST(Arguments, whatIsWrongComesFirstAndThenWithWhat)
 {
     const std::pair<std::vector<std::string>, std::string> cases[] = {

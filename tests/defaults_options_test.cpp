@@ -105,7 +105,12 @@ TEST(Defaults, ofPicturesAreThoseOfTheHelp)
     EXPECT_EQ(o.time, 0);
     EXPECT_EQ(o.environmentRotation, 0);
     EXPECT_EQ(o.environmentIntensity, 1);
-    EXPECT_LT(o.shadowSoftness, 0);
+    EXPECT_FALSE(o.shadowSoftness);
+    EXPECT_FALSE(o.exposure);
+    EXPECT_FALSE(o.background);
+    EXPECT_TRUE(o.ground);
+    EXPECT_FALSE(o.rowsUpward);
+    EXPECT_EQ(o.size, (PictureSize{1280, 720}));
     EXPECT_FALSE(o.noShadows);
     EXPECT_FALSE(o.noNormalMaps);
     EXPECT_FALSE(o.pointSampled);

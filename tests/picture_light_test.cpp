@@ -78,16 +78,16 @@ TEST(PictureLight, eachOptionSetsItsOwnFieldOfTheView)
     EXPECT_NEAR(viewWith([](Options& o) { o.shadowSoftness = 20; }).shadowSoftness, tangent(20), 1e-6);
     EXPECT_EQ(viewWith([](Options& o) { o.shadowSoftness = 0; }).shadowSoftness, 0);
     EXPECT_FALSE(viewWith([](Options& o) { o.noShadows = true; }).shadows);
-    EXPECT_EQ(viewWith([](Options& o) { o.exposure = "0.25"; }).exposure, 0.25f);
+    EXPECT_EQ(viewWith([](Options& o) { o.exposure = 0.25f; }).exposure, 0.25f);
     EXPECT_EQ(viewWith([](Options& o) { o.environment = "overcast"; }).backdrop, Backdrop::blurred);
     EXPECT_EQ(viewWith([](Options& o) { o.environment = "none"; }).backdrop, Backdrop::gradient);
-    EXPECT_FALSE(viewWith([](Options& o) { o.background = "none"; }).background);
-    EXPECT_EQ(viewWith([](Options& o) { o.background = "environment"; }).backdrop, Backdrop::sharp);
-    EXPECT_EQ(viewWith([](Options& o) { o.background = "blur"; }).backdrop, Backdrop::blurred);
-    EXPECT_EQ(viewWith([](Options& o) { o.background = "gradient"; }).backdrop, Backdrop::gradient);
-    EXPECT_EQ(viewWith([](Options& o) { o.toneMapping = "none"; }).toneMapping, ToneMapping::none);
-    EXPECT_EQ(viewWith([](Options& o) { o.toneMapping = "aces"; }).toneMapping, ToneMapping::aces);
-    EXPECT_EQ(viewWith([](Options& o) { o.toneMapping = "agx"; }).toneMapping, ToneMapping::agx);
+    EXPECT_FALSE(viewWith([](Options& o) { o.background = Background::none; }).background);
+    EXPECT_EQ(viewWith([](Options& o) { o.background = Background::sharp; }).backdrop, Backdrop::sharp);
+    EXPECT_EQ(viewWith([](Options& o) { o.background = Background::blurred; }).backdrop, Backdrop::blurred);
+    EXPECT_EQ(viewWith([](Options& o) { o.background = Background::gradient; }).backdrop, Backdrop::gradient);
+    EXPECT_EQ(viewWith([](Options& o) { o.toneMapping = ToneMapping::none; }).toneMapping, ToneMapping::none);
+    EXPECT_EQ(viewWith([](Options& o) { o.toneMapping = ToneMapping::aces; }).toneMapping, ToneMapping::aces);
+    EXPECT_EQ(viewWith([](Options& o) { o.toneMapping = ToneMapping::agx; }).toneMapping, ToneMapping::agx);
 }
 
 TEST(PictureLight, withoutAnEnvironmentItsOptionsAreRefusedByName)
@@ -97,8 +97,8 @@ TEST(PictureLight, withoutAnEnvironmentItsOptionsAreRefusedByName)
         const char* said;
     };
     for (const Row& row :
-         {Row{[](Options& o) { o.background = "blur"; }, "--background blur: expected an --environment"},
-          {[](Options& o) { o.background = "environment"; }, "--background environment: expected"},
+         {Row{[](Options& o) { o.background = Background::blurred; }, "--background blur: expected an --environment"},
+          {[](Options& o) { o.background = Background::sharp; }, "--background environment: expected"},
           {[](Options& o) { o.environmentRotation = 1; }, "--environment-rotation: expected"},
           {[](Options& o) { o.environmentIntensity = 2; }, "--environment-intensity: expected"}}) {
         Options o = optionsWith(row.set);

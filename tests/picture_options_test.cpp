@@ -16,9 +16,9 @@ namespace {
 
 TEST(PictureWords, sizesReachFromOneTo16384OnEachSide)
 {
-    EXPECT_EQ(*parseSize("1x16384"), std::pair(1, 16384));
-    EXPECT_EQ(*parseSize("16384x1"), std::pair(16384, 1));
-    EXPECT_EQ(*parseSize("512"), std::pair(512, 512));
+    EXPECT_EQ(*parseSize("1x16384"), (PictureSize{1, 16384}));
+    EXPECT_EQ(*parseSize("16384x1"), (PictureSize{16384, 1}));
+    EXPECT_EQ(*parseSize("512"), (PictureSize{512, 512}));
     for (const char* wrong : {"0x5", "5x0", "16385x5", "5x16385", "-1x5", "0", "16385", "", "5x", "x5", "5x5x5",
                               "5.5x5", " 5x5", "99999999999x5"})
         EXPECT_FALSE(parseSize(wrong)) << wrong;
@@ -26,9 +26,9 @@ TEST(PictureWords, sizesReachFromOneTo16384OnEachSide)
 
 TEST(PictureWords, picturesHaveSizesByNameAndMapsDoNot)
 {
-    EXPECT_EQ(*parsePictureSize("1080p"), std::pair(1920, 1080));
-    EXPECT_EQ(*parsePictureSize("square"), std::pair(1024, 1024));
-    EXPECT_EQ(*parsePictureSize("640x480"), std::pair(640, 480));
+    EXPECT_EQ(*parsePictureSize("1080p"), (PictureSize{1920, 1080}));
+    EXPECT_EQ(*parsePictureSize("square"), (PictureSize{1024, 1024}));
+    EXPECT_EQ(*parsePictureSize("640x480"), (PictureSize{640, 480}));
     EXPECT_FALSE(parsePictureSize("1080q"));
     EXPECT_FALSE(parseSize("1080p"));
     for (const std::string& word : sizePresetWords())
@@ -91,7 +91,7 @@ TEST(PictureWords, rowsRunTheWayThatWasAskedFor)
 {
     PictureOptions options;
     EXPECT_FALSE(loadPicture(options, quiet(), {Frame::cotangent})->view.rowsUpward);
-    options.rows = "up";
+    options.rowsUpward = true;
     EXPECT_TRUE(loadPicture(options, quiet(), {Frame::cotangent})->view.rowsUpward);
 }
 
@@ -134,7 +134,7 @@ TEST(PictureWords, picturesAreOfAStudioUnlessTheyAreToldOtherwise)
     EXPECT_NEAR(loadPicture(options, quiet(), {Frame::cotangent})->view.shadowSoftness, 0.0262f, 1e-4f); // 1.5 degrees
 
     options.environment = "none";
-    options.exposure = "1.5";
+    options.exposure = 1.5f;
     options.shadowSoftness = 0;
     const auto plain = loadPicture(options, quiet(), {Frame::cotangent});
     ASSERT_TRUE(plain);
@@ -149,6 +149,157 @@ TEST(PictureWords, picturesAreOfAStudioUnlessTheyAreToldOtherwise)
     const auto data = loadPicture(normals, quiet(), {Frame::cotangent});
     ASSERT_TRUE(data);
     EXPECT_FALSE(data->view.environmentMap || data->meter);
+}
+
+// ---- words and values --------------------------------------------------------------------------------
+
+struct WordRow {
+    const char *option, *word;
+    bool (*holds)(const PictureOptions&);
+};
+using Options = PictureOptions;
+constexpr WordRow kWordRows[] = {
+    {"--up", "y", [](const Options& o) { return o.up == Up::y; }},
+    {"--up", "z", [](const Options& o) { return o.up == Up::z; }},
+    {"--edges", "none", [](const Options& o) { return o.edges == Edges::none; }},
+    {"--edges", "triangles", [](const Options& o) { return o.edges == Edges::triangles; }},
+    {"--edges", "seams", [](const Options& o) { return o.edges == Edges::seams; }},
+    {"--edges", "all", [](const Options& o) { return o.edges == Edges::all; }},
+    {"--shading", "pbr", [](const Options& o) { return o.shading == Shading::pbr; }},
+    {"--shading", "blinn-phong", [](const Options& o) { return o.shading == Shading::blinnPhong; }},
+    {"--lighting", "world", [](const Options& o) { return o.lighting == Lighting::world; }},
+    {"--lighting", "tangent-vertex", [](const Options& o) { return o.lighting == Lighting::tangentVertex; }},
+    {"--lighting", "tangent-pixel", [](const Options& o) { return o.lighting == Lighting::tangentPixel; }},
+    {"--normal-mapping", "shading", [](const Options& o) { return o.normalMapping == NormalMapping::shading; }},
+    {"--normal-mapping", "rays", [](const Options& o) { return o.normalMapping == NormalMapping::rays; }},
+    {"--normal-mapping", "shadowed", [](const Options& o) { return o.normalMapping == NormalMapping::shadowed; }},
+    {"--normal-mapping", "facets", [](const Options& o) { return o.normalMapping == NormalMapping::facets; }},
+    {"--normal-mapping", "mirror-facet",
+     [](const Options& o) { return o.normalMapping == NormalMapping::mirrorFacet; }},
+    {"--tangents", "stored", [](const Options& o) { return o.tangents == TangentOrigin::stored; }},
+    {"--tangents", "generated", [](const Options& o) { return o.tangents == TangentOrigin::generated; }},
+    {"--tone-mapping", "none", [](const Options& o) { return o.toneMapping == ToneMapping::none; }},
+    {"--tone-mapping", "neutral", [](const Options& o) { return o.toneMapping == ToneMapping::neutral; }},
+    {"--tone-mapping", "aces", [](const Options& o) { return o.toneMapping == ToneMapping::aces; }},
+    {"--tone-mapping", "agx", [](const Options& o) { return o.toneMapping == ToneMapping::agx; }},
+    {"--background", "paper", [](const Options& o) { return o.background == Background::paper; }},
+    {"--background", "blur", [](const Options& o) { return o.background == Background::blurred; }},
+    {"--background", "environment", [](const Options& o) { return o.background == Background::sharp; }},
+    {"--background", "gradient", [](const Options& o) { return o.background == Background::gradient; }},
+    {"--background", "none", [](const Options& o) { return o.background == Background::none; }},
+    {"--ground", "on", [](const Options& o) { return o.ground; }},
+    {"--ground", "off", [](const Options& o) { return !o.ground; }},
+    {"--rows", "down", [](const Options& o) { return !o.rowsUpward; }},
+    {"--rows", "up", [](const Options& o) { return o.rowsUpward; }},
+    {"--derivatives", "fine", [](const Options& o) { return o.derivatives == Derivatives::fine; }},
+    {"--derivatives", "coarse", [](const Options& o) { return o.derivatives == Derivatives::coarse; }},
+    {"--shape", "plane", [](const Options& o) { return o.shape == "plane"; }},
+    {"--shape", "teapot", [](const Options& o) { return o.shape == "teapot"; }},
+    {"--samples", "16", [](const Options& o) { return o.samples == 16; }},
+    {"--exposure", "auto", [](const Options& o) { return !o.exposure; }},
+    {"--exposure", "0.25", [](const Options& o) { return o.exposure == 0.25f; }},
+    {"--size", "640x480",
+     [](const Options& o) {
+         return o.size == PictureSize{640, 480};
+     }},
+};
+
+// Reads the words of one option into `options`; what its help then says of its default is the word of that value.
+Status readInto(PictureOptions& options, const std::string& option, const std::string& word, std::string* usual = {})
+{
+    const auto declared = [&options] {
+        Arguments tool("tool", "", "");
+        addPictureOptions(tool, options);
+        tool.does([] { return Done{}; });
+        return tool;
+    };
+    const Status done = declared().run({option, word}, {});
+    for (const OptionHelp& help : declared().describe().options)
+        if (usual && help.names.back() == option)
+            *usual = help.usual;
+    return done;
+}
+
+TEST(PictureWords, eachWordOfAnOptionIsOneValueAndBack)
+{
+    for (const WordRow& row : kWordRows) {
+        PictureOptions options;
+        for (const WordRow& other : kWordRows) // from any other value
+            if (std::string(other.option) == row.option) {
+                EXPECT_TRUE(readInto(options, other.option, other.word)) << other.word;
+            }
+        std::string usual;
+        EXPECT_TRUE(readInto(options, row.option, row.word, &usual)) << row.option << " " << row.word;
+        EXPECT_EQ(usual, row.word) << row.option;
+        for (const WordRow& other : kWordRows)
+            if (std::string(other.option) == row.option) {
+                EXPECT_EQ(other.holds(options), &other == &row) << row.option << " " << row.word << " " << other.word;
+            }
+    }
+    PictureOptions options;
+    EXPECT_TRUE(readInto(options, "--shadow-softness", "0.5"));
+    EXPECT_EQ(options.shadowSoftness, 0.5);
+}
+
+TEST(PictureWords, anotherWordIsRefusedWithThoseThatThereAre)
+{
+    for (const auto& [option, expected] : {std::pair("--up", "y or z"),
+                                           {"--edges", "none, triangles, seams or all"},
+                                           {"--shading", "pbr or blinn-phong"},
+                                           {"--lighting", "world, tangent-vertex or tangent-pixel"},
+                                           {"--normal-mapping", "shading, rays, shadowed, facets or mirror-facet"},
+                                           {"--tangents", "stored or generated"},
+                                           {"--tone-mapping", "none, neutral, aces or agx"},
+                                           {"--background", "paper, blur, environment, gradient or none"},
+                                           {"--ground", "on or off"},
+                                           {"--rows", "down or up"},
+                                           {"--derivatives", "fine or coarse"},
+                                           {"--shape", "plane, sphere, torus or teapot"},
+                                           {"--samples", "1, 4 or 16"},
+                                           {"--exposure", "auto or a number above 0 and at most 1e6"},
+                                           {"--shadow-softness", "a number from 0 to 60"}})
+        for (const std::string wrong : {"prb", ""}) {
+            PictureOptions options;
+            const Status done = readInto(options, option, wrong);
+            ASSERT_FALSE(done) << option;
+            EXPECT_EQ(done.error().kind, ErrorKind::usage);
+            EXPECT_EQ(done.error().message,
+                      std::string(option) + ": expected " + expected + "; found '" + wrong + "' (see tool --help)");
+        }
+}
+
+TEST(PictureWords, aSizeThatIsNoneIsWhatTheCommandEndsWith)
+{
+    PictureOptions options;
+    const Status done = readInto(options, "--size", "640x");
+    ASSERT_FALSE(done);
+    EXPECT_EQ(done.error().kind, ErrorKind::usage);
+    EXPECT_EQ(done.error().message,
+              "--size: expected WxH, or one number for both, each from 1 to 16384, or thumbnail, 720p, 1080p, 1440p, "
+              "2160p, square; found '640x'");
+    EXPECT_EQ(options.size, (PictureSize{1280, 720}));
+    for (const PictureSize size : {PictureSize{0, 1}, {1, 0}, {16385, 1}, {1, 16385}, {-1, 5}}) {
+        PictureOptions wrong;
+        wrong.size = size;
+        const auto picture = openPicture(wrong, 1, {Frame::cotangent});
+        ASSERT_FALSE(picture) << size.width << " " << size.height;
+        EXPECT_EQ(picture.error().kind, ErrorKind::usage);
+        EXPECT_EQ(picture.error().message.find("--size: expected WxH, each from 1 to 16384; found '"), 0u);
+        EXPECT_FALSE(viewOf(wrong, Scene()));
+    }
+}
+
+TEST(PictureWords, lightingThatDoesNotGoTogetherIsToldInItsWords)
+{
+    PictureOptions options;
+    options.normalMapping = NormalMapping::mirrorFacet;
+    options.shading = Shading::blinnPhong;
+    options.lighting = Lighting::tangentPixel;
+    const Status done = checkLighting(options, Frame::cotangent);
+    ASSERT_FALSE(done);
+    EXPECT_EQ(done.error().message,
+              "--normal-mapping mirror-facet: expected --shading pbr and --lighting world with it; found blinn-phong "
+              "and tangent-pixel");
 }
 
 TEST(PictureWords, exposureIsAutoOrAPositiveNumber)

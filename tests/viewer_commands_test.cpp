@@ -36,14 +36,12 @@ TEST(ViewerCommands, sizesAreOneTo16384OnEachSide)
 {
     for (const auto& [width, height] : {std::pair{1, 1}, {1, 16384}, {16384, 1}, {640, 360}}) {
         const State s = after(fmt::format("size {} {}", width, height));
-        ASSERT_EQ(s.wishes.size(), 1u);
-        EXPECT_TRUE(s.wishes[0].kind == Wish::Kind::resize);
-        EXPECT_EQ(s.wishes[0].size, glm::ivec2(width, height));
+        ASSERT_EQ(s.requests.size(), 1u);
+        EXPECT_EQ(std::get<request::Resize>(s.requests[0]).size, glm::ivec2(width, height));
         const State p = after(fmt::format("picture a.png {} {}", width, height));
-        ASSERT_EQ(p.wishes.size(), 1u);
-        EXPECT_TRUE(p.wishes[0].kind == Wish::Kind::writeFile);
-        EXPECT_EQ(p.wishes[0].size, glm::ivec2(width, height));
-        EXPECT_EQ(p.wishes[0].text, "a.png");
+        ASSERT_EQ(p.requests.size(), 1u);
+        EXPECT_EQ(std::get<request::WritePicture>(p.requests[0]).size, glm::ivec2(width, height));
+        EXPECT_EQ(std::get<request::WritePicture>(p.requests[0]).file, "a.png");
     }
     for (const char* wrong : {"0 1", "1 0", "16385 1", "1 16385", "-5 7", "7", "x 7", "7 x"})
         EXPECT_TRUE(refused(fmt::format("size {}", wrong))) << wrong;
@@ -53,14 +51,14 @@ TEST(ViewerCommands, sizesAreOneTo16384OnEachSide)
     s.size = {300, 200};
     for (const char* file : {"my file.png", "a.png", "7.png", "a 7.png", "a b 7", "16 9 x.png"}) {
         const State written = after(std::string("picture ") + file, s);
-        ASSERT_EQ(written.wishes.size(), 1u) << file;
-        EXPECT_EQ(written.wishes[0].text, file);
-        EXPECT_EQ(written.wishes[0].size, glm::ivec2(300, 200));
+        ASSERT_EQ(written.requests.size(), 1u) << file;
+        EXPECT_EQ(std::get<request::WritePicture>(written.requests[0]).file, file);
+        EXPECT_EQ(std::get<request::WritePicture>(written.requests[0]).size, glm::ivec2(300, 200));
     }
     const State both = after("picture my file.png 64 32", s);
-    ASSERT_EQ(both.wishes.size(), 1u);
-    EXPECT_EQ(both.wishes[0].text, "my file.png");
-    EXPECT_EQ(both.wishes[0].size, glm::ivec2(64, 32));
+    ASSERT_EQ(both.requests.size(), 1u);
+    EXPECT_EQ(std::get<request::WritePicture>(both.requests[0]).file, "my file.png");
+    EXPECT_EQ(std::get<request::WritePicture>(both.requests[0]).size, glm::ivec2(64, 32));
 }
 
 TEST(ViewerCommands, numbersAreHeldInTheirRange)
@@ -92,11 +90,11 @@ TEST(ViewerCommands, eachSwitchTurnsItsOwnFieldAndBack)
         }
     }
     const State listed = after("toggle hot-spots", before);
-    ASSERT_EQ(listed.wishes.size(), 1u); // nobody has looked for them yet
-    EXPECT_TRUE(listed.wishes[0].kind == Wish::Kind::findHotSpots);
+    ASSERT_EQ(listed.requests.size(), 1u); // nobody has looked for them yet
+    EXPECT_TRUE(std::holds_alternative<request::FindHotSpots>(listed.requests[0]));
     State found = before;
     found.hotSpots.emplace();
-    EXPECT_TRUE(after("toggle hot-spots", found).wishes.empty());
+    EXPECT_TRUE(after("toggle hot-spots", found).requests.empty());
     found.hotSpotsShown = true;
     found.hotSpot = 0;
     EXPECT_FALSE(after("toggle hot-spots", found).hotSpot);
@@ -119,7 +117,7 @@ TEST(ViewerCommands, sidesAreSetApartAndExchanged)
     for (const char* line : lines)
         all = after(line, all);
     EXPECT_EQ(all.a.frame, "smooth");
-    EXPECT_EQ(all.a.tangents, "generated");
+    EXPECT_EQ(all.a.tangents, TangentOrigin::generated);
     EXPECT_EQ(all.a.normalMap, "a b.png");
     EXPECT_EQ(all.a.convention, "directx");
     EXPECT_EQ(after("convention ", all).a.convention, "");
@@ -151,28 +149,26 @@ TEST(ViewerCommands, whatTheSessionDoesIsAskedForWithItsWords)
 {
     State s = start();
     s.picture.model = "here.glb";
-    const std::vector<std::tuple<const char*, Wish::Kind, const char*>> asked = {
-        {"open a b.glb", Wish::Kind::load, "a b.glb"},
-        {"drop c.obj", Wish::Kind::load, "c.obj"},
-        {"reload", Wish::Kind::load, "here.glb"},
-        {"paste", Wish::Kind::paste, ""},
-        {"choose", Wish::Kind::chooseFile, ""},
-        {"find-hot-spots", Wish::Kind::findHotSpots, ""},
-        {"lose-surface", Wish::Kind::loseSurface, ""},
-        {"quit", Wish::Kind::quit, ""},
-        {"window w.png", Wish::Kind::writeWindow, "w.png"},
-        {"report r.txt", Wish::Kind::writeReport, "r.txt"}};
-    for (const auto& [line, kind, text] : asked) {
+    const auto asks = [&](const char* line) {
         const State done = after(line, s);
-        ASSERT_EQ(done.wishes.size(), 1u) << line;
-        EXPECT_TRUE(done.wishes[0].kind == kind) << line;
-        EXPECT_EQ(done.wishes[0].text, text) << line;
-    }
+        EXPECT_EQ(done.requests.size(), 1u) << line;
+        return done.requests.at(0);
+    };
+    EXPECT_EQ(std::get<request::Load>(asks("open a b.glb")).model, "a b.glb");
+    EXPECT_EQ(std::get<request::Load>(asks("drop c.obj")).model, "c.obj");
+    EXPECT_EQ(std::get<request::Load>(asks("reload")).model, "here.glb");
+    EXPECT_TRUE(std::holds_alternative<request::Paste>(asks("paste")));
+    EXPECT_TRUE(std::holds_alternative<request::ChooseFile>(asks("choose")));
+    EXPECT_TRUE(std::holds_alternative<request::FindHotSpots>(asks("find-hot-spots")));
+    EXPECT_TRUE(std::holds_alternative<request::LoseSurface>(asks("lose-surface")));
+    EXPECT_TRUE(std::holds_alternative<request::Quit>(asks("quit")));
+    EXPECT_EQ(std::get<request::WriteWindow>(asks("window w.png")).file, "w.png");
+    EXPECT_EQ(std::get<request::WriteReport>(asks("report r.txt")).file, "r.txt");
     for (const char* wrong : {"open", "drop", "window", "report"})
         EXPECT_TRUE(refused(wrong, s)) << wrong;
-    const State command = after("copy command", s), camera = after("copy camera", s);
-    EXPECT_EQ(command.wishes.at(0).text.rfind("cotan render here.glb", 0), 0u) << command.wishes.at(0).text;
-    const State there = after("camera " + camera.wishes.at(0).text, after("orbit 40 10", s));
+    const std::string command = std::get<request::Copy>(asks("copy command")).text;
+    EXPECT_EQ(command.rfind("cotan render here.glb", 0), 0u) << command;
+    const State there = after("camera " + std::get<request::Copy>(asks("copy camera")).text, after("orbit 40 10", s));
     EXPECT_EQ(there.camera.eye, s.camera.eye);
     EXPECT_EQ(there.camera.target, s.camera.target);
 }
@@ -185,7 +181,7 @@ TEST(ViewerCommands, droppedPicturesAreMapsAndThoseOfFloatsLight)
     State map = after("open m.png", s);
     EXPECT_EQ(map.a.normalMap, "m.png");
     EXPECT_EQ(map.picture.shape, "");
-    EXPECT_TRUE(map.wishes.empty());
+    EXPECT_TRUE(map.requests.empty());
     EXPECT_EQ(map.metered, 2);
     State light = after("open sky.hdr", s);
     EXPECT_EQ(light.picture.environment, "sky.hdr");
@@ -193,14 +189,13 @@ TEST(ViewerCommands, droppedPicturesAreMapsAndThoseOfFloatsLight)
     EXPECT_EQ(light.metered, 0); // another light is metered again
     map = after("open m.png", start());
     EXPECT_EQ(map.picture.shape, "plane"); // without a model a map needs something to lie on
-    ASSERT_EQ(map.wishes.size(), 1u);
-    EXPECT_TRUE(map.wishes[0].kind == Wish::Kind::load);
-    EXPECT_EQ(map.wishes[0].text, "");
+    ASSERT_EQ(map.requests.size(), 1u);
+    EXPECT_EQ(std::get<request::Load>(map.requests[0]).model, "");
     State shaped = start();
     shaped.picture.shape = "torus";
     map = after("open m.png", shaped);
     EXPECT_EQ(map.picture.shape, "torus");
-    EXPECT_TRUE(map.wishes.empty());
+    EXPECT_TRUE(map.requests.empty());
 }
 
 TEST(ViewerCommands, withoutSurroundingsTheirOptionsGo)
@@ -215,7 +210,8 @@ TEST(ViewerCommands, withoutSurroundingsTheirOptionsGo)
         bare = after("set environment none", bare);
         EXPECT_EQ(bare.picture.environmentRotation, 0);
         EXPECT_EQ(bare.picture.environmentIntensity, 1);
-        EXPECT_EQ(bare.picture.background, std::string(background) == "paper" ? "paper" : "");
+        EXPECT_EQ(bare.picture.background,
+                  std::string(background) == "paper" ? std::optional(Background::paper) : std::nullopt);
     }
 }
 

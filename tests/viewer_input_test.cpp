@@ -194,15 +194,15 @@ TEST(ViewerTime, goesOnByTheRateAndOnlyWhilePlaying)
     state.rate = 0.5f;
     goOn(state, 3);
     EXPECT_EQ(state.picture.time, 1.0);
-    EXPECT_TRUE(state.wishes.empty());
+    EXPECT_TRUE(state.requests.empty());
     state.playing = true;
     goOn(state, 0);
     EXPECT_EQ(state.picture.time, 1.0);
-    EXPECT_TRUE(state.wishes.empty());
+    EXPECT_TRUE(state.requests.empty());
     goOn(state, 3);
     EXPECT_EQ(state.picture.time, 2.5);
-    ASSERT_EQ(state.wishes.size(), 1u);
-    EXPECT_EQ(state.wishes[0].kind, Wish::Kind::pose);
+    ASSERT_EQ(state.requests.size(), 1u);
+    EXPECT_TRUE(std::holds_alternative<request::Pose>(state.requests[0]));
 }
 
 TEST(ViewerWindowSize, isThatOfTheEventByWidthAndHeight)
@@ -232,13 +232,12 @@ TEST(ViewerClosing, aDropAndTheWindowsButtonAreCommands)
 {
     State state = builtIn();
     send(state, "0 close\n");
-    ASSERT_FALSE(state.wishes.empty());
-    EXPECT_EQ(state.wishes.back().kind, Wish::Kind::quit);
+    ASSERT_FALSE(state.requests.empty());
+    EXPECT_TRUE(std::holds_alternative<request::Quit>(state.requests.back()));
     State other = builtIn();
     send(other, "0 drop /some/a b.glb\n");
-    ASSERT_FALSE(other.wishes.empty());
-    EXPECT_EQ(other.wishes.back().kind, Wish::Kind::load);
-    EXPECT_EQ(other.wishes.back().text, "/some/a b.glb");
+    ASSERT_FALSE(other.requests.empty());
+    EXPECT_EQ(std::get<request::Load>(other.requests.back()).model, "/some/a b.glb");
 }
 
 } // namespace

@@ -143,14 +143,13 @@ TEST(ViewerInterface, slidersHaveTheValuesAndBoundsOfTheirSettings)
                              {"light intensity", "set environment-intensity", "", 2.5, 0.05, 20, true},
                              {"shadow softness", "set shadow-softness", "degrees", 7, 0, 60, false}};
     expectRows(s, rows);
-    s.picture.exposure = "0.25";
+    s.picture.exposure = 0.25f;
     rows[0].value = 0.25;
-    s.picture.shadowSoftness = -1; // that of the lamp: the evening's is smaller
+    s.picture.shadowSoftness.reset(); // that of the lamp: the evening's is smaller
     rows[3].value = 10;
     expectRows(s, rows);
     s.picture.environment = "evening";
     rows[3].value = 3;
-    s.picture.shadowSoftness = -0.5;
     expectRows(s, rows);
     s.picture.shadowSoftness = 0;
     rows[3].value = 0;

@@ -242,9 +242,9 @@ TEST(ViewerAnimation, aMomentIsAPoseAndNotAReading)
     State state = withAnimations();
     perform(state, "set animation 1");
     perform(state, "set time 3");
-    ASSERT_EQ(state.wishes.size(), 2u);
-    for (const Wish& wish : state.wishes)
-        EXPECT_EQ(int(wish.kind), int(Wish::Kind::pose));
+    ASSERT_EQ(state.requests.size(), 2u);
+    for (const Request& request : state.requests)
+        EXPECT_TRUE(std::holds_alternative<request::Pose>(request));
     EXPECT_EQ(state.picture.time, 3);
 }
 

@@ -138,9 +138,9 @@ TEST(ViewerPictures, ofFloatsAreLightBeforeTheToneCurve)
     HeadlessSession at;
     at.load("");
     State& s = at.state();
-    s.picture.exposure = "1";
-    s.picture.toneMapping = "none";
-    s.picture.background = "none";
+    s.picture.exposure = 1.0f;
+    s.picture.toneMapping = ToneMapping::none;
+    s.picture.background = Background::none;
     const Order order = orderOf(s);
     const auto bytes = at.parts.pictures.drawNow(order, false);
     Order light = order;

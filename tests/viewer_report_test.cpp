@@ -5,8 +5,8 @@
 
 #include <fmt/format.h>
 
-#include "scene/bounds.hpp"
 #include "player.hpp"
+#include "scene/bounds.hpp"
 #include "session.hpp"
 #include "settings.hpp"
 #include "viewer_state.hpp"
@@ -29,8 +29,8 @@ TEST(ViewerReport, hasTheValueOfEachFieldInTheLineOfItsName)
     s.picture.model = "/a folder/b.glb";
     s.size = {640, 360};
     s.show = "shear";
-    s.a = {"smooth", "generated", "/maps/c.png", "directx"};
-    s.b = {"exact", "stored", "", ""};
+    s.a = {"smooth", TangentOrigin::generated, "/maps/c.png", "directx"};
+    s.b = {"exact", TangentOrigin::stored, "", ""};
     s.compare = Compare::flip;
     s.second = true;
     s.divider = 0.125f;
@@ -124,19 +124,19 @@ TEST(ViewerCommandLine, saysEachFieldByItsOwnOption)
         {[](State& s) { s.picture.camera = "left"; }, "--camera left"},
         {[](State& s) { s.a.normalMap = "n m.png"; }, "--normal-map 'n m.png'"},
         {[](State& s) { s.a.convention = "directx"; }, "--convention directx"},
-        {[](State& s) { s.a.tangents = "generated"; }, "--tangents generated"},
+        {[](State& s) { s.a.tangents = TangentOrigin::generated; }, "--tangents generated"},
         {[](State& s) { s.picture.maps.baseColor = "c.png"; }, "--base-color c.png"},
         {[](State& s) { s.picture.maps.metallicRoughness = "r.png"; }, "--metallic-roughness r.png"},
         {[](State& s) { s.picture.maps.occlusion = "o.png"; }, "--occlusion o.png"},
         {[](State& s) { s.picture.maps.material = 2; }, "--material 2"},
-        {[](State& s) { s.picture.exposure = "2"; }, "--exposure 2"},
+        {[](State& s) { s.picture.exposure = 2.0f; }, "--exposure 2"},
         {[](State& s) { s.metered = 0.5f; }, "--exposure 0.5"},
         {[](State& s) { s.picture.noNormalMaps = true; }, "--no-normal-maps"},
         {[](State& s) { s.picture.samples = 16; }, "--samples 16"},
         {[](State& s) { s.picture.device = "reference"; }, "--device reference"},
-        {[](State& s) { s.picture.lighting = "x"; }, "--lighting x"},
-        {[](State& s) { s.picture.rows = "x"; }, "--rows x"},
-        {[](State& s) { s.picture.normalMapping = "x"; }, "--normal-mapping x"},
+        {[](State& s) { s.picture.lighting = Lighting::tangentPixel; }, "--lighting tangent-pixel"},
+        {[](State& s) { s.picture.rowsUpward = true; }, "--rows up"},
+        {[](State& s) { s.picture.normalMapping = NormalMapping::rays; }, "--normal-mapping rays"},
     };
     for (const Row& row : rows) {
         State s;
@@ -150,7 +150,7 @@ TEST(ViewerCommandLine, saysEachFieldByItsOwnOption)
     EXPECT_EQ(commandLine(s, "a.png", {7, 5}), "cotan render -o a.png --size 7x5 --view normal");
     s = {};
     s.a.frame = "smooth";
-    s.b = {"exact", "generated", "", "directx"};
+    s.b = {"exact", TangentOrigin::generated, "", "directx"};
     s.compare = Compare::flip;
     EXPECT_EQ(commandLine(s, "a.png", {7, 5}), "cotan render -o a.png --size 7x5 --frame smooth");
     s.second = true;

@@ -5,9 +5,9 @@
 #include <functional>
 #include <thread>
 
+#include "requests.hpp"
 #include "run_tool.hpp"
 #include "viewer_state.hpp"
-#include "wishes.hpp"
 
 namespace cotan::viewer {
 
@@ -73,7 +73,7 @@ struct HeadlessSession {
         state.size = {64, 48};
         state.picture.device = "reference";
         state.picture.samples = 1;
-        state.picture.ground = "off";
+        state.picture.ground = false;
         return state;
     }
     explicit HeadlessSession(State state = small()) : parts(std::move(state), quiet(options))
@@ -90,10 +90,10 @@ struct HeadlessSession {
     }
     State& state() { return parts.state; }
 
-    Status wish(Wish::Kind kind, const std::string& text = {}, glm::ivec2 size = {0, 0})
+    Status ask(Request request)
     {
-        parts.state.wishes.push_back({kind, text, size});
-        return fulfil(parts);
+        parts.state.requests.push_back(std::move(request));
+        return carryOutRequests(parts);
     }
     void work(const std::function<bool()>& until)
     {
@@ -107,7 +107,7 @@ struct HeadlessSession {
     }
     void load(const std::string& file)
     {
-        ASSERT_TRUE(wish(Wish::Kind::load, file));
+        ASSERT_TRUE(ask(request::Load{file}));
         work([&] { return !parts.loader.busy(); });
     }
     void draw()

@@ -346,9 +346,7 @@ void declare(Arguments& a, BakeCommandOptions& o)
     a.group(HelpGroup::input);
     a.flag("--match-by-name", o.matchByName, "bake each low mesh NAME_low from the high mesh NAME_high only");
     addUpOption(a, o.up, "the files");
-    a.option("--high-up", o.highUp, "the same of the high mesh alone, where it is another: y or z")
-        .from({"y", "z"})
-        .in("NAME");
+    a.choice("--high-up", o.highUp, kUps, "the same of the high mesh alone, where it is another: y or z");
     a.option("--object", o.object, "bake this object of the low mesh only: the name of its node, else of its mesh")
         .in("TEXT");
     a.flag("--per-object", o.perObject, "make a map for each object of the low mesh: -o map.png is map-NAME.png")

@@ -127,8 +127,8 @@ Result<BakeModelOptions> parseOptions(const BakeCommandOptions& o)
         return ok.error();
     options.bake.kind = kindOf(o.kind);
     options.bake.frame = *frame;
-    options.bake.width = size->first;
-    options.bake.height = size->second;
+    options.bake.width = size->width;
+    options.bake.height = size->height;
     options.bake.samples = o.samples == 1 ? 1 : o.samples == 4 ? 2 : 4;
     options.bake.search = o.search == "nearest" ? BakeSearch::nearest : BakeSearch::first;
     options.bake.extrusion = o.extrusion;
@@ -137,7 +137,7 @@ Result<BakeModelOptions> parseOptions(const BakeCommandOptions& o)
     options.bake.threads = o.threads;
     options.tiles = {o.udim};
     options.material = o.material;
-    options.tangents = o.tangents == "stored" ? TangentOrigin::stored : TangentOrigin::generated;
+    options.tangents = o.tangents;
     options.matchByName = o.matchByName;
     options.padding = o.padding;
     options.stored = *stored;
@@ -145,12 +145,12 @@ Result<BakeModelOptions> parseOptions(const BakeCommandOptions& o)
     return options;
 }
 
-std::string highUp(const BakeCommandOptions& o) { return o.highUp.empty() ? o.up : o.highUp; }
+Up highUp(const BakeCommandOptions& o) { return o.highUp.value_or(o.up); }
 
-Result<Scene> loadUp(const BakeCommandOptions& o, const std::string& file, const std::string& up, Pixels pixels)
+Result<Scene> loadUp(const BakeCommandOptions& o, const std::string& file, Up up, Pixels pixels)
 {
     LoadLimits limits = limitsFor(o.memory, pixels);
-    limits.up = upFrom(up);
+    limits.up = up;
     return loadSceneWithin(limits, file);
 }
 
@@ -196,20 +196,20 @@ bool mayHaveZUp(const std::string& file)
 // The options with which two sides would lie over one another; empty where no options are.
 std::string turnOptions(const BakeCommandOptions& o, LikelyTurn turn)
 {
-    std::string low = o.up, high = highUp(o);
+    Up low = o.up, high = highUp(o);
     const bool ofHigh =
         turn == LikelyTurn::first || (turn == LikelyTurn::either && (mayHaveZUp(o.high.front()) || !mayHaveZUp(o.low)));
-    std::string &undone = ofHigh ? low : high, &done = ofHigh ? high : low;
-    if (undone == "z") // what was asked for may be what is wrong
-        undone = "y";
-    else if (done == "y")
-        done = "z";
+    Up &undone = ofHigh ? low : high, &done = ofHigh ? high : low;
+    if (undone == Up::z) // what was asked for may be what is wrong
+        undone = Up::y;
+    else if (done == Up::y)
+        done = Up::z;
     else
         return {};
-    return low == high ? "--up " + low
-        : low == "z"   ? "--up z --high-up y"
-        : o.up == "z"  ? "--up y --high-up z"
-                       : "--high-up z";
+    return low == high  ? "--up " + wordOf(kUps, low)
+        : low == Up::z  ? "--up z --high-up y"
+        : o.up == Up::z ? "--up y --high-up z"
+                        : "--high-up z";
 }
 
 // What to say where the meshes do not lie over one another and would if one side were turned; empty where they do.

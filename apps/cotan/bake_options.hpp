@@ -1,6 +1,7 @@
 // What `cotan bake` was asked for, and what of it the baker needs.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -14,12 +15,13 @@ struct BakeCommandOptions : CommonOptions {
     std::vector<std::string> high;
     std::string low, cage, mask, device = "auto";
     std::string frame = "mikktspace", kind = "normal", size = "1024x1024", convention = "opengl",
-                expansion, // empty: by -o
-        tangents = "stored";
+                expansion; // empty: by -o
+    TangentOrigin tangents = TangentOrigin::stored;
     std::string highNormals = "smooth", highFrame, highConvention; // empty: not given
     std::vector<std::string> highMaps;
-    std::string up = "y", highUp; // highUp empty: as up
-    std::string object;           // of the low mesh; empty: all
+    Up up = Up::y;
+    std::optional<Up> highUp; // none: as up
+    std::string object;       // of the low mesh; empty: all
     std::filesystem::path verify;
     int samples = 1, bits = 8, padding = 0, material = -1, udim = 1001, occlusionRays = 64;
     int memory = kDefaultMemory;

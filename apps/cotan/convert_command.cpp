@@ -24,7 +24,7 @@ namespace {
 struct ConvertCommandOptions : CommonOptions {
     std::string model;
     std::string from, to; // from: empty for the frame that the file names, or mikktspace
-    std::string tangents = "stored";
+    TangentOrigin tangents = TangentOrigin::stored;
     bool keepTangents = false, keepMaps = false;
     std::string provoking; // empty: vertices stay
     int memory = kDefaultMemory;
@@ -98,9 +98,7 @@ Result<std::optional<FramePair>> checkUsage(const ConvertCommandOptions& o)
         return usageError(fmt::format("--verify: compares with {}, which -o replaces; expected another -o", o.model));
     if (o.to.empty() && !o.keepMaps)
         return std::optional<FramePair>();
-    return std::optional(FramePair{*from, *to,
-                                   o.tangents == "generated" ? TangentOrigin::generated : TangentOrigin::stored,
-                                   TangentOrigin::generated});
+    return std::optional(FramePair{*from, *to, o.tangents, TangentOrigin::generated});
 }
 
 // Converts, and says what became of each map when it is done.
@@ -195,7 +193,7 @@ Status run(const ConvertCommandOptions& o)
             (*frames)->from = **named;
         report.update({{"from", name((*frames)->from)},
                        {"to", name((*frames)->to)},
-                       {"tangents_read", o.tangents},
+                       {"tangents_read", wordOf(kTangentOrigins, o.tangents)},
                        {"unsigned", o.expansion}});
     }
     report["output"] = o.output.string();

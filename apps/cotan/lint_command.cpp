@@ -16,7 +16,8 @@ namespace cotan::app {
 namespace {
 
 struct LintCommandOptions : CommonOptions {
-    std::string model, up = "y";
+    std::string model;
+    Up up = Up::y;
     int memory = kDefaultMemory;
     bool details = false;
     OwnMaps maps;
@@ -64,7 +65,7 @@ Status run(const LintCommandOptions& o)
         return planned;
     Stopwatch watch;
     LoadLimits limits = limitsFor(o.memory, Pixels::whereReadable);
-    limits.up = upFrom(o.up);
+    limits.up = o.up;
     auto scene = loadTold(o, limits, o.model);
     if (!scene)
         return scene.error();

@@ -14,7 +14,9 @@ struct MapConvertCommandOptions : MapOptions {
     std::string file, from, to;
     double strength = 1;
     bool normalise = false, dither = false;
-    std::string mesh, frame = "smooth", tangents = "stored", compress = "none", up = "y";
+    std::string mesh, frame = "smooth", compress = "none";
+    TangentOrigin tangents = TangentOrigin::stored;
+    Up up = Up::y;
     int material = -1;
 };
 
@@ -44,8 +46,7 @@ Status run(const MapConvertCommandOptions& o)
         const auto frame = parseFrame(o.frame);
         if (!frame)
             return frame.error();
-        options.mesh = {o.mesh, *frame, o.tangents == "stored" ? TangentOrigin::stored : TangentOrigin::generated,
-                        o.material, upFrom(o.up)};
+        options.mesh = {o.mesh, *frame, o.tangents, o.material, o.up};
     }
     const auto done =
         onFilesToMap(o, o.mesh.empty() ? o.file : "turning texels by the mesh", [&](const maps::FileOptions& files) {

@@ -108,7 +108,7 @@ Status renderOne(const RenderCommandOptions& o, FrameChoice frame, Sequence& seq
     report.update(describeScene(o.picture, *picture));
     report["frame"] = name(picture->view.frame);
     report["view"] = o.picture.show;
-    report["shading"] = o.picture.shading;
+    report["shading"] = wordOf(kShadings, o.picture.shading);
     report["device"] = (*painter)->device();
     report["output"] = o.output.string();
     report["seconds"] = {
@@ -158,11 +158,8 @@ std::filesystem::path numbered(std::filesystem::path file, int number)
 // One file for all pictures.
 Status beginAnimation(const RenderCommandOptions& o, std::size_t pictures, Sequence& sequence)
 {
-    const auto size = parsePictureSize(o.picture.size);
-    if (!size)
-        return size.error();
     const double wanted = rateOf(o);
-    auto animation = createAnimation(o.output, {size->first, size->second, pictures, wanted});
+    auto animation = createAnimation(o.output, {o.picture.size.width, o.picture.size.height, pictures, wanted});
     if (!animation)
         return animation.error();
     sequence.animation = std::move(*animation);
@@ -213,7 +210,7 @@ Status renderTurn(const RenderCommandOptions& o, FrameChoice frame, const std::v
                 if (Status loaded = (*painter)->load(picture->scene, /*sameImages=*/true); !loaded)
                     return loaded;
                 picture->view.ground = groundOf(one.picture, picture->scene, picture->view);
-                if (o.picture.edges != "none")
+                if (o.picture.edges != Edges::none)
                     picture->edges = surfaceEdges(picture->scene);
             }
             one.output = sequence.animation ? o.output : numbered(o.output, number);
@@ -236,7 +233,8 @@ Status renderTurn(const RenderCommandOptions& o, FrameChoice frame, const std::v
 // Files that drop alpha would show black.
 Status checkBackground(const RenderCommandOptions& o)
 {
-    if (o.picture.background != "none" || imageFormatHas(o.output, &ImageFormat::alpha) || !imageFormatOf(o.output))
+    if (o.picture.background != Background::none || imageFormatHas(o.output, &ImageFormat::alpha)
+        || !imageFormatOf(o.output))
         return Done{};
     return usageError(fmt::format(
         "--background none: {} files keep no transparency; expected {}", o.output.extension().string(),

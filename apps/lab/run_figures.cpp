@@ -48,8 +48,8 @@ Status runFigures(const FiguresCommandOptions& o)
         return figures::drawFigures(
             **painter, o.output,
             {.only = only,
-             .width = size->first,
-             .height = size->second,
+             .width = size->width,
+             .height = size->height,
              .threads = o.threads,
              .command = commandOf(o),
              .made = [&](std::string_view name, const std::string& title) { say(o, "{}: {}", name, title); },
@@ -61,7 +61,7 @@ Status runFigures(const FiguresCommandOptions& o)
     return writeReport(o,
                        {{"command", "figures"},
                         {"device", (*painter)->device()},
-                        {"size", {size->first, size->second}},
+                        {"size", {size->width, size->height}},
                         {"figures", *figures}});
 }
 

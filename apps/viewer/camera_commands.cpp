@@ -56,7 +56,7 @@ Status goToHotSpot(State& state, Words& words)
     state.compare = Compare::off; // whose pictures would cover it
     if (spot.storedTangents) {
         state.a.frame = "mikktspace";
-        state.a.tangents = "stored";
+        state.a.tangents = TangentOrigin::stored;
     }
     return moved(state);
 }

@@ -42,11 +42,6 @@ inline Status expected(const std::string& command, const std::string& what, cons
     return usageError(fmt::format("{}: expected {}; found '{}'", command, what, found));
 }
 
-inline void wish(State& state, Wish::Kind kind, std::string text = {}, glm::ivec2 size = {0, 0})
-{
-    state.wishes.push_back({kind, std::move(text), size});
-}
-
 // A command that moves the camera, or the light with it; nothing where it is none. words: what stands behind it.
 std::optional<Status> performCamera(State& state, const std::string& command, Words& words);
 

@@ -34,11 +34,11 @@ Status openFile(State& state, const std::string& file)
         state.a.normalMap = file; // a map
         if (state.picture.model.empty() && state.picture.shape.empty()) {
             state.picture.shape = "plane";
-            wish(state, Wish::Kind::load, "");
+            state.requests.push_back(request::Load{});
         }
         return Done{};
     }
-    wish(state, Wish::Kind::load, file);
+    state.requests.push_back(request::Load{file});
     return Done{};
 }
 
@@ -63,9 +63,10 @@ Status setSide(Side& side, const std::string& what, const std::string& value)
     if (what == "frame")
         return setFrame(side, value);
     if (what == "tangents") {
-        if (value != "stored" && value != "generated")
+        const auto known = cotan::valueOf(kTangentOrigins, value);
+        if (!known)
             return expected("tangents", "stored or generated", value);
-        side.tangents = value;
+        side.tangents = *known;
     } else if (what == "normal-map") {
         side.normalMap = value;
     } else if (what == "convention") {
@@ -95,7 +96,7 @@ Status toggle(State& state, const std::string& name)
         state.*known->second = !(state.*known->second);
         state.pinnedAt = azimuthOf(state.camera);
         if (name == "hot-spots" && state.hotSpotsShown && !state.hotSpots)
-            wish(state, Wish::Kind::findHotSpots);
+            state.requests.push_back(request::FindHotSpots{});
         if (name == "hot-spots" && !state.hotSpotsShown)
             state.hotSpot.reset();
         return Done{};
@@ -118,7 +119,7 @@ Status setCompare(State& state, const std::string& mode)
     return Done{};
 }
 
-Status sized(State& state, Wish::Kind kind, const std::string& command, Words words)
+Result<glm::ivec2> sizeFrom(Words words, const std::string& command)
 {
     const auto width = words.number(command.c_str()), height = words.number(command.c_str());
     if (!width)
@@ -126,8 +127,16 @@ Status sized(State& state, Wish::Kind kind, const std::string& command, Words wo
     if (!height)
         return height.error();
     if (*width < 1 || *height < 1 || *width > 16384 || *height > 16384)
-        return expected(command, "1 to 16384 pixels", fmt::format("{} {}", *width, *height));
-    wish(state, kind, {}, {int(*width), int(*height)});
+        return expected(command, "1 to 16384 pixels", fmt::format("{} {}", *width, *height)).error();
+    return glm::ivec2(*width, *height);
+}
+
+Status resize(State& state, const Words& words)
+{
+    const auto size = sizeFrom(words, "size");
+    if (!size)
+        return size.error();
+    state.requests.push_back(request::Resize{*size});
     return Done{};
 }
 
@@ -137,13 +146,11 @@ Status writePicture(State& state, const std::string& rest)
     const std::size_t height = rest.rfind(' '), width = height == 0 ? rest.npos : rest.rfind(' ', height - 1);
     const Words size{width == rest.npos || height == rest.npos ? "" : rest.substr(width + 1)};
     Words tried = size;
-    if (!tried.number("picture") || !tried.number("picture")) {
-        wish(state, Wish::Kind::writeFile, rest, state.size);
-        return Done{};
-    }
-    if (Status done = sized(state, Wish::Kind::writeFile, "picture", size); !done)
-        return done;
-    state.wishes.back().text = rest.substr(0, width);
+    const bool sized = tried.number("picture") && tried.number("picture");
+    const auto pixels = sized ? sizeFrom(size, "picture") : Result<glm::ivec2>(state.size);
+    if (!pixels)
+        return pixels.error();
+    state.requests.push_back(request::WritePicture{sized ? rest.substr(0, width) : rest, *pixels});
     return Done{};
 }
 
@@ -167,7 +174,7 @@ Status play(State& state)
     const GltfAnimation* animation = animationOf(state);
     if (state.playing && animation && state.picture.time >= animation->seconds)
         state.picture.time = 0;
-    wish(state, Wish::Kind::pose);
+    state.requests.push_back(request::Pose{});
     return Done{};
 }
 
@@ -175,8 +182,8 @@ Status copy(State& state, const std::string& what)
 {
     if (what != "command" && what != "camera")
         return expected("copy", "command or camera", what);
-    wish(state, Wish::Kind::copy,
-         what == "camera" ? cameraWords(state.camera) : commandLine(state, "picture.png", state.size));
+    state.requests.push_back(
+        request::Copy{what == "camera" ? cameraWords(state.camera) : commandLine(state, "picture.png", state.size)});
     return Done{};
 }
 
@@ -196,7 +203,7 @@ Status performSet(State& state, Words& words)
         return expected("set", "an option of the picture", name);
     if (Status set = setValue(*setting, words.rest, state.picture); !set)
         return set;
-    if (setting->meters)
+    if (setting->after == Setting::After::metering)
         state.metered = 0;
     if (name == "exposure")
         state.meteredFrom = state.cameraMoved ? cameraWords(state.camera) : "";
@@ -204,18 +211,18 @@ Status performSet(State& state, Words& words)
         state.picture.time = 0;
     if (state.picture.animation.empty())
         state.playing = false;
-    if (setting->loads)
-        wish(state, Wish::Kind::load, state.picture.model);
-    if (setting->poses)
-        wish(state, Wish::Kind::pose);
+    if (setting->after == Setting::After::loading)
+        state.requests.push_back(request::Load{state.picture.model});
+    if (setting->after == Setting::After::posing)
+        state.requests.push_back(request::Pose{});
     return Done{};
 }
 
-Status writeTo(State& state, Wish::Kind kind, const char* command, const std::string& file)
+template<class Write> Status writeTo(State& state, const char* command, const std::string& file)
 {
     if (file.empty())
         return expected(command, "a file", "");
-    wish(state, kind, file);
+    state.requests.push_back(Write{file});
     return Done{};
 }
 
@@ -228,9 +235,9 @@ template<class Set> Status withNumber(Words& words, const char* command, const S
     return Done{};
 }
 
-template<Wish::Kind kind> Status wished(State& state, Words&)
+template<class What> Status requested(State& state, Words&)
 {
-    wish(state, kind);
+    state.requests.push_back(What{});
     return Done{};
 }
 
@@ -245,16 +252,16 @@ const std::map<std::string, Perform>& performers()
         {"drop", open},
         {"reload",
          [](State& s, Words&) {
-             wish(s, Wish::Kind::load, s.picture.model);
+             s.requests.push_back(request::Load{s.picture.model});
              return Status(Done{});
          }},
         {"next", [](State& s, Words&) { return neighbour(s, 1); }},
         {"previous", [](State& s, Words&) { return neighbour(s, -1); }},
-        {"paste", wished<Wish::Kind::paste>},
-        {"choose", wished<Wish::Kind::chooseFile>},
-        {"find-hot-spots", wished<Wish::Kind::findHotSpots>},
-        {"lose-surface", wished<Wish::Kind::loseSurface>},
-        {"quit", wished<Wish::Kind::quit>},
+        {"paste", requested<request::Paste>},
+        {"choose", requested<request::ChooseFile>},
+        {"find-hot-spots", requested<request::FindHotSpots>},
+        {"lose-surface", requested<request::LoseSurface>},
+        {"quit", requested<request::Quit>},
         {"set", performSet},
         {"show", [](State& s, Words& w) { return show(s, w.rest); }},
         {"frame", [](State& s, Words& w) { return setSide(s.a, "frame", w.rest); }},
@@ -283,10 +290,10 @@ const std::map<std::string, Perform>& performers()
          }},
         {"toggle", [](State& s, Words& w) { return toggle(s, w.rest); }},
         {"play", [](State& s, Words&) { return play(s); }},
-        {"size", [](State& s, Words& w) { return sized(s, Wish::Kind::resize, "size", w); }},
+        {"size", [](State& s, Words& w) { return resize(s, w); }},
         {"picture", [](State& s, Words& w) { return writePicture(s, w.rest); }},
-        {"window", [](State& s, Words& w) { return writeTo(s, Wish::Kind::writeWindow, "window", w.rest); }},
-        {"report", [](State& s, Words& w) { return writeTo(s, Wish::Kind::writeReport, "report", w.rest); }},
+        {"window", [](State& s, Words& w) { return writeTo<request::WriteWindow>(s, "window", w.rest); }},
+        {"report", [](State& s, Words& w) { return writeTo<request::WriteReport>(s, "report", w.rest); }},
         {"copy", [](State& s, Words& w) { return copy(s, w.next()); }},
     };
     return all;
@@ -299,8 +306,8 @@ void settle(PictureOptions& o)
         return;
     o.environmentRotation = 0;
     o.environmentIntensity = 1;
-    if (o.background == "environment" || o.background == "blur")
-        o.background.clear();
+    if (o.background == Background::sharp || o.background == Background::blurred)
+        o.background.reset();
 }
 
 Status performOne(State& state, const std::string& line)

@@ -11,8 +11,8 @@
 
 namespace cotan::viewer {
 
-// Does what the line says. What takes longer than a change of the state becomes a wish. Errors: ErrorKind::usage, with
-// what was expected and found; the state stays as it was.
+// Does what the line says. What takes longer than a change of the state becomes a request. Errors: ErrorKind::usage,
+// with what was expected and found; the state stays as it was.
 //
 //   open FILE | reload | next | previous | normal-map FILE | environment FILE | material picture dropped: drop FILE
 //   frame NAME | show NAME | set OPTION VALUE | camera front|fit|N|WORDS | see front|back|left|right|top|bottom

@@ -88,7 +88,7 @@ void playOn(State& state, double seconds)
             state.playing = false;
         }
     }
-    state.wishes.push_back({Wish::Kind::pose, {}, {}});
+    state.requests.push_back(request::Pose{});
 }
 
 } // namespace

@@ -55,13 +55,12 @@ std::vector<Slider> slidersOf(const State& s)
 {
     const auto number = [&](const char* name) { return std::atof(valueOf(*findSetting(name), s.picture).c_str()); };
     std::vector<Slider> sliders = {
-        {"exposure", "set exposure", "", s.picture.exposure == "auto" ? s.metered : number("exposure"), 0.05, 20, true},
+        {"exposure", "set exposure", "", s.picture.exposure.value_or(s.metered), 0.05, 20, true},
         {"light rotation", "set environment-rotation", "degrees", number("environment-rotation"), -180, 180},
         {"light intensity", "set environment-intensity", "", number("environment-intensity"), 0.05, 20, true},
-        {"shadow softness", "set shadow-softness", "degrees", number("shadow-softness"), 0, 60},
+        {"shadow softness", "set shadow-softness", "degrees",
+         s.picture.shadowSoftness.value_or(s.picture.environment == "evening" ? 3 : 10), 0, 60},
     };
-    if (s.picture.shadowSoftness < 0) // that of the lamp
-        sliders.back().value = s.picture.environment == "evening" ? 3 : 10;
     if (s.compare == Compare::divider)
         sliders.push_back({"divider", "divider", "", s.divider, 0, 1});
     if (const GltfAnimation* animation = animationOf(s); animation && animation->seconds > 0)

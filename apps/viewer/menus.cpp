@@ -82,7 +82,7 @@ void addFileEntries(Entries& e, const State& s)
     e.add("Next in folder", "pagedown", "next", false, !s.picture.model.empty());
     e.add("Previous in folder", "pageup", "previous", false, !s.picture.model.empty());
     e.submenu("Preview shape");
-    for (const char* shape : {"plane", "sphere", "torus", "teapot"})
+    for (const std::string& shape : wordsOf(kShapes))
         e.add(fmt::format("Map on a {}", shape), "", fmt::format("set shape {}", shape), s.picture.shape == shape,
               s.picture.model.empty());
     e.submenu("");
@@ -149,8 +149,8 @@ void addFrameEntries(Entries& e, const State& s)
         e.submenu("");
         e.add("auto: as the maps say", "", before + "frame auto", side.frame == kAutoFrame);
         e.submenu("Tangents");
-        e.add("Tangents from file", "", before + "tangents stored", side.tangents == "stored");
-        e.add("Generated tangents", "", before + "tangents generated", side.tangents == "generated");
+        e.add("Tangents from file", "", before + "tangents stored", side.tangents == TangentOrigin::stored);
+        e.add("Generated tangents", "", before + "tangents generated", side.tangents == TangentOrigin::generated);
         e.submenu("Normal maps");
         e.add("Convention from file", "", before + "convention ", side.convention.empty());
         for (const auto& [label, words] : {std::pair("Green up (glTF, OpenGL)", "gltf"),
@@ -189,8 +189,8 @@ void addShowEntries(Entries& e, const State& s)
     e.flag("Normal maps", "n", "no-normal-maps", true);
     e.flag("Nearest texels", "", "point-sampled");
     e.line();
-    const std::string& edges = s.picture.edges;
-    const bool triangles = edges == "triangles" || edges == "all", seams = edges == "seams" || edges == "all";
+    const bool all = s.picture.edges == Edges::all;
+    const bool triangles = all || s.picture.edges == Edges::triangles, seams = all || s.picture.edges == Edges::seams;
     const auto shown = [](bool t, bool m) { return t && m ? "all" : t ? "triangles" : m ? "seams" : "none"; };
     e.add("Triangle edges", "w", std::string("set edges ") + shown(!triangles, seams), triangles);
     e.add("UV seams", "m", std::string("set edges ") + shown(triangles, !seams), seams);
@@ -221,7 +221,7 @@ void addLightEntries(Entries& e, const State& s)
     e.add("Pinned to the camera", "p", "toggle pin-light", s.lightPinned);
     e.line();
     e.flag("Shadows", "", "no-shadows", true);
-    e.add("Ground", "", s.picture.ground == "on" ? "set ground off" : "set ground on", s.picture.ground == "on");
+    e.add("Ground", "", s.picture.ground ? "set ground off" : "set ground on", s.picture.ground);
     e.submenu("Background");
     e.choose("background",
              {{"Default background", ""},
@@ -232,8 +232,8 @@ void addLightEntries(Entries& e, const State& s)
               {"No background", "none"}});
     e.submenu("");
     e.line();
-    e.add("Automatic exposure", "e", "set exposure auto", s.picture.exposure == "auto");
-    const float now = s.picture.exposure == "auto" ? s.metered : std::stof("0" + s.picture.exposure);
+    e.add("Automatic exposure", "e", "set exposure auto", !s.picture.exposure);
+    const float now = s.picture.exposure.value_or(s.metered);
     e.add("Brighter", ".", fmt::format("set exposure {:.4g}", std::min((now > 0 ? now : 1) * 1.189207f, 1e6f)));
     e.add("Darker", ",", fmt::format("set exposure {:.4g}", std::max((now > 0 ? now : 1) / 1.189207f, 1e-6f)));
     e.submenu("Tone mapping and shading");

@@ -22,7 +22,7 @@ void PointerProbe::follow(State& state)
     }
     const Side& side = sideOf(state, state.compare == Compare::flip && state.second);
     const std::string key = fmt::format("{} {} {} {} {} {}", state.pointer.x, state.pointer.y,
-                                        cameraWords(state.camera), state.model->number, side.frame, side.tangents);
+                                        cameraWords(state.camera), state.model->number, side.frame, int(side.tangents));
     if (key == key_)
         return;
     key_ = key;
@@ -31,9 +31,9 @@ void PointerProbe::follow(State& state)
         Probe probe;
         probe.hit = pick(model->scene, camera, size, pointer + glm::vec2(0.5f));
         if (probe.hit)
-            probe.surface = prober_.at(model->scene, model->number, *probe.hit,
-                                       chosenFrame(*parseFrameChoice(side.frame), picture, model->scene),
-                                       side.tangents == "generated" ? TangentOrigin::generated : TangentOrigin::stored);
+            probe.surface =
+                prober_.at(model->scene, model->number, *probe.hit,
+                           chosenFrame(*parseFrameChoice(side.frame), picture, model->scene), side.tangents);
         return probe;
     };
     std::promise<Probe> found;

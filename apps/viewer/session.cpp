@@ -12,7 +12,7 @@
 #include "commands.hpp"
 #include "input.hpp"
 #include "player.hpp"
-#include "wishes.hpp"
+#include "requests.hpp"
 
 namespace cotan::viewer {
 
@@ -69,8 +69,8 @@ public:
 
     Status run()
     {
-        state_.wishes.push_back({Wish::Kind::load, state_.picture.model, {}}); // read while the window opens
-        loadWished(parts_);
+        state_.requests.push_back(request::Load{state_.picture.model}); // read while the window opens
+        beginLoads(parts_);
         watchShown(parts_);
         if (const Status opened = open(); !opened)
             return withoutWindow(opened);
@@ -140,7 +140,7 @@ private:
                 return events.error();
             takeIn(*events, passed);
             fitWindow();
-            if (const Status done = fulfil(parts_); !done && written_)
+            if (const Status done = carryOutRequests(parts_); !done && written_)
                 player_.blame(done.error().message);
             while (auto loaded = parts_.loader.take())
                 takeLoaded(std::move(*loaded));
@@ -162,7 +162,7 @@ private:
 
     bool idle() const
     {
-        return !parts_.loader.busy() && state_.wishes.empty() && parts_.pictures.idle(state_) && !parts_.dialog.open()
+        return !parts_.loader.busy() && state_.requests.empty() && parts_.pictures.idle(state_) && !parts_.dialog.open()
             && !parts_.probe.busy();
     }
 
@@ -205,8 +205,9 @@ private:
             written_ = event.kind == EventKind::command && event.seconds >= 0; // not from a menu
             if (written_ && state_.problem != before)
                 player_.blame(state_.problem);
-            if (ended_.empty()
-                && std::ranges::any_of(state_.wishes, [](const Wish& w) { return w.kind == Wish::Kind::quit; }))
+            if (ended_.empty() && std::ranges::any_of(state_.requests, [](const Request& r) {
+                    return std::holds_alternative<request::Quit>(r);
+                }))
                 ended_ = quitBy(event);
         }
         goOn(state_, passed);

@@ -1,5 +1,6 @@
-// What a session is made of. Events change the state (input.hpp); what it wishes is done (wishes.hpp); what it shows is
-// asked of the renderer (pictures.hpp); what comes back goes into the state again; the interface is drawn from it.
+// What a session is made of. Events change the state (input.hpp); what it requests is done (requests.hpp); what it
+// shows is asked of the renderer (pictures.hpp); what comes back goes into the state again; the interface is drawn from
+// it.
 #pragma once
 
 #include <memory>

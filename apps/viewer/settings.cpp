@@ -1,54 +1,113 @@
 #include "settings.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include "core/parse_number.hpp"
+#include "picture/option_words.hpp"
 
 namespace cotan::viewer {
 
 namespace {
 
 using Options = PictureOptions;
+using After = Setting::After;
 
-template<class T> std::string numberText(T value) { return fmt::format("{}", value); }
-
-Error wrong(const Setting& s, const std::string& expected, const std::string& found)
+// What can be empty, an optional or a text, is that by the empty word.
+template<class Value, std::size_t count>
+Setting choice(const char* name, auto Options::*field, const Named<Value> (&all)[count], After after = After::nothing)
 {
-    return usageError(fmt::format("{}: expected {}; found '{}'", s.name, expected, found));
+    using Field = std::decay_t<decltype(Options().*field)>;
+    std::vector<std::string> words = wordsOf(all);
+    if (!std::is_scalar_v<Field>)
+        words.insert(words.begin(), "");
+    const auto get = [field, &all](const Options& o) { return wordOf(all, o.*field); };
+    const auto set = [field, &all, words](Options& o, const std::string& word) {
+        if (std::ranges::find(words, word) == words.end())
+            return false;
+        const auto value = cotan::valueOf(all, word);
+        o.*field = value ? Field(*value) : Field();
+        return true;
+    };
+    return {name, get, set, after, false, fmt::format("one of {}", fmt::join(words, ", ")), words};
 }
 
-// exposure is a number or a word.
-bool numeric(const Setting& s) { return s.high > s.low; }
+Setting text(const char* name, std::string Options::*field, After after)
+{
+    const auto get = [field](const Options& o) { return o.*field; };
+    const auto set = [field](Options& o, const std::string& word) {
+        o.*field = word;
+        return true;
+    };
+    return {name, get, set, after};
+}
+
+Setting flag(const char* name, bool Options::*field)
+{
+    const auto get = [field](const Options& o) { return std::string(o.*field ? "on" : "off"); };
+    const auto set = [field](Options& o, const std::string& word) {
+        if (word != "on" && word != "off" && word != "toggle")
+            return false;
+        o.*field = word == "toggle" ? !(o.*field) : word == "on";
+        return true;
+    };
+    return {name, get, set, After::nothing, true, "on, off or toggle"};
+}
+
+// none: of an empty optional, as is a number below 0.
+template<class Field>
+Setting number(const char* name, Field Options::*field, const Bounded& bounds, After after = After::nothing,
+               const std::string& none = "")
+{
+    constexpr bool mayBeNone = requires(Field f) { f.reset(); };
+    const auto get = [field, none](const Options& o) {
+        if constexpr (mayBeNone)
+            return o.*field ? fmt::format("{}", *(o.*field)) : none;
+        else
+            return fmt::format("{}", o.*field);
+    };
+    const auto set = [field, bounds, none](Options& o, const std::string& word) {
+        double value = -1;
+        const bool known = mayBeNone && word == none;
+        if (!known && !(parseNumber(std::string_view(word), value) && value >= bounds.least && value <= bounds.most))
+            return false;
+        if constexpr (mayBeNone)
+            o.*field = value < 0 ? Field() : Field(typename Field::value_type(value));
+        else
+            o.*field = Field(value);
+        return true;
+    };
+    return {name, get, set, after, false, fmt::format("a number from {} to {}", bounds.least, bounds.most)};
+}
 
 } // namespace
 
 std::span<const Setting> settings()
 {
+    constexpr Bounded kFactors = {1e-6, 1e6}, kSoftnessOrNone = {-1, kSoftnesses.most};
     static const std::vector<Setting> all = {
-        {"exposure", &Options::exposure, {"auto"}, 1e-6, 1e6, true},
-        {"tone-mapping", &Options::toneMapping, {"neutral", "aces", "agx", "none"}, 0, 0, true},
-        {"environment", &Options::environment, {}, 0, 0, true},
-        {"environment-rotation", &Options::environmentRotation, {}, -360, 360},
-        {"environment-intensity", &Options::environmentIntensity, {}, 1e-6, 1e6},
-        {"background", &Options::background, {"", "paper", "blur", "environment", "gradient", "none"}},
-        {"ground", &Options::ground, {"on", "off"}},
-        {"shadow-softness", &Options::shadowSoftness, {}, -1, 60}, // below 0: that of the lamp
-        {"no-shadows", &Options::noShadows},
-        {"no-normal-maps", &Options::noNormalMaps},
-        {"point-sampled", &Options::pointSampled},
-        {"specular-antialiasing", &Options::specularAntialiasing},
-        {"samples", &Options::samples, {"1", "4", "16"}, 1, 16},
-        {"edges", &Options::edges, {"none", "triangles", "seams", "all"}},
-        {"shading", &Options::shading, {"pbr", "blinn-phong"}},
-        {"derivatives", &Options::derivatives, {"fine", "coarse"}},
-        {"variant", &Options::variant, {}, 0, 0, false, true},
-        {"animation", &Options::animation, {}, 0, 0, false, false, true},
-        {"time", &Options::time, {}, 0, 1e6, false, false, true},
-        {"shape", &Options::shape, {"", "plane", "sphere", "torus", "teapot"}, 0, 0, false, true},
+        number("exposure", &Options::exposure, kFactors, After::metering, kAutoExposure),
+        choice("tone-mapping", &Options::toneMapping, kToneMappings, After::metering),
+        text("environment", &Options::environment, After::metering),
+        number("environment-rotation", &Options::environmentRotation, kRotations),
+        number("environment-intensity", &Options::environmentIntensity, kFactors),
+        choice("background", &Options::background, kBackgrounds),
+        choice("ground", &Options::ground, kGrounds),
+        number("shadow-softness", &Options::shadowSoftness, kSoftnessOrNone, After::nothing, "-1"),
+        flag("no-shadows", &Options::noShadows),
+        flag("no-normal-maps", &Options::noNormalMaps),
+        flag("point-sampled", &Options::pointSampled),
+        flag("specular-antialiasing", &Options::specularAntialiasing),
+        choice("samples", &Options::samples, kSampleCounts),
+        choice("edges", &Options::edges, kEdges),
+        choice("shading", &Options::shading, kShadings),
+        choice("derivatives", &Options::derivatives, kDerivatives),
+        text("variant", &Options::variant, After::loading),
+        text("animation", &Options::animation, After::posing),
+        number("time", &Options::time, kMoments, After::posing),
+        choice("shape", &Options::shape, kShapes, After::loading),
     };
     return all;
 }
@@ -61,47 +120,13 @@ const Setting* findSetting(const std::string& name)
     return nullptr;
 }
 
-std::string valueOf(const Setting& setting, const PictureOptions& options)
-{
-    return std::visit(
-        [&](auto field) -> std::string {
-            const auto& value = options.*field;
-            if constexpr (std::is_same_v<std::decay_t<decltype(value)>, std::string>)
-                return value;
-            else if constexpr (std::is_same_v<std::decay_t<decltype(value)>, bool>)
-                return value ? "on" : "off";
-            else
-                return numberText(value);
-        },
-        setting.field);
-}
+std::string valueOf(const Setting& setting, const PictureOptions& options) { return setting.get(options); }
 
-Status setValue(const Setting& s, const std::string& value, PictureOptions& options)
+Status setValue(const Setting& setting, const std::string& value, PictureOptions& options)
 {
-    const bool known = std::ranges::find(s.words, value) != s.words.end();
-    if (!s.words.empty() && !known && !(numeric(s) && s.words.size() == 1))
-        return wrong(s, fmt::format("one of {}", fmt::join(s.words, ", ")), value);
-    double number = 0;
-    const bool isNumber = parseNumber(std::string_view(value), number) && number >= s.low && number <= s.high;
-    if (numeric(s) && !isNumber && !known)
-        return wrong(s, fmt::format("a number from {} to {}", s.low, s.high), value);
-    return std::visit(
-        [&](auto field) -> Status {
-            auto& to = options.*field;
-            using Value = std::decay_t<decltype(to)>;
-            if constexpr (std::is_same_v<Value, std::string>) {
-                to = value;
-            } else if constexpr (std::is_same_v<Value, bool>) {
-                if (value != "on" && value != "off" && value != "toggle")
-                    return wrong(s, "on, off or toggle", value);
-                to = value == "toggle" ? !to : value == "on";
-            } else {
-                if (s.words.empty() || known)
-                    to = Value(number);
-            }
-            return Done{};
-        },
-        s.field);
+    if (setting.set(options, value))
+        return Done{};
+    return usageError(fmt::format("{}: expected {}; found '{}'", setting.name, setting.expected, value));
 }
 
 } // namespace cotan::viewer

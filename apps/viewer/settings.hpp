@@ -1,9 +1,9 @@
 // The options of a picture that can be changed while it is looked at, each by its name on the command line.
 #pragma once
 
+#include <functional>
 #include <span>
 #include <string>
-#include <variant>
 #include <vector>
 
 #include "picture.hpp"
@@ -11,14 +11,16 @@
 namespace cotan::viewer {
 
 struct Setting {
-    using Options = PictureOptions;
+    // What comes after a change: nothing, or the exposure is found again, the model read again or put into its pose.
+    enum class After { nothing, metering, loading, posing };
+
     const char* name; // of the option, without --
-    std::variant<std::string Options::*, double Options::*, float Options::*, int Options::*, bool Options::*> field;
-    std::vector<std::string> words{}; // that it may have; empty: any
-    double low = 0, high = 0;         // of numbers
-    bool meters = false;              // the exposure is found again
-    bool loads = false;               // the model is read again
-    bool poses = false;               // it is put into another pose
+    std::function<std::string(const PictureOptions&)> get;
+    std::function<bool(PictureOptions&, const std::string&)> set; // false: not such a value
+    After after = After::nothing;
+    bool flag = false;
+    std::string expected{};           // for messages; empty: anything
+    std::vector<std::string> words{}; // that it may have; empty: others
 };
 
 std::span<const Setting> settings();

@@ -1,7 +1,6 @@
 #include "state.hpp"
 
 #include <algorithm>
-#include <tuple>
 
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
@@ -64,7 +63,7 @@ const GltfAnimation* animationOf(const State& state)
 PictureOptions optionsOf(const State& state, bool second)
 {
     PictureOptions o = state.picture;
-    o.size = fmt::format("{}x{}", std::max(1, state.size.x), std::max(1, state.size.y));
+    o.size = {std::max(1, state.size.x), std::max(1, state.size.y)};
     if (state.cameraMoved)
         o.camera = cameraWords(state.camera);
     o.use = state.show == "shaded" ? PictureUse::shown : PictureUse::data;
@@ -82,7 +81,7 @@ void forgetHotSpots(State& state)
     state.hotSpots.reset();
     state.hotSpot.reset();
     if (state.hotSpotsShown)
-        state.wishes.push_back({Wish::Kind::findHotSpots, {}, {}});
+        state.requests.push_back(request::FindHotSpots{});
 }
 
 void resetCamera(State& state)
@@ -118,6 +117,10 @@ std::string commandLine(const State& state, const std::string& file, glm::ivec2 
     const auto add = [&](const std::string& name, const std::string& value) {
         text += " --" + name + " " + quoted(value);
     };
+    const auto addChoice = [&](const std::string& name, auto PictureOptions::*field, const auto& words) {
+        if (o.*field != usual.*field)
+            add(name, wordOf(words, o.*field));
+    };
     if (!o.model.empty())
         text += " " + quoted(o.model);
     text += " -o " + quoted(file) + fmt::format(" --size {}x{}", size.x, size.y);
@@ -133,8 +136,7 @@ std::string commandLine(const State& state, const std::string& file, glm::ivec2 
         add("normal-map", side.normalMap);
     if (!side.convention.empty())
         add("convention", side.convention);
-    if (o.tangents != usual.tangents)
-        add("tangents", o.tangents);
+    addChoice("tangents", &PictureOptions::tangents, kTangentOrigins);
     for (const auto& [name, field] : {std::pair("base-color", &OwnMaps::baseColor),
                                       {"metallic-roughness", &OwnMaps::metallicRoughness},
                                       {"occlusion", &OwnMaps::occlusion}})
@@ -144,23 +146,22 @@ std::string commandLine(const State& state, const std::string& file, glm::ivec2 
         add("material", fmt::format("{}", o.maps.material));
     for (const Setting& setting : settings()) {
         std::string value = valueOf(setting, o);
-        if (setting.field.index() == 4) { // a flag
+        if (setting.flag) {
             if (value == "on")
                 text += std::string(" --") + setting.name;
             continue;
         }
-        if (std::string("exposure") == setting.name && value == "auto" && state.metered > 0
+        if (std::string("exposure") == setting.name && value == kAutoExposure && state.metered > 0
             && o.use == PictureUse::shown && !keepsFloats(file))
             value = fmt::format("{}", state.metered);
         if (value != valueOf(setting, usual))
             add(setting.name, value);
     }
-    for (const auto& [name, value, other] : {std::tuple("device", o.device, usual.device),
-                                             {"lighting", o.lighting, usual.lighting},
-                                             {"rows", o.rows, usual.rows},
-                                             {"normal-mapping", o.normalMapping, usual.normalMapping}})
-        if (value != other)
-            add(name, value);
+    if (o.device != usual.device)
+        add("device", o.device);
+    addChoice("lighting", &PictureOptions::lighting, kLightings);
+    addChoice("rows", &PictureOptions::rowsUpward, kRows);
+    addChoice("normal-mapping", &PictureOptions::normalMapping, kNormalMappings);
     return text;
 }
 
@@ -178,7 +179,7 @@ std::string reportOf(const State& state)
     for (const bool second : {false, true}) {
         const Side& side = sideOf(state, second);
         add(second ? "second" : "first",
-            fmt::format("{} {} {} {}", side.frame, side.tangents,
+            fmt::format("{} {} {} {}", side.frame, wordOf(kTangentOrigins, side.tangents),
                         side.normalMap.empty() ? "-" : fileName(side.normalMap),
                         side.convention.empty() ? "-" : side.convention));
     }

@@ -6,6 +6,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include <glm/vec2.hpp>
@@ -31,7 +32,7 @@ struct Model {
 // What one of two pictures differs in from the other.
 struct Side {
     std::string frame = "auto"; // or a frame's name
-    std::string tangents = "stored";
+    TangentOrigin tangents = TangentOrigin::stored;
     std::string normalMap;  // a file; empty: the model's own
     std::string convention; // words; empty: as the file says
 
@@ -46,24 +47,37 @@ enum class Compare {
 };
 
 // What is done by the session and not by a change of the state.
-struct Wish {
-    enum class Kind {
-        load,        // text: a model, from its file; empty: the shape or the built-in scene
-        pose,        // the model at picture.time of picture.animation
-        writeFile,   // text: a file for the picture; size
-        writeWindow, // text: a file for what the window shows
-        writeReport, // text: a file
-        copy,        // text
-        paste,
-        chooseFile,
-        resize, // size
-        loseSurface,
-        findHotSpots,
-        quit,
-    } kind = Kind::quit;
-    std::string text;
+namespace request {
+struct Load {
+    std::string model; // a file; empty: the shape or the built-in scene
+};
+struct Pose {}; // the model at picture.time of picture.animation
+struct WritePicture {
+    std::string file; // empty or "-": a free name; ".exr": the same of floats
     glm::ivec2 size{0};
 };
+struct WriteWindow { // what it shows
+    std::string file;
+};
+struct WriteReport {
+    std::string file;
+};
+struct Copy {
+    std::string text;
+};
+struct Paste {};
+struct ChooseFile {};
+struct Resize {
+    glm::ivec2 size{0};
+};
+struct LoseSurface {};
+struct FindHotSpots {};
+struct Quit {};
+} // namespace request
+
+using Request = std::variant<request::Load, request::Pose, request::WritePicture, request::WriteWindow,
+                             request::WriteReport, request::Copy, request::Paste, request::ChooseFile, request::Resize,
+                             request::LoseSurface, request::FindHotSpots, request::Quit>;
 
 // What is under the pointer.
 struct Probe {
@@ -121,7 +135,7 @@ struct State {
     std::size_t loads = 0, failedLoads = 0;
     std::string loadProblem, drawProblem; // what went wrong last, until it works again; `problem` may be one of them
 
-    std::vector<Wish> wishes;
+    std::vector<Request> requests;
 };
 
 // The hot spots are those of another model or moment; finds them again where they are listed.

@@ -22,7 +22,8 @@ constexpr double kDraftPixels = 160000;
 // What of the options and the side the scene depends on.
 std::string sceneKey(const Model& model, const PictureOptions& o, Frame frame, const std::string& inspection)
 {
-    const std::string vertices = readsVertices(frame) ? std::string(name(frame)) + "/" + o.tangents : "";
+    const std::string vertices =
+        readsVertices(frame) ? std::string(name(frame)) + "/" + wordOf(kTangentOrigins, o.tangents) : "";
     const OwnMaps& m = o.maps;
     return fmt::format("{}|{}|{}|{}|{}|{}|{}|{}|{}", model.number, vertices, inspection, m.normal, m.baseColor,
                        m.metallicRoughness, m.occlusion, m.convention, m.material);
@@ -182,7 +183,7 @@ Result<Image> Studio::drawSide(const Order& order, Stage& s, const View& view, c
 
 Status Studio::layEdgesOn(const Order& order, Stage& s, const View& view, const PictureOptions& o, Image& picture)
 {
-    if (o.edges == "none")
+    if (o.edges == Edges::none)
         return Done{};
     const std::string key = fmt::format("{}", order.model->number);
     if (edges_.key != key || !edges_.value)
@@ -275,7 +276,7 @@ Result<View> Studio::viewFor(const Order& order, Stage& s, bool second, float ex
     }
     view->environmentMap = dark ? nullptr : *surroundings_.value;
     const std::string under =
-        fmt::format("{}|{}|{}|{}|{}", s.key, lightKey(o), o.ground, o.noShadows, o.shadowSoftness);
+        fmt::format("{}|{}|{}|{}|{}", s.key, lightKey(o), o.ground, o.noShadows, o.shadowSoftness.value_or(-1));
     if (under != ground_.key || !ground_.value)
         ground_ = {under, groundOf(o, *s.scene, *view)};
     view->ground = *ground_.value;

@@ -38,10 +38,7 @@ Status run(const ViewCommandOptions& o)
 {
     viewer::State state;
     state.picture = o.picture;
-    const auto size = parsePictureSize(o.picture.size);
-    if (!size)
-        return size.error();
-    state.size = {size->first, size->second};
+    state.size = {o.picture.size.width, o.picture.size.height};
     state.a = {o.frame, o.picture.tangents, o.picture.maps.normal, o.picture.maps.convention};
     state.b = state.a;
     state.b.frame = o.second.empty() ? "mikktspace" : o.second;

@@ -8,9 +8,9 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "core/parse_number.hpp"
 #include "cotan/image.hpp"
 #include "cotan/view.hpp"
+#include "picture/option_words.hpp"
 #include "scene/geometry.hpp"
 
 namespace cotan {
@@ -19,28 +19,22 @@ namespace {
 
 constexpr double kRadians = std::numbers::pi / 180;
 
-const std::map<std::string, ToneMapping> kToneMappings = {
-    {"none", ToneMapping::none},
-    {"neutral", ToneMapping::neutral},
-    {"aces", ToneMapping::aces},
-    {"agx", ToneMapping::agx},
-};
-
-const std::map<std::string, Backdrop> kBackdrops = {
-    {"gradient", Backdrop::gradient},
-    {"environment", Backdrop::sharp},
-    {"blur", Backdrop::blurred},
-    {"paper", Backdrop::paper},
-};
-
 bool surrounded(const PictureOptions& o) { return o.environment != "none"; }
 
-std::string backgroundOf(const PictureOptions& o)
+Background backgroundOf(const PictureOptions& o)
 {
-    return !o.background.empty()    ? o.background
-        : !surrounded(o)            ? "gradient"
-        : o.environment == "studio" ? "paper"
-                                    : "blur";
+    return o.background             ? *o.background
+        : !surrounded(o)            ? Background::gradient
+        : o.environment == "studio" ? Background::paper
+                                    : Background::blurred;
+}
+
+Backdrop backdropOf(Background background)
+{
+    return background == Background::blurred ? Backdrop::blurred
+        : background == Background::sharp    ? Backdrop::sharp
+        : background == Background::paper    ? Backdrop::paper
+                                             : Backdrop::gradient;
 }
 
 // A name of environmentNames, or a file.
@@ -99,7 +93,7 @@ std::vector<Light> lightsOf(const PictureOptions& o, const Scene& scene)
 
 std::shared_ptr<const GroundMap> groundOf(const PictureOptions& options, const Scene& scene, const View& view)
 {
-    if (options.use == PictureUse::data || options.ground == "off")
+    if (options.use == PictureUse::data || !options.ground)
         return nullptr;
     GroundOptions under;
     if (view.ground) // the model moves, not the ground
@@ -122,25 +116,21 @@ Result<std::shared_ptr<const EnvironmentMap>> openSurroundings(const PictureOpti
 
 Status lightPicture(const PictureOptions& options, View& view)
 {
-    view.exposure = 1;
-    if (options.exposure != "auto")
-        parseNumber(std::string_view(options.exposure), view.exposure); // it is one, see addLightOptions
-    const std::string background = backgroundOf(options);
-    const bool seen = background == "environment" || background == "blur";
+    view.exposure = options.exposure.value_or(1.0f);
+    const Background background = backgroundOf(options);
+    const bool seen = background == Background::sharp || background == Background::blurred;
     if (!surrounded(options) && (seen || options.environmentRotation != 0 || options.environmentIntensity != 1))
         return usageError(fmt::format("--{}: expected an --environment other than none with it; found none",
-                                      seen                                   ? "background " + background
+                                      seen ? "background " + wordOf(kBackgrounds, background)
                                           : options.environmentRotation != 0 ? "environment-rotation"
                                                                              : "environment-intensity"));
-    view.toneMapping = kToneMappings.at(options.toneMapping);
+    view.toneMapping = options.toneMapping;
     view.shadows = !options.noShadows;
-    const double softness = options.shadowSoftness >= 0 ? options.shadowSoftness
-        : options.environment == "evening"              ? 3
-                                                        : 10;
+    const double softness = options.shadowSoftness.value_or(options.environment == "evening" ? 3 : 10);
     view.shadowSoftness = float(std::tan(softness * kRadians / 2));
-    view.background = background != "none";
+    view.background = background != Background::none;
     if (view.background)
-        view.backdrop = kBackdrops.at(background);
+        view.backdrop = backdropOf(background);
     return Done{};
 }
 

@@ -1,15 +1,11 @@
 #include "cotan/picture.hpp"
 
 #include <algorithm>
-#include <array>
 #include <future>
-#include <map>
 #include <utility>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
-#include "core/parse_number.hpp"
 #include "cotan/inspect.hpp"
 #include "cotan/model.hpp"
 #include "cotan/render.hpp"
@@ -17,6 +13,7 @@
 #include "cotan/view.hpp"
 #include "files/account.hpp"
 #include "files/extension.hpp"
+#include "picture/option_words.hpp"
 #include "picture/words.hpp"
 #include "scene/geometry.hpp"
 #include "scene/meant_frame.hpp"
@@ -37,71 +34,26 @@ LoadLimits limitsFor(int memory, Pixels pixels)
     return limits;
 }
 
-Result<std::pair<int, int>> parseSize(const std::string& text)
-{
-    const std::string_view all = text, first = all.substr(0, all.find('x'));
-    const std::string_view second = first.size() < all.size() ? all.substr(first.size() + 1) : first;
-    int width = 0, height = 0;
-    if (!parseNumber(first, width) || !parseNumber(second, height) || width < 1 || height < 1 || width > 16384
-        || height > 16384)
-        return usageError(
-            fmt::format("--size: expected WxH, or one number for both, each from 1 to 16384; found '{}'", text));
-    return std::pair(width, height);
-}
+bool PictureSize::fits() const { return width >= 1 && height >= 1 && width <= 16384 && height <= 16384; }
 
 namespace {
 
-struct SizePreset {
-    const char* name;
-    int width, height;
-};
-constexpr std::array<SizePreset, 6> kSizePresets = {{{"thumbnail", 320, 180},
-                                                     {"720p", 1280, 720},
-                                                     {"1080p", 1920, 1080},
-                                                     {"1440p", 2560, 1440},
-                                                     {"2160p", 3840, 2160},
-                                                     {"square", 1024, 1024}}};
-
-} // namespace
-
-std::vector<std::string> sizePresetWords()
+Status checkSize(const PictureSize& size)
 {
-    std::vector<std::string> words;
-    for (const SizePreset& preset : kSizePresets)
-        words.emplace_back(preset.name);
-    return words;
+    if (size.fits())
+        return Done{};
+    return usageError(fmt::format("--size: expected WxH, each from 1 to 16384; found '{}'", sizeWord(size)));
 }
-
-Result<std::pair<int, int>> parsePictureSize(const std::string& text)
-{
-    for (const SizePreset& preset : kSizePresets)
-        if (text == preset.name)
-            return std::pair(preset.width, preset.height);
-    if (auto size = parseSize(text))
-        return size;
-    return usageError(fmt::format("--size: expected WxH, or one number for both, each from 1 to 16384, or {}; found "
-                                  "'{}'",
-                                  fmt::join(sizePresetWords(), ", "), text));
-}
-
-namespace {
-
-const std::map<std::string, NormalMapping> kNormalMappings = {{"shading", NormalMapping::shading},
-                                                              {"rays", NormalMapping::rays},
-                                                              {"shadowed", NormalMapping::shadowed},
-                                                              {"facets", NormalMapping::facets},
-                                                              {"mirror-facet", NormalMapping::mirrorFacet}};
 
 } // namespace
 
 Result<View> viewOf(const PictureOptions& options, const Scene& scene)
 {
     View view;
-    const auto size = parsePictureSize(options.size);
-    if (!size)
-        return size.error();
-    view.width = size->first;
-    view.height = size->second;
+    if (const Status fits = checkSize(options.size); !fits)
+        return fits.error();
+    view.width = options.size.width;
+    view.height = options.size.height;
     const bool ownCamera = options.camera.empty() && options.model.empty() && options.shape.empty()
         && !scene.cameras.empty() && !options.turntable;
     const std::string camera = !options.camera.empty() ? options.camera : ownCamera ? "0" : "front";
@@ -111,13 +63,11 @@ Result<View> viewOf(const PictureOptions& options, const Scene& scene)
     view.camera = *parsed;
     if (Status lit = lightPicture(options, view); !lit)
         return lit.error();
-    view.shading = options.shading == "pbr" ? Shading::pbr : Shading::blinnPhong;
-    view.lighting = options.lighting == "world" ? Lighting::world
-        : options.lighting == "tangent-vertex"  ? Lighting::tangentVertex
-                                                : Lighting::tangentPixel;
-    view.normalMapping = kNormalMappings.at(options.normalMapping);
-    view.rowsUpward = options.rows == "up";
-    view.derivatives = options.derivatives == "fine" ? Derivatives::fine : Derivatives::coarse;
+    view.shading = options.shading;
+    view.lighting = options.lighting;
+    view.normalMapping = options.normalMapping;
+    view.rowsUpward = options.rowsUpward;
+    view.derivatives = options.derivatives;
     view.samples = options.samples;
     view.normalMaps = !options.noNormalMaps;
     view.pointSampled = options.pointSampled;
@@ -125,7 +75,7 @@ Result<View> viewOf(const PictureOptions& options, const Scene& scene)
     return view;
 }
 
-bool meters(const PictureOptions& options) { return options.exposure == "auto" && options.use == PictureUse::shown; }
+bool meters(const PictureOptions& options) { return !options.exposure && options.use == PictureUse::shown; }
 
 namespace {
 
@@ -136,7 +86,7 @@ Status checkModelOptions(const PictureOptions& options)
         return usageError("--shape: expected no model with it; found " + options.model);
     if (!options.variant.empty() && none)
         return usageError("--variant: expected a model; found the built-in scene");
-    if (options.up != "y" && none)
+    if (options.up != Up::y && none)
         return usageError("--up: expected a model; found the built-in scene");
     if (options.animation.empty() ? options.time > 0 : none)
         return usageError(options.animation.empty() ? "--time: expected --animation with it; found none"
@@ -149,7 +99,7 @@ LoadLimits limitsOf(const PictureOptions& options)
     LoadLimits limits = limitsFor(options.memory);
     limits.pose = {options.animation, options.time};
     limits.variant = options.variant;
-    limits.up = upFrom(options.up);
+    limits.up = options.up;
     limits.readFile = options.readFile;
     limits.decode = options.decode;
     return limits;
@@ -170,7 +120,7 @@ Status addReach(AnimatedGltf& model, const PictureOptions& options, Scene& scene
 Status complete(AnimatedGltf& model, const PictureOptions& options, Scene& scene)
 {
     Status moved = addReach(model, options, scene);
-    if (moved && options.up == "z")
+    if (moved && options.up == Up::z)
         turnZUp(scene);
     return moved;
 }
@@ -253,8 +203,7 @@ Result<std::vector<Frame>> prepareScene(const PictureOptions& options, const std
         return frames;
     }
     for (const Frame frame : frames)
-        deriveVertexFrames(scene, frame,
-                           options.tangents == "generated" ? TangentOrigin::generated : TangentOrigin::stored);
+        deriveVertexFrames(scene, frame, options.tangents);
     return frames;
 }
 
@@ -272,8 +221,8 @@ Result<Scene> sceneOf(Result<MovingModel> model)
 Result<Picture> openPicture(const PictureOptions& options, int threads, std::initializer_list<FrameChoice> frames,
                             const View* like)
 {
-    if (const auto size = parsePictureSize(options.size); !size) // before a large model is loaded
-        return size.error();
+    if (const Status fits = checkSize(options.size); !fits) // before a large model is loaded
+        return fits.error();
     Picture picture;
     // What takes its time while the model is read.
     picture.device =
@@ -290,7 +239,7 @@ Result<Picture> openPicture(const PictureOptions& options, int threads, std::ini
     joinParts(picture.scene);
     if (options.turntable)
         picture.scene.reach = sweptPoints(picture.scene);
-    if (options.edges != "none")
+    if (options.edges != Edges::none)
         picture.edges = surfaceEdges(picture.scene);
     auto prepared = prepareScene(options, options.show, frames, picture.scene);
     if (!prepared)
@@ -315,8 +264,8 @@ Result<Picture> openPicture(const PictureOptions& options, int threads, std::ini
 
 std::string deviceOf(const PictureOptions& options)
 {
-    const bool reference =
-        options.device == "auto" && (options.lighting != "world" || options.normalMapping != "shading");
+    const bool reference = options.device == "auto"
+        && (options.lighting != Lighting::world || options.normalMapping != NormalMapping::shading);
     return reference ? "reference" : options.device;
 }
 
@@ -341,15 +290,17 @@ Result<std::unique_ptr<Painter>> openPicturePainter(const PictureOptions& option
 
 Status checkLighting(const PictureOptions& options, FrameChoice frame)
 {
-    if (options.lighting == "tangent-vertex" && !(frame && readsTangents(*frame)))
+    if (options.lighting == Lighting::tangentVertex && !(frame && readsTangents(*frame)))
         return usageError(
             fmt::format("--lighting tangent-vertex: expected a frame with tangents at the vertices, vertex or "
                         "mikktspace; found '{}'",
                         frame ? name(*frame) : kAutoFrame));
-    if (options.normalMapping != "shading" && (options.shading != "pbr" || options.lighting != "world"))
+    if (options.normalMapping != NormalMapping::shading
+        && (options.shading != Shading::pbr || options.lighting != Lighting::world))
         return usageError(fmt::format("--normal-mapping {}: expected --shading pbr and --lighting world with it; found "
                                       "{} and {}",
-                                      options.normalMapping, options.shading, options.lighting));
+                                      wordOf(kNormalMappings, options.normalMapping),
+                                      wordOf(kShadings, options.shading), wordOf(kLightings, options.lighting)));
     return Done{};
 }
 

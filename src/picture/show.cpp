@@ -60,13 +60,13 @@ Result<Image> drawShow(Painter& painter, const Scene& scene, View view, const st
 Status layEdges(Painter& painter, View view, const PictureOptions& options, std::span<const SurfaceEdge> edges,
                 Image& picture)
 {
-    if (options.edges == "none" || picture.type != PixelType::unorm8)
+    if (options.edges == Edges::none || picture.type != PixelType::unorm8)
         return Done{};
     view.output = Output::depth;
     const auto depth = painter.draw(view);
     if (!depth)
         return depth.error();
-    drawEdges(picture, *depth, view.camera, edges, {options.edges != "seams", options.edges != "triangles"});
+    drawEdges(picture, *depth, view.camera, edges, {options.edges != Edges::seams, options.edges != Edges::triangles});
     return Done{};
 }
 

@@ -1,5 +1,7 @@
 #include "picture/words.hpp"
 
+#include <cstdlib>
+
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -33,7 +35,7 @@ std::string sizePresetNames()
     std::vector<std::string> names = sizePresetWords();
     for (std::string& name : names)
         if (const auto size = parsePictureSize(name))
-            name += fmt::format(" ({}x{})", size->first, size->second);
+            name += fmt::format(" ({})", sizeWord(*size));
     return eitherOf(names);
 }
 
@@ -81,20 +83,18 @@ void addMemoryOption(Arguments& a, int& memory, const std::string& also)
         .under(HelpGroup::general);
 }
 
-void addUpOption(Arguments& a, std::string& up, const std::string& what)
+void addUpOption(Arguments& a, Up& up, const std::string& what)
 {
-    a.option("--up", up,
+    a.choice("--up", up, kUps,
              "axis of " + what
                  + " that points up: y; or z, as in PLY and STL of Blender and CAD, which rotates it by 90 degrees "
                    "about x")
-        .from({"y", "z"})
-        .in("NAME")
         .under(HelpGroup::input);
 }
 
-void addTangentsOption(Arguments& a, std::string& tangents, const std::string& help)
+void addTangentsOption(Arguments& a, TangentOrigin& tangents, const std::string& help)
 {
-    a.option("--tangents", tangents, help).from({"stored", "generated"}).in("NAME").under(HelpGroup::frame);
+    a.choice("--tangents", tangents, kTangentOrigins, help).under(HelpGroup::frame);
 }
 
 void addDeviceOption(Arguments& a, std::string& device, const std::string& use)
@@ -110,16 +110,21 @@ namespace {
 void addLightOptions(Arguments& a, PictureOptions& o)
 {
     a.group(HelpGroup::light);
-    a.option("--exposure", o.exposure,
-             "factor that multiplies all light, or auto: by the brightness of the model (1 in files that keep floats)")
-        .above0Or("auto")
+    a.option(
+         "--exposure", o.exposure ? fmt::format("{}", *o.exposure) : kAutoExposure,
+         [&o](const std::string& word) -> Status {
+             o.exposure.reset();
+             if (word != kAutoExposure)
+                 o.exposure = std::strtof(word.c_str(), nullptr);
+             return Done{};
+         },
+         "factor that multiplies all light, or auto: by the brightness of the model (1 in files that keep floats)")
+        .above0Or(kAutoExposure)
         .in("X|auto")
-        .offers({"auto"});
-    a.option("--tone-mapping", o.toneMapping,
+        .offers({kAutoExposure});
+    a.choice("--tone-mapping", o.toneMapping, kToneMappings,
              "how bright light becomes a colour: none (clamped to 1), neutral (Khronos PBR Neutral), aces (Narkowicz's "
              "curve) or agx; files that keep floats stay linear")
-        .from({"none", "neutral", "aces", "agx"})
-        .in("NAME")
         .under(HelpGroup::look);
     a.option(
          "--environment", o.environment,
@@ -130,26 +135,22 @@ void addLightOptions(Arguments& a, PictureOptions& o)
         .reads();
     a.option("--environment-rotation", o.environmentRotation,
              "rotate the environment counter-clockwise, seen from above")
-        .within(-360.0, 360.0)
+        .within(kRotations.least, kRotations.most)
         .in("DEGREES");
     a.option("--environment-intensity", o.environmentIntensity, "factor on the light of the environment")
         .above0()
         .in("X");
-    a.option("--background", o.background,
+    a.choice("--background", o.background, kBackgrounds,
              "what is behind the model: paper (a photographer's; the default in the studio), blur (the environment out "
              "of focus; the default in others), environment, gradient (the default without), or none (transparent)")
-        .from({"paper", "blur", "environment", "gradient", "none"})
-        .in("NAME")
         .under(HelpGroup::look);
-    a.option("--ground", o.ground, "on: the model stands on level ground, which only shows its shadow; off: it floats")
-        .from({"on", "off"})
-        .in("NAME");
+    a.choice("--ground", o.ground, kGrounds,
+             "on: the model stands on level ground, which only shows its shadow; off: it floats");
     a.option("--shadow-softness", o.shadowSoftness,
              "angle that the light which casts shadows covers, seen from the model: 0 for sharp edges, 0.5 for the sun "
              "(default: 10, in the evening 3)")
-        .within(0.0, 60.0)
-        .in("DEGREES")
-        .withoutDefault();
+        .within(kSoftnesses.least, kSoftnesses.most)
+        .in("DEGREES");
     a.flag("--no-shadows", o.noShadows, "draw no shadows of lights");
 }
 
@@ -224,9 +225,7 @@ void addPictureOptions(Arguments& a, PictureOptions& o)
     a.group(HelpGroup::input);
     a.option("MODEL", o.model, "glTF, GLB, OBJ, PLY, STL, COLLADA, FBX or 3DS file; the built-in scene if left out")
         .reads();
-    a.option("--shape", o.shape, "without MODEL: shape to show maps on: plane, sphere, torus or teapot")
-        .from({"plane", "sphere", "torus", "teapot"})
-        .in("NAME");
+    a.choice("--shape", o.shape, kShapes, "without MODEL: shape to show maps on: plane, sphere, torus or teapot");
     addUpOption(a, o.up);
     addMemoryOption(a, o.memory);
     addOwnMaps(a, o.maps);
@@ -236,9 +235,20 @@ void addPictureOptions(Arguments& a, PictureOptions& o)
     a.option("--animation", o.animation,
              "animation of a glTF model, by name or number; the pose of the file if left out")
         .in("NAME|N");
-    a.option("--time", o.time, "moment of --animation, in seconds from its start").within(0.0, 1e6).in("S");
+    a.option("--time", o.time, "moment of --animation, in seconds from its start")
+        .within(kMoments.least, kMoments.most)
+        .in("S");
     a.group(HelpGroup::camera);
-    a.option("--size", o.size, "width and height in pixels; 512 is 512x512; or " + sizePresetNames())
+    a.option(
+         "--size", sizeWord(o.size),
+         [&o](const std::string& word) -> Status {
+             const auto size = parsePictureSize(word);
+             if (!size)
+                 return size.error();
+             o.size = *size;
+             return Done{};
+         },
+         "width and height in pixels; 512 is 512x512; or " + sizePresetNames())
         .in("WxH")
         .offers(sizePresetWords())
         .main();
@@ -256,39 +266,28 @@ void addPictureOptions(Arguments& a, PictureOptions& o)
         .main();
     addDeviceOption(a, o.device);
     a.group(HelpGroup::diagnostics);
-    a.option("--edges", o.edges,
-             "lines over the image: none, triangles, seams (of uv: yellow; mirrored: magenta; borders: cyan) or all")
-        .from({"none", "triangles", "seams", "all"})
-        .in("NAME");
-    a.option("--shading", o.shading, "shading model: pbr or blinn-phong")
-        .from({"pbr", "blinn-phong"})
-        .in("NAME")
-        .under(HelpGroup::look);
-    a.option("--lighting", o.lighting,
+    a.choice("--edges", o.edges, kEdges,
+             "lines over the image: none, triangles, seams (of uv: yellow; mirrored: magenta; borders: cyan) or all");
+    a.choice("--shading", o.shading, kShadings, "shading model: pbr or blinn-phong").under(HelpGroup::look);
+    a.choice("--lighting", o.lighting, kLightings,
              "space to light in: world; or tangent space, entered per vertex (tangent-vertex) or per pixel "
-             "(tangent-pixel), for comparison and on the reference device only")
-        .from({"world", "tangent-vertex", "tangent-pixel"})
-        .in("NAME");
-    a.option("--normal-mapping", o.normalMapping,
+             "(tangent-pixel), for comparison and on the reference device only");
+    a.choice("--normal-mapping", o.normalMapping, kNormalMappings,
              "what a perturbed normal does: shading; or by rays, on the reference device only: rays (light from below "
-             "the surface is lost), shadowed, facets (a second facet makes up for it), mirror-facet")
-        .from({"shading", "rays", "shadowed", "facets", "mirror-facet"})
-        .in("NAME");
+             "the surface is lost), shadowed, facets (a second facet makes up for it), mirror-facet");
     addTangentsOption(
         a, o.tangents,
         "for the frames vertex and mikktspace: stored (as in the file, generated where missing) or generated");
-    a.option("--samples", o.samples,
+    a.choice("--samples", o.samples, kSampleCounts,
              "samples per pixel of the shaded image: 1; 4 for smooth edges; or 16, each lit by itself, for smooth "
              "highlights too, at the cost of 16 images")
-        .from({1, 4, 16})
         .in("N")
         .under(HelpGroup::look);
     addLightOptions(a, o);
     a.group(HelpGroup::diagnostics);
-    a.option("--rows", o.rows, "whether the rows of the render target run down or up; the image is upright either way")
-        .from({"down", "up"})
-        .in("NAME");
-    a.option("--derivatives", o.derivatives, "screen derivatives: fine or coarse").from({"fine", "coarse"}).in("NAME");
+    a.choice("--rows", o.rowsUpward, kRows,
+             "whether the rows of the render target run down or up; the image is upright either way");
+    a.choice("--derivatives", o.derivatives, kDerivatives, "screen derivatives: fine or coarse");
     a.flag("--no-normal-maps", o.noNormalMaps, "use interpolated normals only");
     a.flag("--specular-antialiasing", o.specularAntialiasing,
            "light 16 to 256 normals of a pixel, the more the sharper, each rougher by what is smaller than its part of "

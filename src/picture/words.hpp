@@ -8,6 +8,7 @@
 
 #include "cotan/frame.hpp"
 #include "cotan/picture.hpp"
+#include "picture/option_words.hpp"
 #include "terminal/arguments.hpp"
 
 namespace cotan {
@@ -36,10 +37,10 @@ Result<FrameChoice> parseFrameChoice(const std::string& text);
 void addMemoryOption(Arguments& a, int& memory, const std::string& also = "");
 
 // Adds --up, y or z. what: whose up it is.
-void addUpOption(Arguments& a, std::string& up, const std::string& what = "the model's file");
+void addUpOption(Arguments& a, Up& up, const std::string& what = "the model's file");
 
 // Adds --tangents, stored or generated.
-void addTangentsOption(Arguments& a, std::string& tangents, const std::string& help);
+void addTangentsOption(Arguments& a, TangentOrigin& tangents, const std::string& help);
 
 // Adds --device. use: what its help begins with.
 void addDeviceOption(Arguments& a, std::string& device, const std::string& use = "device that draws: ");

@@ -188,6 +188,7 @@ struct Arguments::Tool {
         std::string nextHeading;              // of the commands that are added next
     };
     std::map<const CLI::App*, Words> words;
+    Status taken = Done{}; // or the first text that is no value
 
     CommandHelp describe(const CLI::App& command)
     {
@@ -235,18 +236,25 @@ static void beforeRequirements(auto& option)
         option.callback_priority(decltype(option.get_callback_priority())::PreRequirementsCheckPreHelp);
 }
 
+Argument Arguments::added(CLI::Option& option)
+{
+    beforeRequirements(option);
+    Argument::Facts& facts = tool_->facts[&option];
+    facts.group = option.get_positional() ? HelpGroup::main : tool_->words[app_].group;
+    return Argument(option, facts);
+}
+
 template<class Value> Argument Arguments::option(const std::string& names, Value& value, const std::string& help)
 {
     CLI::Option* option = app_->add_option(names, value, help);
-    beforeRequirements(*option);
     bool empty = false;
     if constexpr (requires { value.empty(); })
         empty = value.empty();
+    if constexpr (requires { value.has_value(); })
+        empty = !value.has_value();
     if (!empty)
         option->capture_default_str();
-    Argument::Facts& facts = tool_->facts[option];
-    facts.group = option->get_positional() ? HelpGroup::main : tool_->words[app_].group;
-    return Argument(*option, facts);
+    return added(*option);
 }
 
 template Argument Arguments::option(const std::string&, std::string&, const std::string&);
@@ -254,24 +262,32 @@ template Argument Arguments::option(const std::string&, std::filesystem::path&, 
 template Argument Arguments::option(const std::string&, int&, const std::string&);
 template Argument Arguments::option(const std::string&, float&, const std::string&);
 template Argument Arguments::option(const std::string&, double&, const std::string&);
+template Argument Arguments::option(const std::string&, std::optional<double>&, const std::string&);
 template Argument Arguments::option(const std::string&, std::vector<std::string>&, const std::string&);
+
+Argument Arguments::option(const std::string& names, const std::string& usual,
+                           std::function<Status(const std::string&)> take, const std::string& help)
+{
+    Tool* const tool = tool_.get(); // which holds the option
+    const auto read = [tool, take = std::move(take)](const std::string& text) {
+        if (Status taken = take(text); !taken && tool->taken)
+            tool->taken = std::move(taken);
+    };
+    CLI::Option* option = app_->add_option_function<std::string>(names, read, help);
+    option->default_str(usual);
+    return added(*option);
+}
 
 Argument Arguments::flag(const std::string& name, bool& value, const std::string& help)
 {
-    CLI::Option* option = app_->add_flag(name, value, help);
-    beforeRequirements(*option);
-    Argument::Facts& facts = tool_->facts[option];
-    facts.group = tool_->words[app_].group;
-    return Argument(*option, facts);
+    return added(*app_->add_flag(name, value, help));
 }
 
 void Arguments::answers(const std::string& name, const std::string& help, std::function<std::string()> text)
 {
     // As --version does it.
-    CLI::Option* option = app_->add_flag_callback(
-        name, [text = std::move(text)] { throw CLI::CallForVersion(text(), 0); }, help);
-    beforeRequirements(*option);
-    tool_->facts[option].group = tool_->words[app_].group;
+    added(*app_->add_flag_callback(
+        name, [text = std::move(text)] { throw CLI::CallForVersion(text(), 0); }, help));
 }
 
 void Arguments::group(HelpGroup group) { tool_->words[app_].group = group; }
@@ -298,23 +314,6 @@ std::string Arguments::name() const { return app_->get_name(); }
 
 CommandHelp Arguments::describe() const { return tool_->describe(*app_); }
 
-namespace {
-
-constexpr const char* kHelpCommand = "help";
-
-// "help", "help render"; but "help --help" is about the command help.
-bool asksForHelp(const std::vector<std::string>& words)
-{
-    return !words.empty() && words[0] == kHelpCommand && (words.size() == 1 || !words[1].starts_with('-'));
-}
-
-bool hasHelpCommand(const CLI::App& tool)
-{
-    return std::ranges::any_of(commandsOf(tool), [](const CLI::App* c) { return c->get_name() == kHelpCommand; });
-}
-
-} // namespace
-
 std::vector<const CLI::App*> Arguments::given() const
 {
     std::vector<const CLI::App*> path{app_};
@@ -328,11 +327,8 @@ std::string Arguments::help(HelpLength length) const
     const CommandHelp tool = describe();
     std::vector<const CommandHelp*> path{&tool};
     for (const CLI::App* command : given())
-        for (const CommandHelp& inner : path.back()->commands)
-            if (command != app_ && inner.name == command->get_name()) {
-                path.push_back(&inner);
-                break;
-            }
+        if (command != app_)
+            path.push_back(&*std::ranges::find(path.back()->commands, command->get_name(), &CommandHelp::name));
     return helpText(path, length, helpWidth());
 }
 
@@ -340,13 +336,15 @@ std::string Arguments::help(HelpLength length) const
 Status Arguments::read(std::vector<std::string> words, std::string& answer) const
 {
     words = withoutEquals(std::move(words));
-    if (asksForHelp(words) && hasHelpCommand(*app_)) {
+    const CommandNames known = namesOf(*app_);
+    if (asksForHelp(known, words)) {
         words.erase(words.begin());
         words.emplace_back("--help");
     }
     const bool brief = std::ranges::find(words, "--help") == words.end(); // but -h
-    if (Status known = checkCommandWords(namesOf(*app_), words); !known)
-        return known;
+    if (Status checked = checkCommandWords(known, words); !checked)
+        return checked;
+    tool_->taken = Done{};
     std::ranges::reverse(words); // CLI11 takes them from the back
     try {
         app_->parse(std::move(words));
@@ -372,7 +370,7 @@ Status Arguments::run(std::vector<std::string> words, const std::function<void(c
     }
     for (const auto& [app, work] : tool_->works)
         if (app->parsed())
-            return work();
+            return tool_->taken ? work() : tool_->taken;
     return usageError("expected a command; found none");
 }
 

@@ -6,12 +6,14 @@
 #include <functional>
 #include <initializer_list>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "cotan/result.hpp"
 #include "terminal/command_help.hpp"
 #include "terminal/help_text.hpp"
+#include "terminal/named_values.hpp"
 
 namespace CLI {
 class App;
@@ -87,8 +89,22 @@ public:
     Arguments command(const std::string& name, const std::string& summary);
 
     // "-o,--output" are names of one option; "MODEL" is a positional argument. A value is a std::string, a
-    // std::filesystem::path, an int, float or double, or several strings in a vector.
+    // std::filesystem::path, an int, float or double, an optional double, or several strings in a vector.
     template<class Value> Argument option(const std::string& names, Value& value, const std::string& help);
+    // One whose text `take` makes a value of. What that refuses is what `run` returns in place of the command's work.
+    // usual: the text of the default; empty: none.
+    Argument option(const std::string& names, const std::string& usual,
+                    std::function<Status(const std::string& text)> take, const std::string& help);
+    // One whose words, and no others, stand for values.
+    template<class Value, std::size_t count>
+    Argument choice(const std::string& names, auto& value, const Named<Value> (&words)[count], const std::string& help)
+    {
+        const auto take = [&value, &words](const std::string& word) -> Status {
+            value = *valueOf(words, word);
+            return Done{};
+        };
+        return option(names, wordOf(words, value), take, help).from(wordsOf(words)).in("NAME");
+    }
     Argument flag(const std::string& name, bool& value, const std::string& help);
     // An option that prints a text and does nothing else, such as a list.
     void answers(const std::string& name, const std::string& help, std::function<std::string()> text);
@@ -120,6 +136,7 @@ public:
 
 private:
     struct Tool;
+    Argument added(CLI::Option& option);
     Status read(std::vector<std::string> words, std::string& answer) const;
     std::vector<const CLI::App*> given() const; // the tool and the commands that the words named
     std::string help(HelpLength length) const;  // of the last of those

@@ -64,6 +64,12 @@ Status checkCommandWords(const CommandNames& tool, std::span<const std::string> 
     return Done{};
 }
 
+bool asksForHelp(const CommandNames& tool, std::span<const std::string> words)
+{
+    return !words.empty() && words[0] == "help" && (words.size() == 1 || !words[1].starts_with('-'))
+        && std::ranges::find(tool.commands, "help", &CommandNames::name) != tool.commands.end();
+}
+
 std::string eitherOf(const std::vector<std::string>& words)
 {
     std::string text;

@@ -20,6 +20,9 @@ struct CommandNames {
 // the command line, without the program. Errors: ErrorKind::usage with the word and the nearest that there is.
 Status checkCommandWords(const CommandNames& tool, std::span<const std::string> words);
 
+// "help", "help render" of a tool with that command; but "help --help" is about the command help.
+bool asksForHelp(const CommandNames& tool, std::span<const std::string> words);
+
 // "-o=a.png" as "-o" and "a.png", which CLI11 takes for the beginning of a name.
 std::vector<std::string> withoutEquals(std::vector<std::string> words);
 

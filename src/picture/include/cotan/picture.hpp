@@ -2,7 +2,7 @@
 //
 //     cotan::PictureOptions options;
 //     options.model = "model.glb";
-//     options.size = "640x480";
+//     options.size = {640, 480};
 //     auto picture = cotan::openPicture(options, /*threads=*/0, {cotan::FrameChoice()});
 //     if (!picture)
 //         return fail(picture.error().message);
@@ -42,23 +42,13 @@ namespace cotan {
 
 // ---- options -------------------------------------------------------------------------------
 
-// What a picture of a model is to show, in words: those of `cotan render` and of its window.
+// What a picture of a model is to show: the options of `cotan render` and of its window.
 
 inline constexpr int kDefaultMemory = 640; // MiB, of one picture
 
 // The limits of reading with so many MiB for one picture, and as much for all of a model together where that is more
 // than is usual.
 LoadLimits limitsFor(int memory, Pixels pixels = Pixels::all);
-
-// The up of a word, "y" or "z".
-inline Up upFrom(std::string_view word) { return word == "z" ? Up::z : Up::y; }
-
-// "WxH", or one number for both, each 1..16384.
-Result<std::pair<int, int>> parseSize(const std::string& text);
-
-// The same of a picture, which may also have the size of a preset: "1080p", "square" and others.
-Result<std::pair<int, int>> parsePictureSize(const std::string& text);
-std::vector<std::string> sizePresetWords();
 
 // Pictures of one's own on a model: --normal-map, and for models that come without --base-color, --metallic-roughness
 // and --occlusion.
@@ -76,35 +66,48 @@ enum class PictureUse {
     data,     // no light
 };
 
+struct PictureSize {
+    int width = 1280, height = 720; // pixels, each 1..16384
+
+    bool fits() const; // is within those
+    friend bool operator==(const PictureSize&, const PictureSize&) = default;
+};
+
+// Lines over the picture.
+enum class Edges { none, triangles, seams, all };
+
+// What is behind the model: nothing, which is transparent, or a Backdrop.
+enum class Background { none, gradient, blurred, sharp, paper };
+
 struct PictureOptions {
     PictureUse use = PictureUse::shown; // for the command to say
     std::string show = "shaded";        // of showNames; for the command to declare
     std::string model;                  // empty: the built-in scene, or the shape
     std::string shape;                  // plane, sphere, torus or teapot
     OwnMaps maps;
-    std::string up = "y"; // or z: of the model's file
+    Up up = Up::y; // of the model's file
     std::string variant;
     std::string animation;
     double time = 0;
     bool turntable = false; // for the command to say: cameras frame all that the model covers as it turns
-    std::string size = "1280x720";
+    PictureSize size;
     std::string camera; // empty: the built-in scene's own, front for a model
     std::string device = "auto";
-    std::string edges = "none"; // or triangles, seams, all
-    std::string shading = "pbr";
-    std::string lighting = "world";
-    std::string normalMapping = "shading";
-    std::string tangents = "stored";
+    Edges edges = Edges::none;
+    Shading shading = Shading::pbr;
+    Lighting lighting = Lighting::world;
+    NormalMapping normalMapping = NormalMapping::shading;
+    TangentOrigin tangents = TangentOrigin::stored;
     std::string environment = "studio"; // or none
     double environmentRotation = 0;     // degrees
     float environmentIntensity = 1;
-    std::string background; // empty: by the environment
-    std::string toneMapping = "neutral";
-    std::string exposure = "auto"; // or a factor
-    std::string ground = "on";
-    double shadowSoftness = -1; // degrees that the light covers; negative: those of the lamp of the surroundings
-    std::string rows = "down";
-    std::string derivatives = "fine";
+    std::optional<Background> background; // none: by the environment
+    ToneMapping toneMapping = ToneMapping::neutral;
+    std::optional<float> exposure;        // factor; none: found by metering
+    bool ground = true;                   // the model stands on one, which only shows its shadow
+    std::optional<double> shadowSoftness; // degrees that the light covers; none: those of the lamp of the surroundings
+    bool rowsUpward = false;              // as View has it
+    Derivatives derivatives = Derivatives::fine;
     int memory = kDefaultMemory;
     int samples = 4;
     bool noShadows = false;
@@ -119,7 +122,7 @@ struct PictureOptions {
 
 // ---- from options to an image --------------------------------------------------------------
 
-// A picture of a model, from words to what a renderer is given. Errors name options as the command line does.
+// A picture of a model, from options to what a renderer is given. Errors name options as the command line does.
 
 // memory: MiB that one picture may take. Puts the maps on the scene's materials in place of what they have; does
 // nothing where none was given. A colour or roughness of the material that would be multiplied with a new picture

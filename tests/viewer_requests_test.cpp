@@ -1,4 +1,4 @@
-// What the viewer does beside changing its state: wishes fulfilled, models taken over.
+// What the viewer does beside changing its state: requests carried out, models taken over.
 #include <gtest/gtest.h>
 
 #include <fstream>
@@ -10,104 +10,103 @@
 namespace cotan::viewer {
 namespace {
 
-TEST(ViewerWishes, eachAsksTheWindowForOneThingOnce)
+TEST(ViewerRequests, eachAsksTheWindowForOneThingOnce)
 {
     HeadlessSession at;
-    EXPECT_TRUE(at.wish(Wish::Kind::resize, "", {300, 200}));
+    EXPECT_TRUE(at.ask(request::Resize{{300, 200}}));
     EXPECT_EQ(at.asked.sizes, (std::vector<glm::ivec2>{{300, 200}}));
-    EXPECT_TRUE(at.wish(Wish::Kind::loseSurface));
+    EXPECT_TRUE(at.ask(request::LoseSurface{}));
     EXPECT_EQ(at.asked.lost, 1);
-    EXPECT_TRUE(at.wish(Wish::Kind::copy, "some text"));
+    EXPECT_TRUE(at.ask(request::Copy{"some text"}));
     EXPECT_EQ(at.asked.copied, "some text");
     EXPECT_EQ(at.state().said, "copied: some text");
     EXPECT_FALSE(at.parts.quits);
-    EXPECT_TRUE(at.wish(Wish::Kind::quit));
+    EXPECT_TRUE(at.ask(request::Quit{}));
     EXPECT_TRUE(at.parts.quits);
     EXPECT_EQ(at.asked.sizes.size(), 1u);
     EXPECT_EQ(at.asked.lost, 1);
-    EXPECT_TRUE(at.state().wishes.empty());
+    EXPECT_TRUE(at.state().requests.empty());
     EXPECT_EQ(at.state().problem, "");
 }
 
-TEST(ViewerWishes, aPastedPathIsOpenedAndNoneIsSaid)
+TEST(ViewerRequests, aPastedPathIsOpenedAndNoneIsSaid)
 {
     HeadlessSession at;
-    EXPECT_FALSE(at.wish(Wish::Kind::paste));
+    EXPECT_FALSE(at.ask(request::Paste{}));
     EXPECT_NE(at.state().problem.find("paste: expected the path of a file"), std::string::npos) << at.state().problem;
     at.state().picture.model = "x.glb";
     at.window->pasted = " 'a map.png'\n";
-    EXPECT_TRUE(at.wish(Wish::Kind::paste));
+    EXPECT_TRUE(at.ask(request::Paste{}));
     EXPECT_EQ(at.state().a.normalMap, "a map.png");
 }
 
-TEST(ViewerWishes, theDialogBeginsInTheFolderOfTheModelAndWhatIsChosenIsOpened)
+TEST(ViewerRequests, theDialogBeginsInTheFolderOfTheModelAndWhatIsChosenIsOpened)
 {
     HeadlessSession at;
     at.state().picture.model = at.in("sub/x.glb");
     at.window->answer = {FileAnswer::open, ""};
-    EXPECT_TRUE(at.wish(Wish::Kind::chooseFile));
+    EXPECT_TRUE(at.ask(request::ChooseFile{}));
     EXPECT_EQ(at.asked.folder, at.in("sub/"));
     EXPECT_TRUE(at.parts.dialog.open());
     at.asked.folder.clear();
-    EXPECT_TRUE(at.wish(Wish::Kind::chooseFile)); // one is open
+    EXPECT_TRUE(at.ask(request::ChooseFile{})); // one is open
     EXPECT_EQ(at.asked.folder, "");
     at.window->answer = {FileAnswer::closed, "file:///m/a%20b.png"};
-    at.state().wishes.clear();
-    EXPECT_TRUE(fulfil(at.parts));
+    at.state().requests.clear();
+    EXPECT_TRUE(carryOutRequests(at.parts));
     EXPECT_EQ(at.state().a.normalMap, "/m/a b.png");
     EXPECT_FALSE(at.parts.dialog.open());
     at.window->answer = {FileAnswer::closed, ""}; // nothing was chosen
-    EXPECT_TRUE(at.wish(Wish::Kind::chooseFile));
+    EXPECT_TRUE(at.ask(request::ChooseFile{}));
     EXPECT_EQ(at.state().a.normalMap, "/m/a b.png");
 }
 
-TEST(ViewerWishes, theReportAndTheWindowAreWrittenWhereTheyAreToldTo)
+TEST(ViewerRequests, theReportAndTheWindowAreWrittenWhereTheyAreToldTo)
 {
     HeadlessSession at;
-    EXPECT_TRUE(at.wish(Wish::Kind::writeReport, at.in("r.txt")));
+    EXPECT_TRUE(at.ask(request::WriteReport{at.in("r.txt")}));
     EXPECT_EQ(test::readWhole(at.folder / "r.txt"), reportOf(at.state()));
-    EXPECT_TRUE(at.wish(Wish::Kind::writeWindow, at.in("w.png")));
+    EXPECT_TRUE(at.ask(request::WriteWindow{at.in("w.png")}));
     EXPECT_EQ(at.asked.shows, 1); // what is written is what is shown now
     const auto image = readImage(at.folder / "w.png");
     ASSERT_TRUE(image);
     EXPECT_EQ(image->width, 2);
     EXPECT_EQ(image->bytes8()[4], 80);
-    for (const auto kind : {Wish::Kind::writeReport, Wish::Kind::writeWindow}) {
+    const std::string nowhere = at.in("no/such/folder.png");
+    for (const Request& request : {Request(request::WriteReport{nowhere}), Request(request::WriteWindow{nowhere})}) {
         at.state().problem.clear();
-        const Status done = at.wish(kind, at.in("no/such/folder.png"));
+        const Status done = at.ask(request);
         ASSERT_FALSE(done);
         EXPECT_EQ(done.error().kind, ErrorKind::output);
         EXPECT_EQ(at.state().problem, done.error().message);
     }
 }
 
-// The first failure is the one that is returned; later wishes are done all the same.
-TEST(ViewerWishes, oneThatFailsDoesNotHoldBackTheOthers)
+// The first failure is the one that is returned; later ones are done all the same.
+TEST(ViewerRequests, oneThatFailsDoesNotHoldBackTheOthers)
 {
     HeadlessSession at;
-    at.state().wishes = {{Wish::Kind::paste, "", {}},
-                         {Wish::Kind::writeReport, at.in("no/such.txt"), {}},
-                         {Wish::Kind::resize, "", {7, 5}}};
-    const Status done = fulfil(at.parts);
+    at.state().requests = {request::Paste{}, request::WriteReport{at.in("no/such.txt")}, request::Resize{{7, 5}}};
+    const Status done = carryOutRequests(at.parts);
     ASSERT_FALSE(done);
     EXPECT_NE(done.error().message.find("paste"), std::string::npos);
     EXPECT_NE(at.state().problem.find("such.txt"), std::string::npos);
     EXPECT_EQ(at.asked.sizes.size(), 1u);
 }
 
-TEST(ViewerWishes, imagesAreWrittenAsTheStateShowsThemUnderANameThatIsFree)
+TEST(ViewerRequests, imagesAreWrittenAsTheStateShowsThemUnderANameThatIsFree)
 {
     HeadlessSession at;
-    EXPECT_FALSE(at.wish(Wish::Kind::writeFile, at.in("a.png"))); // there is no model yet
+    EXPECT_FALSE(at.ask(request::WritePicture{at.in("a.png")})); // there is no model yet
     EXPECT_FALSE(fs::exists(at.folder / "a.png"));
     at.load("");
     const fs::path before = fs::current_path();
     fs::current_path(at.folder.path());
     std::ofstream(at.folder / "cotan-picture-1.png") << "taken";
-    EXPECT_TRUE(at.wish(Wish::Kind::writeFile, "", {20, 10}));
-    EXPECT_TRUE(at.wish(Wish::Kind::writeFile, "-", {30, 12}));
-    EXPECT_TRUE(at.wish(Wish::Kind::writeFile, ".exr"));
-    EXPECT_TRUE(at.wish(Wish::Kind::writeFile, "named.png", {40, 14}));
+    EXPECT_TRUE(at.ask(request::WritePicture{"", {20, 10}}));
+    EXPECT_TRUE(at.ask(request::WritePicture{"-", {30, 12}}));
+    EXPECT_TRUE(at.ask(request::WritePicture{".exr"}));
+    EXPECT_TRUE(at.ask(request::WritePicture{"named.png", {40, 14}}));
     fs::current_path(before);
     EXPECT_EQ(test::readWhole(at.folder / "cotan-picture-1.png"), "taken");
     const std::vector<std::tuple<const char*, int, int>> written = {{"cotan-picture-2.png", 20, 10},
@@ -124,18 +123,18 @@ TEST(ViewerWishes, imagesAreWrittenAsTheStateShowsThemUnderANameThatIsFree)
     EXPECT_EQ(at.state().size, glm::ivec2(64, 48)); // and the window stays as it is
 }
 
-TEST(ViewerWishes, hotSpotsAreThoseOfTheModelThatIsShown)
+TEST(ViewerRequests, hotSpotsAreThoseOfTheModelThatIsShown)
 {
     HeadlessSession at;
-    EXPECT_TRUE(at.wish(Wish::Kind::findHotSpots)); // of nothing
+    EXPECT_TRUE(at.ask(request::FindHotSpots{})); // of nothing
     EXPECT_FALSE(at.parts.loader.busy());
     at.load("");
-    EXPECT_TRUE(at.wish(Wish::Kind::findHotSpots));
+    EXPECT_TRUE(at.ask(request::FindHotSpots{}));
     at.work([&] { return at.state().hotSpots.has_value(); });
     EXPECT_EQ(at.state().hotSpots->size(), hotSpots(at.state().model->scene).size());
 }
 
-TEST(ViewerWishes, anotherModelForgetsTheShapeTheVariantAndTheMoment)
+TEST(ViewerRequests, anotherModelForgetsTheShapeTheVariantAndTheMoment)
 {
     HeadlessSession at;
     test::write(test::quad(2), at.folder.path());
@@ -152,8 +151,11 @@ TEST(ViewerWishes, anotherModelForgetsTheShapeTheVariantAndTheMoment)
     s.cameraMoved = true;
     s.statisticsOf = "old";
     s.playing = true;
-    at.state().wishes.push_back({Wish::Kind::load, at.in("quad.gltf"), {}});
-    loadWished(at.parts);
+    s.requests = {request::Resize{{7, 5}}, request::Load{at.in("quad.gltf")}, request::Pose{}};
+    beginLoads(at.parts);
+    ASSERT_EQ(s.requests.size(), 1u); // what is for the window waits for it
+    EXPECT_TRUE(std::holds_alternative<request::Resize>(s.requests[0]));
+    s.requests.clear();
     EXPECT_EQ(s.loading, "quad.gltf");
     EXPECT_EQ(s.progress, 0);
     at.work([&] { return !at.parts.loader.busy(); });
@@ -220,7 +222,7 @@ TEST(ViewerLoader, posesOfAMovingModelKeepItsImagesAndTellTheirMoment)
     s.picture.animation = "high";
     const auto heightAt = [&](double time) {
         s.picture.time = time;
-        EXPECT_TRUE(at.wish(Wish::Kind::pose));
+        EXPECT_TRUE(at.ask(request::Pose{}));
         at.work([&] { return !at.parts.loader.busy(); });
         EXPECT_EQ(s.model->read.time, time);
         EXPECT_EQ(s.model->read.animation, "high");
@@ -234,7 +236,7 @@ TEST(ViewerLoader, posesOfAMovingModelKeepItsImagesAndTellTheirMoment)
     EXPECT_EQ(s.loads, 1u);
     s.playing = true;
     s.picture.animation = "none of these"; // what cannot be done is not asked for any longer
-    EXPECT_TRUE(at.wish(Wish::Kind::pose));
+    EXPECT_TRUE(at.ask(request::Pose{}));
     at.work([&] { return !at.parts.loader.busy(); });
     EXPECT_EQ(s.picture.animation, "high");
     EXPECT_EQ(s.picture.time, 1);
@@ -248,7 +250,7 @@ TEST(ViewerLoader, aModelThatDoesNotMoveHasNoAnimationToGoTo)
     HeadlessSession at;
     at.load("");
     at.state().picture.animation = "0";
-    EXPECT_TRUE(at.wish(Wish::Kind::pose));
+    EXPECT_TRUE(at.ask(request::Pose{}));
     at.work([&] { return !at.parts.loader.busy(); });
     EXPECT_NE(at.state().problem.find("animation: expected a glTF model with animations"), std::string::npos);
     EXPECT_EQ(at.state().picture.animation, "");

@@ -1,4 +1,4 @@
-#include "wishes.hpp"
+#include "requests.hpp"
 
 #include <fstream>
 
@@ -24,15 +24,17 @@ fs::path freeName(const std::string& stem, const std::string& ending)
             return file;
 }
 
-Status writePicture(Parts& parts, const Wish& w)
+// ---- each by its kind -------------------------------------------------------------------------
+
+Status carryOut(Parts& parts, const request::WritePicture& r)
 {
     State& state = parts.state;
     if (!state.model)
         return usageError("picture: expected a model; found none");
-    const bool named = !w.text.empty() && w.text != "-" && w.text != ".exr";
-    const fs::path file = named ? fs::path(w.text) : freeName("cotan-picture", w.text == ".exr" ? ".exr" : ".png");
+    const bool named = !r.file.empty() && r.file != "-" && r.file != ".exr";
+    const fs::path file = named ? fs::path(r.file) : freeName("cotan-picture", r.file == ".exr" ? ".exr" : ".png");
     State wanted = state;
-    wanted.size = w.size.x > 0 ? w.size : state.size;
+    wanted.size = r.size.x > 0 ? r.size : state.size;
     wanted.moving = wanted.playing = false;
     if (wanted.compare == Compare::divider)
         wanted.compare = Compare::off;
@@ -50,86 +52,103 @@ Status writePicture(Parts& parts, const Wish& w)
     return Done{};
 }
 
-Status writeWindow(Parts& parts, const std::string& file)
+Status carryOut(Parts& parts, const request::WriteWindow& r)
 {
     if (const Status shown = parts.window->show(interfaceNow(parts), parts.pictures.shown(parts.state)); !shown)
         return shown;
     const auto picture = parts.window->read();
-    return picture ? writeImage(file, *picture) : Status(picture.error());
+    return picture ? writeImage(r.file, *picture) : Status(picture.error());
 }
 
-Status writeState(const State& state, const std::string& name)
+Status carryOut(Parts& parts, const request::WriteReport& r)
 {
-    std::ofstream file(name, std::ios::binary);
-    file << reportOf(state);
-    return file.flush() ? Status(Done{}) : Status(outputError(name + ": cannot be written"));
+    std::ofstream file(r.file, std::ios::binary);
+    file << reportOf(parts.state);
+    return file.flush() ? Status(Done{}) : Status(outputError(r.file + ": cannot be written"));
 }
 
-Status paste(Parts& parts)
+Status carryOut(Parts& parts, const request::Paste&)
 {
     const std::string path = pathOf(parts.window->clipboard());
     return path.empty() ? Status(usageError("paste: expected the path of a file to have been copied; found none"))
                         : perform(parts.state, "drop " + path);
 }
 
-Status fulfilOne(Parts& parts, const Wish& w)
+Status carryOut(Parts& parts, const request::ChooseFile&)
+{
+    parts.dialog.ask(*parts.window, parts.state.picture.model);
+    return Done{};
+}
+
+Status carryOut(Parts& parts, const request::Copy& r)
+{
+    parts.window->setClipboard(r.text);
+    parts.state.said = "copied: " + r.text;
+    if (parts.options.plays)
+        app::say(parts.options.common, r.text);
+    return Done{};
+}
+
+Status carryOut(Parts& parts, const request::Resize& r)
+{
+    parts.window->resize(r.size.x, r.size.y);
+    return Done{};
+}
+
+Status carryOut(Parts& parts, const request::LoseSurface&)
+{
+    parts.window->loseSurface();
+    return Done{};
+}
+
+Status carryOut(Parts& parts, const request::FindHotSpots&)
+{
+    if (parts.state.model)
+        parts.loader.findHotSpots(parts.state.model);
+    return Done{};
+}
+
+Status carryOut(Parts& parts, const request::Quit&)
+{
+    parts.quits = true;
+    return Done{};
+}
+
+Status carryOut(Parts& parts, const request::Pose&)
+{
+    if (parts.state.model)
+        parts.loader.pose(parts.state.picture);
+    return Done{};
+}
+
+Status carryOut(Parts& parts, const request::Load& r)
 {
     State& state = parts.state;
-    switch (w.kind) {
-    case Wish::Kind::writeFile: return writePicture(parts, w);
-    case Wish::Kind::writeWindow: return writeWindow(parts, w.text);
-    case Wish::Kind::writeReport: return writeState(state, w.text);
-    case Wish::Kind::paste: return paste(parts);
-    case Wish::Kind::chooseFile: parts.dialog.ask(*parts.window, state.picture.model); break;
-    case Wish::Kind::copy:
-        parts.window->setClipboard(w.text);
-        state.said = "copied: " + w.text;
-        if (parts.options.plays)
-            app::say(parts.options.common, w.text);
-        break;
-    case Wish::Kind::resize: parts.window->resize(w.size.x, w.size.y); break;
-    case Wish::Kind::loseSurface: parts.window->loseSurface(); break;
-    case Wish::Kind::findHotSpots:
-        if (state.model)
-            parts.loader.findHotSpots(state.model);
-        break;
-    case Wish::Kind::quit: parts.quits = true; break;
-    case Wish::Kind::load:
-    case Wish::Kind::pose: break; // loadWished
+    PictureOptions options = state.picture;
+    options.model = r.model;
+    if (!r.model.empty())
+        options.shape.clear();
+    if (r.model != state.picture.model) { // another model has other animations
+        options.variant.clear();
+        options.animation.clear();
+        options.time = 0;
     }
+    parts.loader.read(options);
+    state.loading = r.model.empty() ? "the scene" : fileName(r.model);
+    state.progress = 0;
     return Done{};
 }
 
 } // namespace
 
-void loadWished(Parts& parts)
+void beginLoads(Parts& parts)
 {
-    State& state = parts.state;
-    std::vector<Wish> others;
-    for (Wish& w : state.wishes) {
-        if (w.kind == Wish::Kind::pose) {
-            if (state.model)
-                parts.loader.pose(state.picture);
-            continue;
-        }
-        if (w.kind != Wish::Kind::load) {
-            others.push_back(std::move(w));
-            continue;
-        }
-        PictureOptions options = state.picture;
-        options.model = w.text;
-        if (!w.text.empty())
-            options.shape.clear();
-        if (w.text != state.picture.model) { // another model has other animations
-            options.variant.clear();
-            options.animation.clear();
-            options.time = 0;
-        }
-        parts.loader.read(options);
-        state.loading = w.text.empty() ? "the scene" : fileName(w.text);
-        state.progress = 0;
-    }
-    state.wishes = std::move(others);
+    std::erase_if(parts.state.requests, [&](const Request& request) {
+        const auto* load = std::get_if<request::Load>(&request);
+        if (load)
+            carryOut(parts, *load);
+        return load || std::holds_alternative<request::Pose>(request); // there is no model to pose yet
+    });
 }
 
 void watchShown(Parts& parts)
@@ -154,12 +173,11 @@ void watchShown(Parts& parts)
     parts.watch.on(files);
 }
 
-Status fulfil(Parts& parts)
+Status carryOutRequests(Parts& parts)
 {
-    loadWished(parts);
     Status first = Done{};
-    for (const Wish& w : std::exchange(parts.state.wishes, {}))
-        if (const Status done = fulfilOne(parts, w); !done) {
+    for (const Request& request : std::exchange(parts.state.requests, {}))
+        if (const Status done = std::visit([&](const auto& r) { return carryOut(parts, r); }, request); !done) {
             parts.state.problem = done.error().message;
             first = first ? done : first;
         }
@@ -169,7 +187,7 @@ Status fulfil(Parts& parts)
         apply(parts.state, {0, EventKind::drop, 0, 0, *chosen});
     watchShown(parts);
     if (parts.watch.changed(secondsNow()))
-        parts.state.wishes.push_back({Wish::Kind::load, parts.state.picture.model, {}});
+        parts.state.requests.push_back(request::Load{parts.state.picture.model});
     return first;
 }
 

@@ -1,0 +1,44 @@
+#include "picture/option_words.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "core/parse_number.hpp"
+
+namespace cotan {
+
+std::string sizeWord(const PictureSize& size) { return fmt::format("{}x{}", size.width, size.height); }
+
+Result<PictureSize> parseSize(const std::string& text)
+{
+    const std::string_view all = text, first = all.substr(0, all.find('x'));
+    const std::string_view second = first.size() < all.size() ? all.substr(first.size() + 1) : first;
+    PictureSize size;
+    if (parseNumber(first, size.width) && parseNumber(second, size.height) && size.fits())
+        return size;
+    return usageError(
+        fmt::format("--size: expected WxH, or one number for both, each from 1 to 16384; found '{}'", text));
+}
+
+namespace {
+
+constexpr Named<PictureSize> kSizePresets[] = {{"thumbnail", {320, 180}}, {"720p", {1280, 720}},
+                                               {"1080p", {1920, 1080}},   {"1440p", {2560, 1440}},
+                                               {"2160p", {3840, 2160}},   {"square", {1024, 1024}}};
+
+} // namespace
+
+std::vector<std::string> sizePresetWords() { return wordsOf(kSizePresets); }
+
+Result<PictureSize> parsePictureSize(const std::string& text)
+{
+    if (const auto preset = valueOf(kSizePresets, text))
+        return *preset;
+    if (auto size = parseSize(text))
+        return size;
+    return usageError(fmt::format("--size: expected WxH, or one number for both, each from 1 to 16384, or {}; found "
+                                  "'{}'",
+                                  fmt::join(sizePresetWords(), ", "), text));
+}
+
+} // namespace cotan

@@ -1,0 +1,62 @@
+// The words and bounds of the options of a picture, each once: for the command line, the settings of the viewer and
+// what is said of them. What a picture is told in code has types: PictureOptions.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "cotan/picture.hpp"
+#include "terminal/named_values.hpp"
+
+namespace cotan {
+
+inline constexpr Named<Shading> kShadings[] = {{"pbr", Shading::pbr}, {"blinn-phong", Shading::blinnPhong}};
+inline constexpr Named<Lighting> kLightings[] = {
+    {"world", Lighting::world}, {"tangent-vertex", Lighting::tangentVertex}, {"tangent-pixel", Lighting::tangentPixel}};
+inline constexpr Named<NormalMapping> kNormalMappings[] = {{"shading", NormalMapping::shading},
+                                                           {"rays", NormalMapping::rays},
+                                                           {"shadowed", NormalMapping::shadowed},
+                                                           {"facets", NormalMapping::facets},
+                                                           {"mirror-facet", NormalMapping::mirrorFacet}};
+inline constexpr Named<ToneMapping> kToneMappings[] = {{"none", ToneMapping::none},
+                                                       {"neutral", ToneMapping::neutral},
+                                                       {"aces", ToneMapping::aces},
+                                                       {"agx", ToneMapping::agx}};
+inline constexpr Named<Derivatives> kDerivatives[] = {{"fine", Derivatives::fine}, {"coarse", Derivatives::coarse}};
+inline constexpr Named<TangentOrigin> kTangentOrigins[] = {{"stored", TangentOrigin::stored},
+                                                           {"generated", TangentOrigin::generated}};
+inline constexpr Named<Up> kUps[] = {{"y", Up::y}, {"z", Up::z}};
+inline constexpr Named<Edges> kEdges[] = {
+    {"none", Edges::none}, {"triangles", Edges::triangles}, {"seams", Edges::seams}, {"all", Edges::all}};
+inline constexpr Named<Background> kBackgrounds[] = {{"paper", Background::paper},
+                                                     {"blur", Background::blurred},
+                                                     {"environment", Background::sharp},
+                                                     {"gradient", Background::gradient},
+                                                     {"none", Background::none}};
+inline constexpr Named<bool> kRows[] = {{"down", false}, {"up", true}};   // rowsUpward
+inline constexpr Named<bool> kGrounds[] = {{"on", true}, {"off", false}}; // ground
+
+inline constexpr Named<int> kSampleCounts[] = {{"1", 1}, {"4", 4}, {"16", 16}};
+inline constexpr Named<std::string_view> kShapes[] = {
+    {"plane", "plane"}, {"sphere", "sphere"}, {"torus", "torus"}, {"teapot", "teapot"}};
+
+struct Bounded {
+    double least, most;
+};
+inline constexpr Bounded kRotations = {-360, 360}; // degrees
+inline constexpr Bounded kSoftnesses = {0, 60};    // degrees
+inline constexpr Bounded kMoments = {0, 1e6};      // seconds
+
+inline constexpr const char* kAutoExposure = "auto"; // or a factor above 0
+
+std::string sizeWord(const PictureSize& size); // "640x480"
+
+// "WxH", or one number for both, each 1..16384.
+Result<PictureSize> parseSize(const std::string& text);
+
+// The same of a picture, which may also have the size of a preset: "1080p", "square" and others.
+Result<PictureSize> parsePictureSize(const std::string& text);
+std::vector<std::string> sizePresetWords();
+
+} // namespace cotan

@@ -1,0 +1,44 @@
+// Words that stand for values: constant arrays of both, each word once.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace cotan {
+
+template<class Value> struct Named {
+    std::string_view word;
+    Value value;
+};
+
+template<class Value, std::size_t count> std::vector<std::string> wordsOf(const Named<Value> (&all)[count])
+{
+    std::vector<std::string> words;
+    for (const Named<Value>& one : all)
+        words.emplace_back(one.word);
+    return words;
+}
+
+// Empty for what has no word, such as an empty optional.
+template<class Value, std::size_t count> std::string wordOf(const Named<Value> (&all)[count], const auto& value)
+{
+    for (const Named<Value>& one : all)
+        if (value == one.value)
+            return std::string(one.word);
+    return {};
+}
+
+// Nothing for another word.
+template<class Value, std::size_t count>
+std::optional<Value> valueOf(const Named<Value> (&all)[count], std::string_view word)
+{
+    for (const Named<Value>& one : all)
+        if (word == one.word)
+            return one.value;
+    return std::nullopt;
+}
+
+} // namespace cotan
