@@ -218,9 +218,9 @@ TEST(SceneParts, ofLongEdgesAreRefusedUnlessTheModelIsLarge)
     scene.instances.assign(600, {"", 0, glm::mat4(1)}); // each about 84 pixels more than 16
     EXPECT_NE(refusalOf(scene, view).find("the long edges of its triangles fill the picture 5 times over"),
               std::string::npos);
-    scene.instances.resize(310); // 2.6
-    EXPECT_NE(refusalOf(scene, view).find("picture 2.6 times over, expected at most 2.5:"), std::string::npos);
-    scene.instances.resize(290);
+    scene.instances.resize(250); // 2.1
+    EXPECT_NE(refusalOf(scene, view).find("picture 2.1 times over, expected at most 2:"), std::string::npos);
+    scene.instances.resize(235);
     EXPECT_EQ(refusalOf(scene, view), "");
     scene.instances.assign(600, {"", 0, glm::mat4(1)});
     scene.meshes[1].positions.resize(101'000); // in one place: a loader may copy a vertex for each triangle
@@ -235,10 +235,10 @@ TEST(SceneParts, underVeryManyLightsAreRefused)
     Scene scene = triangleScene();
     scene.instances = {{"", 0, glm::mat4(1)}};
     View view = triangleView();
-    view.lights.resize(790);
+    view.lights.resize(670);
     EXPECT_EQ(refusalOf(scene, view), "");
-    view.lights.resize(810); // on half the picture
-    EXPECT_NE(refusalOf(scene, view).find("its lights shine on the picture 405 times over"), std::string::npos);
+    view.lights.resize(690); // on half the picture
+    EXPECT_NE(refusalOf(scene, view).find("its lights shine on the picture 345 times over"), std::string::npos);
     view.output = Output::normal; // nothing is lit
     EXPECT_EQ(refusalOf(scene, view), "");
 }

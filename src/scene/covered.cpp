@@ -26,8 +26,8 @@ constexpr double kMostCovered = 96;  // by what hides what is behind
 constexpr double kMostLayers = 16;   // by what is translucent: each is shaded, and put in order
 constexpr double kPlainLayer = 0.5;  // of such a one without a coat and the like; with one of these it is 1
 constexpr double kFurtherLobe = 0.8; // for each more: coat, sheen, other highlights
-constexpr double kMostLights = 400;  // times what is covered, at most once
-constexpr double kMostEdges = 2.5;   // by pixels along long edges, of which each is shaded and shows little
+constexpr double kMostLights = 340;  // times what is covered, at most once
+constexpr double kMostEdges = 2;     // by pixels along long edges, of which each is shaded and shows little
 constexpr double kLongEdge = 16;     // pixels: shorter ones are what many small triangles have
 constexpr double kFewPoints =
     30'000; // models of n times as many vertices, each in its own place, may take n times as long
