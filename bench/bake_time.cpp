@@ -69,7 +69,7 @@ struct Bare { // an Embree scene with nothing else around it
 
 struct Texel {
     glm::ivec2 at;
-    UvPlace place;
+    UvSample place;
 };
 
 // All texels with a place, row by row, or in squares of four by four, row by row of these: then sixteen rays in a row

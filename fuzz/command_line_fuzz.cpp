@@ -8,7 +8,7 @@
 
 #include "cotan/image.hpp"
 #include "cotan/scene.hpp"
-#include "files/account.hpp"
+#include "files/file_registry.hpp"
 #include "fuzz.hpp"
 
 // The tool's own main; see CMakeLists.txt.
@@ -19,14 +19,14 @@ using namespace cotan::fuzz;
 
 namespace {
 
-constexpr std::size_t kMostWords = 24;
+constexpr std::size_t kMaxWords = 24;
 
 // Words up to the first NUL; slashes become underscores.
 std::vector<std::string> wordsOf(std::span<const std::uint8_t> bytes)
 {
     std::vector<std::string> words(1);
     for (const std::uint8_t byte : bytes) {
-        if (byte == 0 || words.size() > kMostWords)
+        if (byte == 0 || words.size() > kMaxWords)
             break;
         if (byte == '\n')
             words.emplace_back();

@@ -24,7 +24,7 @@ vec2 albedoOf(vec3 n, vec3 v, float roughness)
 // Irradiance of a surface with that normal, divided by pi.
 vec3 irradianceOf(vec3 n) { return atlas(cotan_environment_texel(n, float(COTAN_ENVIRONMENT_IRRADIANCE))); }
 
-// What a surface reflects of its surroundings.
+// What a surface reflects of its environment.
 vec3 reflectedGlossy(cotan_surface s, cotan_gloss g)
 {
     vec3 mirrored = cotan_mirrored(cotan_reflecting_normal(s, g), s.v);

@@ -122,7 +122,7 @@ void addLight(inout Reflected sum, CotanLight light, cotan_surface s, Layers ove
         sum.coat += light.color.rgb * (reach * cotan_reflect_coat(over.coat, s.v, l));
 }
 
-vec3 surroundingsOf(cotan_surface s, Layers over)
+vec3 environmentLightOf(cotan_surface s, Layers over)
 {
     vec3 light;
     if (ENVIRONMENT_MAP)
@@ -136,13 +136,13 @@ vec3 surroundingsOf(cotan_surface s, Layers over)
     return light;
 }
 
-vec3 surroundings(cotan_surface s, Layers over)
+vec3 environmentLight(cotan_surface s, Layers over)
 {
     if (!SPECULAR_ANTIALIASING)
-        return surroundingsOf(s, over);
+        return environmentLightOf(s, over);
     vec3 sum = vec3(0.0);
     for (int i = 0; i < tapCount; ++i)
-        sum += surroundingsOf(atTap(s, i), over);
+        sum += environmentLightOf(atTap(s, i), over);
     return sum / float(tapCount);
 }
 
@@ -152,7 +152,7 @@ vec3 lit(cotan_surface s, Layers over, vec3 p, vec3 n)
     for (uint i = 0u; i < view.counts.x; ++i)
         addLight(sum, lights[i], s, over, p, n);
     if (ENVIRONMENT) {
-        sum.base += surroundings(s, over);
+        sum.base += environmentLight(s, over);
         if (over.coated)
             sum.coat += s.occlusion
                 * (ENVIRONMENT_MAP ? reflectedOfCoat(over.coat, s.v) : cotan_reflect_coat_environment(over.coat, s.v));

@@ -43,7 +43,7 @@ public:
             raster_.row(y, UvReach::centres, row->second);
         const auto first = row->second.places.begin() + row->second.first[std::size_t(x)];
         const auto last = row->second.places.begin() + row->second.first[std::size_t(x) + 1];
-        const auto place = std::find_if(first, last, [](const UvPlace& p) { return p.covers; });
+        const auto place = std::find_if(first, last, [](const UvSample& p) { return p.covers; });
         if (place == last)
             return false;
         const double b1 = place->b1, b2 = place->b2;
@@ -144,7 +144,7 @@ TEST(BakeFrames, inFloatAreThoseInDouble)
             Random random(20);
             LowPoints points;
             for (int i = 0; i < 200; ++i) {
-                std::vector<UvPlace> places; // up to a packet's, now and then several on one triangle
+                std::vector<UvSample> places; // up to a packet's, now and then several on one triangle
                 while (places.size() < std::size_t(1 + i % 16)) {
                     const TrianglePoint at = randomPoint(random, mesh);
                     places.push_back({std::uint32_t(at.triangle), float(at.weights[1]), float(at.weights[2]), true});

@@ -66,7 +66,7 @@ TEST(UvRaster, barycentricsLeadBackToTheTexelsCentre)
         raster.row(y, UvReach::centres, row);
         for (int x = 0; x < 37; ++x) {
             ASSERT_EQ(row.first[std::size_t(x) + 1] - row.first[std::size_t(x)], 1u);
-            const UvPlace& p = row.places[row.first[std::size_t(x)]];
+            const UvSample& p = row.places[row.first[std::size_t(x)]];
             const std::uint32_t* v = &l.indices[3 * std::size_t(p.triangle)];
             const glm::vec2 uv =
                 l.texcoords[v[0]] * (1 - p.b1 - p.b2) + l.texcoords[v[1]] * p.b1 + l.texcoords[v[2]] * p.b2;
@@ -86,7 +86,7 @@ TEST(UvRaster, trianglesThatOnlyTouchATexelGiveTheirNearestPoint)
     EXPECT_TRUE(row.places.empty());
     raster.row(1, UvReach::touching, row);
     ASSERT_EQ(row.first[2] - row.first[1], 1u); // texel (1, 1), whose centre is (0.375, 0.375)
-    const UvPlace& p = row.places[row.first[1]];
+    const UvSample& p = row.places[row.first[1]];
     EXPECT_FALSE(p.covers);
     EXPECT_NEAR(p.b1 * 0.08f + p.b2 * 0.04f + 0.26f, 0.32f, 0.021f); // on the edge from (0.34, 0.26) to (0.3, 0.3)
 }
@@ -100,7 +100,7 @@ TEST(UvRaster, gapsAreWhatTouchingFindsWhereNoCentreIsCovered)
         raster.row(y, UvReach::gaps, gaps);
         raster.row(y, UvReach::touching, touching);
         for (std::size_t x = 0; x < 61; ++x) {
-            std::vector<UvPlace> expected;
+            std::vector<UvSample> expected;
             for (bool covers : {true, false})
                 if (expected.empty())
                     for (std::uint32_t i = touching.first[x]; i < touching.first[x + 1]; ++i)
@@ -108,7 +108,7 @@ TEST(UvRaster, gapsAreWhatTouchingFindsWhereNoCentreIsCovered)
                             expected.push_back(touching.places[i]);
             ASSERT_EQ(gaps.first[x + 1] - gaps.first[x], expected.size());
             for (std::size_t i = 0; i < expected.size(); ++i) {
-                const UvPlace& p = gaps.places[gaps.first[x] + i];
+                const UvSample& p = gaps.places[gaps.first[x] + i];
                 EXPECT_EQ(p.triangle, expected[i].triangle);
                 EXPECT_EQ(p.b1, expected[i].b1);
                 EXPECT_EQ(p.covers, expected[i].covers);
@@ -124,7 +124,7 @@ TEST(UvRaster, firstsAreTheFirstOfEachTexel)
     for (int i = 0; i < 2; ++i)
         twice.indices.insert(twice.indices.end(), l.indices.begin(), l.indices.end());
     const UvRaster raster(twice.view(), 61, 43); // neither a multiple of a square nor of a block
-    std::map<std::pair<int, int>, UvPlace> firsts;
+    std::map<std::pair<int, int>, UvSample> firsts;
     std::set<std::pair<int, int>> again;
     for (int block = 0; block < raster.blocks(); ++block) {
         UvFirsts found;

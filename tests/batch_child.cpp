@@ -12,7 +12,7 @@
 #include <unistd.h>
 
 #include "batch/child.hpp"
-#include "files/account.hpp"
+#include "files/file_registry.hpp"
 #include "files/interrupt.hpp"
 #include "files/output.hpp"
 

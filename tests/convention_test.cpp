@@ -66,7 +66,7 @@ TEST(Convention, zeroIsTheMiddleCodeOfEveryPresetAtEveryDepth)
 
 TEST(Convention, descriptionNamesEveryChoice)
 {
-    const std::string s = describe(*conventionFromWords("unreal,xy"));
+    const std::string s = describe(*parseConvention("unreal,xy"));
     for (const char* part : {"tangent space", "two channels", "green down", "v down", "exact"})
         EXPECT_NE(s.find(part), std::string::npos) << part;
 }
@@ -110,24 +110,24 @@ TEST(Convention, presetsAreWhatTheImporterIsGivenAndKeepsOnTheCard)
         EXPECT_EQ(c->channels, Channels::xyz) << e.name;
         Convention card = *c;
         card.channels = e.twoOnCard ? Channels::orthographic : Channels::xyz;
-        EXPECT_EQ(*sampledFromWords(e.name), card) << e.name;
-        EXPECT_EQ(conventionFromWords(std::string(e.name) + ",xy")->channels, Channels::orthographic) << e.name;
+        EXPECT_EQ(*parseSampledConvention(e.name), card) << e.name;
+        EXPECT_EQ(parseConvention(std::string(e.name) + ",xy")->channels, Channels::orthographic) << e.name;
     }
 }
 
 TEST(Convention, wordsForTheChannelsAreToldFromWhatAPresetImplies)
 {
     for (const char* words : {"gltf", "unity", "directx,biased", "green-down", "unreal,green-up,signed"}) {
-        EXPECT_FALSE(statedFromWords(words)->channels) << words;
-        EXPECT_EQ(statedFromWords(words)->convention, *conventionFromWords(words)) << words;
+        EXPECT_FALSE(parseStatedConvention(words)->channels) << words;
+        EXPECT_EQ(parseStatedConvention(words)->convention, *parseConvention(words)) << words;
     }
     for (const char* words : {"gltf,xyz", "unity,xy", "orthographic", "gltf,stereographic", "slope,biased", "object"})
-        EXPECT_TRUE(statedFromWords(words)->channels) << words;
-    EXPECT_EQ(*conventionFromWords("unity,xy"), *conventionFromWords("unity,orthographic"));
-    EXPECT_EQ(sampledFromWords("unity,xyz")->channels, Channels::xyz);
-    EXPECT_EQ(sampledFromWords("unity,biased")->channels, Channels::orthographic);
-    EXPECT_FALSE(statedFromWords("unity,xz"));
-    EXPECT_FALSE(sampledFromWords(""));
+        EXPECT_TRUE(parseStatedConvention(words)->channels) << words;
+    EXPECT_EQ(*parseConvention("unity,xy"), *parseConvention("unity,orthographic"));
+    EXPECT_EQ(parseSampledConvention("unity,xyz")->channels, Channels::xyz);
+    EXPECT_EQ(parseSampledConvention("unity,biased")->channels, Channels::orthographic);
+    EXPECT_FALSE(parseStatedConvention("unity,xz"));
+    EXPECT_FALSE(parseSampledConvention(""));
 }
 
 TEST(Convention, everyValueHasItsWord)

@@ -395,7 +395,7 @@ TEST(PlaceFinder, placesAreNoMoreThanSixteenOfATexelHoweverManyTrianglesShowIt)
     std::vector<std::vector<convert::Place>> texels;
     finder.row(3, texels);
     for (const auto& places : texels) {
-        ASSERT_EQ(places.size(), kMostPlaces);
+        ASSERT_EQ(places.size(), kMaxPlaces);
         EXPECT_LT(places.front().triangle, 100u); // of 600: they are from all over the list
         EXPECT_GT(places.back().triangle, 500u);
         EXPECT_TRUE(std::ranges::is_sorted(places, {}, &convert::Place::triangle));

@@ -190,11 +190,11 @@ Difference between(const Image& a, const Image& b)
 
 TEST(DrawRandom, bothRenderersShowTheSameOfScenesWithEverything)
 {
-    const auto device = openPainter("auto");
+    const auto device = openRenderer("auto");
     ASSERT_TRUE(device);
     if (!(*device)->note.empty())
         GTEST_SKIP() << (*device)->note;
-    const auto reference = openPainter("reference");
+    const auto reference = openRenderer("reference");
     ASSERT_TRUE(reference);
     for (std::uint32_t seed = 1; seed <= 10; ++seed) {
         Dice dice(seed);

@@ -1,4 +1,4 @@
-// One picture in one call, and a painter for several: as a program uses them.
+// One picture in one call, and a renderer for several: as a program uses them.
 #include "reference_scene.hpp"
 
 #include <algorithm>
@@ -43,10 +43,10 @@ TEST(DrawView, aMappedQuadShowsTheMapsNormalInEveryFrameWithoutAnotherCall) { ex
 
 TEST(DrawView, aVulkanDeviceShowsTheSame)
 {
-    const auto painter = openPainter("auto");
-    ASSERT_TRUE(painter);
-    if (!(*painter)->note.empty())
-        GTEST_SKIP() << (*painter)->note;
+    const auto renderer = openRenderer("auto");
+    ASSERT_TRUE(renderer);
+    if (!(*renderer)->note.empty())
+        GTEST_SKIP() << (*renderer)->note;
     expectTiltedNormals("auto");
 }
 
@@ -77,89 +77,89 @@ TEST(DrawView, unknownDevicesAndFramesAreRefused)
     }
 }
 
-TEST(Painter, aSceneThatWasNotMadeReadyForTheFrameIsRefusedOnEveryDevice)
+TEST(Renderer, aSceneThatWasNotMadeReadyForTheFrameIsRefusedOnEveryDevice)
 {
     for (const char* device : {"reference", "auto"}) {
-        const auto painter = openPainter(device);
-        ASSERT_TRUE(painter);
+        const auto renderer = openRenderer(device);
+        ASSERT_TRUE(renderer);
         Scene scene = mappedQuad();
-        ASSERT_TRUE((*painter)->load(scene));
+        ASSERT_TRUE((*renderer)->load(scene));
         for (const Frame frame : {Frame::smooth, Frame::vertex, Frame::mikktspace}) {
-            const auto bare = (*painter)->draw(viewOf(Output::normal, frame));
+            const auto bare = (*renderer)->draw(viewOf(Output::normal, frame));
             ASSERT_FALSE(bare) << device << ", " << name(frame);
             EXPECT_EQ(bare.error().kind, ErrorKind::usage) << bare.error().message;
             deriveVertexFrames(scene, frame, TangentOrigin::generated);
-            ASSERT_TRUE((*painter)->load(scene));
-            const auto ready = (*painter)->draw(viewOf(Output::normal, frame));
+            ASSERT_TRUE((*renderer)->load(scene));
+            const auto ready = (*renderer)->draw(viewOf(Output::normal, frame));
             EXPECT_TRUE(ready) << ready.error().message;
             scene = mappedQuad();
-            ASSERT_TRUE((*painter)->load(scene));
+            ASSERT_TRUE((*renderer)->load(scene));
         }
-        EXPECT_TRUE((*painter)->draw(viewOf(Output::normal, Frame::cotangent)));
+        EXPECT_TRUE((*renderer)->draw(viewOf(Output::normal, Frame::cotangent)));
     }
 }
 
-TEST(Painter, autoAlwaysOpensAndSaysWhyTheReferenceRendererDraws)
+TEST(Renderer, autoAlwaysOpensAndSaysWhyTheReferenceRendererDraws)
 {
-    const auto painter = openPainter();
-    ASSERT_TRUE(painter) << painter.error().message;
-    EXPECT_EQ((*painter)->device() == "reference", !(*painter)->note.empty());
-    const auto named = openPainter("reference");
+    const auto renderer = openRenderer();
+    ASSERT_TRUE(renderer) << renderer.error().message;
+    EXPECT_EQ((*renderer)->device() == "reference", !(*renderer)->note.empty());
+    const auto named = openRenderer("reference");
     ASSERT_TRUE(named);
     EXPECT_EQ((*named)->device(), "reference");
     EXPECT_EQ((*named)->note, "");
 }
 
-TEST(Painter, drawsOnlyWhatIsLoadedNow)
+TEST(Renderer, drawsOnlyWhatIsLoadedNow)
 {
-    const auto painter = openPainter("reference");
-    ASSERT_TRUE(painter);
+    const auto renderer = openRenderer("reference");
+    ASSERT_TRUE(renderer);
     const View view = viewOf(Output::normal);
-    ASSERT_FALSE((*painter)->draw(view));
-    EXPECT_EQ((*painter)->draw(view).error().kind, ErrorKind::usage);
+    ASSERT_FALSE((*renderer)->draw(view));
+    EXPECT_EQ((*renderer)->draw(view).error().kind, ErrorKind::usage);
     const Scene empty, quad = mappedQuad();
     for (const auto& [scene, shows] : {std::pair(&quad, true), {&empty, false}}) {
-        ASSERT_TRUE((*painter)->load(*scene));
-        const auto image = (*painter)->draw(view);
+        ASSERT_TRUE((*renderer)->load(*scene));
+        const auto image = (*renderer)->draw(view);
         ASSERT_TRUE(image) << image.error().message;
         EXPECT_EQ(forCovered(*image, [](int, int, glm::vec4) {}) > 0, shows);
     }
-    (*painter)->forget();
-    EXPECT_FALSE((*painter)->draw(view));
+    (*renderer)->forget();
+    EXPECT_FALSE((*renderer)->draw(view));
 }
 
-TEST(Painter, progressGetsZeroBeforeEachPictureAndOneAtItsEnd)
+TEST(Renderer, progressGetsZeroBeforeEachPictureAndOneAtItsEnd)
 {
-    const auto painter = openPainter("reference", 1);
-    ASSERT_TRUE(painter);
+    const auto renderer = openRenderer("reference", 1);
+    ASSERT_TRUE(renderer);
     const Scene quad = mappedQuad();
-    ASSERT_TRUE((*painter)->load(quad));
+    ASSERT_TRUE((*renderer)->load(quad));
     std::vector<double> shares;
-    (*painter)->progress = [&](double share) {
+    (*renderer)->progress = [&](double share) {
         shares.push_back(share);
         return true;
     };
     for (int picture = 1; picture <= 2; ++picture) {
-        ASSERT_TRUE((*painter)->draw(viewOf(Output::normal)));
+        ASSERT_TRUE((*renderer)->draw(viewOf(Output::normal)));
         EXPECT_EQ(std::count(shares.begin(), shares.end(), 0.0), picture);
         EXPECT_EQ(shares.back(), 1.0);
     }
 }
 
-TEST(Painter, stopsWhereItsProgressSaysSoAndDrawsTheNextPicture)
+TEST(Renderer, stopsWhereItsProgressSaysSoAndDrawsTheNextPicture)
 {
-    const auto painter = openPainter("reference", 1);
-    ASSERT_TRUE(painter);
+    const auto renderer = openRenderer("reference", 1);
+    ASSERT_TRUE(renderer);
     const Scene quad = mappedQuad();
-    ASSERT_TRUE((*painter)->load(quad));
+    ASSERT_TRUE((*renderer)->load(quad));
     for (const double limit : {-1.0, 0.0}) { // before the picture, and within it
-        (*painter)->progress = [=](double share) { return share <= limit; };
-        const auto picture = (*painter)->draw(viewOf(Output::normal));
+        (*renderer)->progress = [=](double share) { return share <= limit; };
+        const auto picture = (*renderer)->draw(viewOf(Output::normal));
         ASSERT_FALSE(picture) << limit;
         EXPECT_EQ(picture.error().kind, ErrorKind::stopped);
     }
-    (*painter)->progress = {};
-    EXPECT_TRUE((*painter)->draw(viewOf(Output::normal)));
+    (*renderer)->progress = {};
+    EXPECT_TRUE((*renderer)->draw(viewOf(Output::normal)));
 }
 
 } // namespace

@@ -1,4 +1,4 @@
-// Light from surroundings: against integrals over all directions, and drawn by both renderers.
+// Light from an environment: against integrals over all directions, and drawn by both renderers.
 #include "cotan/view.hpp"
 
 #include <gtest/gtest.h>
@@ -408,12 +408,12 @@ View lampView()
 TEST(Environment, aDrawnMirrorBallShowsWhatItsNormalMirrors)
 {
     const Scene scene = ball(1, 0);
-    auto painter = openPainter("reference");
-    ASSERT_TRUE(painter && (*painter)->load(scene));
+    auto renderer = openRenderer("reference");
+    ASSERT_TRUE(renderer && (*renderer)->load(scene));
     View view = lampView();
-    const auto shaded = (*painter)->draw(view);
+    const auto shaded = (*renderer)->draw(view);
     view.output = Output::normal;
-    const auto normals = (*painter)->draw(view);
+    const auto normals = (*renderer)->draw(view);
     ASSERT_TRUE(shaded && normals);
     const float half = std::tan(view.camera.verticalFieldOfView / 2);
     int seen = 0;
@@ -435,7 +435,7 @@ TEST(Environment, aDrawnMirrorBallShowsWhatItsNormalMirrors)
 
 TEST(Environment, bothRenderersDrawTheSame)
 {
-    auto gpu = openPainter("auto"), reference = openPainter("reference");
+    auto gpu = openRenderer("auto"), reference = openRenderer("reference");
     ASSERT_TRUE(gpu && reference);
     if (!(*gpu)->note.empty())
         GTEST_SKIP() << (*gpu)->note;

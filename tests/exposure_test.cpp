@@ -18,12 +18,12 @@ struct Shown {
     float exposure = 0, mean = 0, most = 0; // of 255
 };
 
-Shown shown(Painter& painter, float color, float lamp)
+Shown shown(Renderer& renderer, float color, float lamp)
 {
     Scene scene;
     add(scene, makeSphere(1, 64), glm::mat4(1));
     scene.materials[0].baseColor = {color, color, color, 1};
-    EXPECT_TRUE(painter.load(scene));
+    EXPECT_TRUE(renderer.load(scene));
     View view = sunnyView();
     view.width = view.height = 120;
     view.environment = true;
@@ -33,10 +33,10 @@ Shown shown(Painter& painter, float color, float lamp)
     view.camera.eye = {0, 0.5f, 4};
     view.toneMapping = ToneMapping::neutral;
     Shown result;
-    result.exposure = *meterExposure(painter, view);
+    result.exposure = *meterExposure(renderer, view);
     view.exposure = result.exposure;
     view.background = false;
-    const auto picture = painter.draw(view);
+    const auto picture = renderer.draw(view);
     int count = 0;
     for (std::size_t i = 0; picture && i < picture->pixelCount(); ++i) {
         const std::uint8_t* p = picture->bytes8() + 4 * i;
@@ -53,19 +53,19 @@ Shown shown(Painter& painter, float color, float lamp)
 TEST(Exposure, whiteClayIsBrightAndNotBurntOutAndRubberStaysBlack)
 {
     std::vector<float> exposures;
-    for (const auto& painter : painters()) {
-        const Shown clay = shown(*painter, 0.9f, 3), grey = shown(*painter, 0.2f, 3),
-                    rubber = shown(*painter, 0.02f, 3);
-        EXPECT_LT(clay.most, 252) << painter->device();
-        EXPECT_GT(clay.mean, 165) << painter->device();
-        EXPECT_LT(rubber.mean, 75) << painter->device();
-        EXPECT_GT(rubber.mean, 25) << painter->device();
+    for (const auto& renderer : painters()) {
+        const Shown clay = shown(*renderer, 0.9f, 3), grey = shown(*renderer, 0.2f, 3),
+                    rubber = shown(*renderer, 0.02f, 3);
+        EXPECT_LT(clay.most, 252) << renderer->device();
+        EXPECT_GT(clay.mean, 165) << renderer->device();
+        EXPECT_LT(rubber.mean, 75) << renderer->device();
+        EXPECT_GT(rubber.mean, 25) << renderer->device();
         EXPECT_LT(clay.exposure, grey.exposure);
         EXPECT_LT(grey.exposure, rubber.exposure);
         // A thousand times the light is no other picture; a hundredth is one of what the studio still gives.
-        const Shown flooded = shown(*painter, 0.9f, 3000);
-        EXPECT_LT(flooded.most, 255) << painter->device();
-        EXPECT_GT(flooded.mean, 60) << painter->device();
+        const Shown flooded = shown(*renderer, 0.9f, 3000);
+        EXPECT_LT(flooded.most, 255) << renderer->device();
+        EXPECT_GT(flooded.mean, 60) << renderer->device();
         exposures.push_back(clay.exposure);
     }
     EXPECT_NEAR(exposures.front(), exposures.back(), 0.023f * exposures.front()); // a 32nd of a stop
@@ -74,9 +74,9 @@ TEST(Exposure, whiteClayIsBrightAndNotBurntOutAndRubberStaysBlack)
 TEST(Exposure, ofNothingIsOne)
 {
     const Scene nothing;
-    for (const auto& painter : painters()) {
-        ASSERT_TRUE(painter->load(nothing));
-        EXPECT_EQ(*meterExposure(*painter, sunnyView()), 1);
+    for (const auto& renderer : painters()) {
+        ASSERT_TRUE(renderer->load(nothing));
+        EXPECT_EQ(*meterExposure(*renderer, sunnyView()), 1);
     }
 }
 

@@ -13,7 +13,7 @@
 #include <unistd.h>
 
 #include "cotan/image.hpp"
-#include "files/account.hpp"
+#include "files/file_registry.hpp"
 #include "files/output.hpp"
 #include "files/plan.hpp"
 #include "run_tool.hpp"

@@ -18,7 +18,7 @@ struct Interval {
 // Lengths of the longest position and uv differences, of their product and of n.
 struct InputRange {
     Interval position, uv, product, normal;
-    double leastArea; // of a footprint, by its longest difference squared
+    double minArea; // of a footprint, by its longest difference squared
     double mostLean = 80;
 };
 
@@ -50,16 +50,16 @@ double anyIn(Random& random, Interval i)
 
 // Two differences, the longer of that length, with at least that share of its square between them:
 // short ones, nearly parallel ones, along the axes, in either order.
-void anyPair(Random& random, double longest, double leastArea, glm::dvec2& a, glm::dvec2& b)
+void anyPair(Random& random, double longest, double minArea, glm::dvec2& a, glm::dvec2& b)
 {
     double shorter = 0, angle = 0;
     do {
-        shorter = anyIn(random, {leastArea, 1});
+        shorter = anyIn(random, {minArea, 1});
         angle = random.range(0, 2 * std::numbers::pi);
         if (random.unit() < 0.3)
-            angle = std::asin(std::min(1.0, leastArea / shorter * (1 + 1e-3)))
-                + (random.unit() < 0.5 ? std::numbers::pi : 0);
-    } while (std::abs(shorter * std::sin(angle)) < leastArea);
+            angle =
+                std::asin(std::min(1.0, minArea / shorter * (1 + 1e-3))) + (random.unit() < 0.5 ? std::numbers::pi : 0);
+    } while (std::abs(shorter * std::sin(angle)) < minArea);
     const double start = random.unit() < 0.2 ? 0 : random.azimuth();
     a = glm::dvec2(std::cos(start), std::sin(start)) * longest;
     b = glm::dvec2(std::cos(start + angle), std::sin(start + angle)) * (longest * shorter);
@@ -75,8 +75,8 @@ RangeInput anyInput(Random& random, const InputRange& range)
         uv = random.unit() < 0.5 ? anyIn(random, range.product) / position : anyIn(random, range.uv);
     } while (!isWithin(uv, range.uv) || !isWithin(position * uv, range.product));
     glm::dvec2 p0, p1, uv0, uv1;
-    anyPair(random, position, range.leastArea, p0, p1);
-    anyPair(random, uv, range.leastArea, uv0, uv1);
+    anyPair(random, position, range.minArea, p0, p1);
+    anyPair(random, uv, range.minArea, uv0, uv1);
     const glm::dvec3 face = random.unit() < 0.1 ? glm::dvec3(0, 0, 1) : random.direction();
     const glm::dvec3 x = glm::normalize(glm::cross(face, random.direction())), y = glm::cross(face, x);
     const double lean = (random.unit() < 0.2 ? range.mostLean : random.range(0, range.mostLean)) * kDegree;

@@ -81,7 +81,7 @@ TEST(Bounds, areTheSmallestForFewInstancesAndHoldTheBoxesOfMany)
         EXPECT_NEAR(one.low[axis], -1, 2e-3f);
     }
     // 4006 vertices each: 4188 instances are the last that are looked at vertex by vertex.
-    scene.instances.assign(kMostPlacedVertices / 4006, {"", 0, turned});
+    scene.instances.assign(kMaxPlacedVertices / 4006, {"", 0, turned});
     EXPECT_EQ(bounds(scene).high, one.high);
     scene.instances.push_back({"", 0, turned});
     const Bounds many = bounds(scene);

@@ -210,9 +210,13 @@ TEST(GltfSkin, aMirroringJointTurnsSignAndWinding)
     COTAN_LOADED(scene, g.load());
     const Mesh& mesh = scene.meshes[0];
     EXPECT_EQ(mesh.tangents[0], glm::vec4(-1, 0, 0, -1));
-    const glm::vec3 a = mesh.positions[mesh.indices[0]];
-    const glm::vec3 face = glm::cross(mesh.positions[mesh.indices[1]] - a, mesh.positions[mesh.indices[2]] - a);
-    EXPECT_GT(glm::dot(face, mesh.normals[0]), 0.0f) << "counter-clockwise seen from outside";
+    ASSERT_EQ(mesh.indices.size(), 6u);
+    for (std::size_t i = 0; i < mesh.indices.size(); i += 3) {
+        const glm::vec3 a = mesh.positions[mesh.indices[i]];
+        const glm::vec3 face =
+            glm::cross(mesh.positions[mesh.indices[i + 1]] - a, mesh.positions[mesh.indices[i + 2]] - a);
+        EXPECT_GT(glm::dot(face, mesh.normals[0]), 0.0f) << "counter-clockwise seen from outside: " << i / 3;
+    }
     EXPECT_TRUE(scene.warnings.empty()) << scene.warnings.front();
 }
 

@@ -22,7 +22,7 @@ class Godot : public testing::TestWithParam<std::string> {};
 INSTANTIATE_TEST_SUITE_P(Driver, Godot, testing::Values("GLES3", "GLES2"), [](const auto& p) { return p.param; });
 
 // Of what one rounding of the result and of each input change at most (Case::allowance).
-double mostRoundings(const Case& c, const std::vector<Sample>& samples, const std::vector<glm::dvec3>& values)
+double maxRoundings(const Case& c, const std::vector<Sample>& samples, const std::vector<glm::dvec3>& values)
 {
     double most = 0;
     for (std::size_t s = 0; s < samples.size(); ++s)
@@ -48,7 +48,7 @@ TEST_P(Godot, functionsGiveWhatTheOtherLanguagesGive)
     for (std::size_t k = 0; k < some.size(); ++k) {
         double most = 0;
         if (some[k].light) {
-            const double roundings = mostRoundings(some[k], finite, r.values[k]);
+            const double roundings = maxRoundings(some[k], finite, r.values[k]);
             fmt::print("| {:24} | {} | {:.1f} roundings |\n", some[k].name, r.language, roundings);
             // 64 as in the other languages (shader_test.cpp); reading back by exp2 and log2 is 16; and Godot 3 keeps
             // six digits of a number in the text, 8 roundings, of which functions here have six at most.

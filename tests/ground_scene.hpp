@@ -91,11 +91,11 @@ inline double lightTraced(const Solids& solids, const glm::dvec3& from, const gl
     return double(passed) / seen;
 }
 
-inline std::vector<std::unique_ptr<Painter>> painters()
+inline std::vector<std::unique_ptr<Renderer>> painters()
 {
-    std::vector<std::unique_ptr<Painter>> all;
-    all.push_back(*openPainter("reference"));
-    auto gpu = openPainter("auto");
+    std::vector<std::unique_ptr<Renderer>> all;
+    all.push_back(*openRenderer("reference"));
+    auto gpu = openRenderer("auto");
     if (gpu && (*gpu)->note.empty())
         all.push_back(std::move(*gpu));
     return all;

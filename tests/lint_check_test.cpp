@@ -6,7 +6,7 @@
 namespace cotan {
 namespace {
 
-Spread spreadAt(double percentile95) { return {100, percentile95 / 2, percentile95, 2 * percentile95}; }
+ValueSummary spreadAt(double percentile95) { return {100, percentile95 / 2, percentile95, 2 * percentile95}; }
 
 // A primitive whose map was judged, with nothing wrong.
 PrimitiveLint sound()

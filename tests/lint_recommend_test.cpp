@@ -8,7 +8,7 @@
 namespace cotan {
 namespace {
 
-Spread spreadAt(double mean, double percentile95) { return {100, mean, percentile95, 2 * percentile95}; }
+ValueSummary spreadAt(double mean, double percentile95) { return {100, mean, percentile95, 2 * percentile95}; }
 
 // A primitive with a normal map that orthonormal reads so far off.
 PrimitiveLint judgedAs(double mean, double percentile95, double area = 1)

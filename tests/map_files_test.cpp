@@ -20,8 +20,8 @@ namespace {
 namespace fs = std::filesystem;
 using test::TemporaryFolder;
 
-Convention asGltf() { return *conventionFromWords("gltf"); }
-Convention asDirectx() { return *conventionFromWords("directx"); }
+Convention asGltf() { return *parseConvention("gltf"); }
+Convention asDirectx() { return *parseConvention("directx"); }
 
 std::vector<fs::path> filesIn(const fs::path& folder)
 {
@@ -41,7 +41,7 @@ protected:
     {
         const auto status = [](const auto& result) { return result ? Status(Done{}) : Status(result.error()); };
         const maps::MeshOfMap mesh{folder / "quad.obj"};
-        const Convention object = *conventionFromWords("object");
+        const Convention object = *parseConvention("object");
         return {
             status(maps::convertFile(map, out, {.from = asGltf(), .to = asDirectx()}, files)),
             status(maps::convertFile(map, out, {.from = asGltf(), .to = object, .mesh = mesh}, files)),
@@ -141,7 +141,7 @@ TEST_F(MapFiles, wrongOptionsAreNamed)
     refused({.from = asGltf(), .to = asGltf(), .bits = "half"}, "options.bits: ");
     refused({.from = asGltf(), .to = asGltf(), .strength = 0}, "options.strength: ");
     refused({.from = asGltf(), .to = stored}, "options.to: ");
-    refused({.from = asGltf(), .to = *conventionFromWords("object")}, "options.mesh: ");
+    refused({.from = asGltf(), .to = *parseConvention("object")}, "options.mesh: ");
     EXPECT_FALSE(fs::exists(out));
 }
 

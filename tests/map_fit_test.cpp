@@ -55,7 +55,7 @@ TEST(MapFit, theErrorIsThatOfTheOtherFrame)
 {
     const MapUse use = fitUse(rectangle({0, 0}, {2, 1}, {0, 0}, {1, 1})); // u is half as dense as v
     const Image map = fitMap();
-    const Spread s = mapError(map, map, {&use}, kFitCotangent);
+    const ValueSummary s = mapError(map, map, {&use}, kFitCotangent);
     EXPECT_NEAR(s.mean, angleBetween(kTexel, {0.2, 0.3, 1}), 1e-4);
     EXPECT_NEAR(s.maximum, s.mean, 1e-4);
     EXPECT_EQ(s.count, 4096u);
@@ -107,7 +107,7 @@ TEST(MapFit, aRowBetweenTexelCentresIsJudged)
 {
     const MapUse use = fitUse(rectangle({0, 0}, {4, 0.5f}, {0, 0.05f}, {1, 0.3f}));
     const Image row = floatMap(16, 1, [](int x, int) { return glm::dvec3(0.02 * x, 0.3, 1); });
-    const Spread s = mapError(row, row, {&use}, kFitCotangent);
+    const ValueSummary s = mapError(row, row, {&use}, kFitCotangent);
     EXPECT_EQ(s.count, 4096u);
     EXPECT_GT(s.mean, 1);
     EXPECT_FALSE(fitsAsItIs(s));
@@ -118,7 +118,7 @@ TEST(MapFit, nothingIsSaidWhereNothingShowsTheMap)
     const MapUse line = fitUse(rectangle({0, 0}, {4, 1}, {0, 0.5f}, {1, 0.5f})), empty = fitUse({});
     const Image map = fitMap();
     for (const std::vector<const MapUse*>& uses : {std::vector<const MapUse*>{}, {&line}, {&empty}, {&line, &empty}}) {
-        const Spread s = mapError(map, map, uses, kFitCotangent);
+        const ValueSummary s = mapError(map, map, uses, kFitCotangent);
         EXPECT_EQ(s.count, 0u);
         EXPECT_TRUE(std::isnan(s.mean));
     }

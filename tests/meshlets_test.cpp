@@ -54,14 +54,14 @@ double mostOff(const Arrays& a, const RingMeshlets& cut)
 }
 
 // All triangles in their order, within the limits, from vertices that are listed once a meshlet.
-void expectWhole(const Arrays& a, const RingMeshlets& cut, std::uint32_t mostVertices, std::uint32_t mostTriangles)
+void expectWhole(const Arrays& a, const RingMeshlets& cut, std::uint32_t maxVertices, std::uint32_t maxTriangles)
 {
     std::vector<std::uint32_t> indices;
     ASSERT_EQ(cut.ringBegin.size(), cut.vertices.size() + 1);
     ASSERT_EQ(cut.ringBegin.back(), cut.corners.size());
     for (const cotan::RingMeshlet& m : cut.meshlets) {
-        ASSERT_LE(m.vertexCount, mostVertices);
-        ASSERT_LE(m.triangleCount, mostTriangles);
+        ASSERT_LE(m.vertexCount, maxVertices);
+        ASSERT_LE(m.triangleCount, maxTriangles);
         ASSERT_GT(m.triangleCount, 0u);
         ASSERT_LE(m.firstVertex + m.vertexCount, cut.vertices.size());
         const auto begin = cut.vertices.begin() + m.firstVertex;

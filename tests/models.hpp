@@ -31,15 +31,15 @@ inline Scene loadModel(const char* file)
 }
 
 // The renderer of that name; null where it is not available (the Vulkan one on machines without).
-inline std::unique_ptr<Painter> painterFor(const std::string& device)
+inline std::unique_ptr<Renderer> painterFor(const std::string& device)
 {
-    auto painter = openPainter(device);
-    return painter && (*painter)->note.empty() ? std::move(*painter) : nullptr;
+    auto renderer = openRenderer(device);
+    return renderer && (*renderer)->note.empty() ? std::move(*renderer) : nullptr;
 }
 
-inline Image drawWith(Painter& painter, const View& view)
+inline Image drawWith(Renderer& renderer, const View& view)
 {
-    auto image = painter.draw(view);
+    auto image = renderer.draw(view);
     if (!image) {
         ADD_FAILURE() << image.error().message;
         return makeImage(view.width, view.height, PixelType::float32);

@@ -20,7 +20,7 @@ void PrintTo(const Model& model, std::ostream* out) { *out << model.name; }
 
 class Devices : public ::testing::TestWithParam<Model> {};
 
-AngleStatistics difference(const Scene& scene, Painter& gpu, Painter& reference, bool pointSampled)
+AngleStatistics difference(const Scene& scene, Renderer& gpu, Renderer& reference, bool pointSampled)
 {
     View view;
     view.width = 640;
@@ -60,7 +60,7 @@ struct Twins {
     double mean = 0;  // steps, of the largest channel
 };
 
-Twins twins(const Scene& scene, Painter& painter)
+Twins twins(const Scene& scene, Renderer& renderer)
 {
     Scene cut = scene;
     for (Material& m : cut.materials)
@@ -71,10 +71,10 @@ Twins twins(const Scene& scene, Painter& painter)
     view.camera = fitCamera(bounds(scene), view.width, view.height);
     view.lights = defaultLights();
     view.shadows = false; // blended materials cast none
-    EXPECT_TRUE(painter.load(scene));
-    const Image blended = drawWith(painter, view);
-    EXPECT_TRUE(painter.load(cut));
-    const Image solid = drawWith(painter, view);
+    EXPECT_TRUE(renderer.load(scene));
+    const Image blended = drawWith(renderer, view);
+    EXPECT_TRUE(renderer.load(cut));
+    const Image solid = drawWith(renderer, view);
     Twins result;
     for (std::size_t i = 0; i < blended.pixelCount(); ++i) {
         int step = 0;
@@ -95,10 +95,10 @@ TEST(BlendedModel, solidTexelsHideWhatIsBehindThemOnBothDevices)
     COTAN_NEEDS_MODEL("models/SketchfabCat/scene.gltf");
     const Scene scene = loadModel("models/SketchfabCat/scene.gltf");
     for (const char* device : {"reference", "auto"}) {
-        auto painter = painterFor(device);
-        if (!painter)
+        auto renderer = painterFor(device);
+        if (!renderer)
             continue; // no Vulkan device
-        const Twins t = twins(scene, *painter);
+        const Twins t = twins(scene, *renderer);
         EXPECT_LT(t.share, 0.005) << device;
         EXPECT_LT(t.mean, 0.1) << device;
     }

@@ -42,8 +42,8 @@ const MappedFactor kMappedFactors[] = {
 TEST(MaterialExtensions, everyMapIsTimesItsFactorWithUvOfItsOwn)
 {
     for (const char* device : {"reference", "auto"}) {
-        auto painter = painterFor(device);
-        if (!painter)
+        auto renderer = painterFor(device);
+        if (!renderer)
             continue;
         for (const MappedFactor& f : kMappedFactors) {
             Scene scene = leaningQuad();
@@ -61,8 +61,8 @@ TEST(MaterialExtensions, everyMapIsTimesItsFactorWithUvOfItsOwn)
             view.environment = view.background = true;
             view.pointSampled = true;
             const auto drawn = [&] {
-                EXPECT_TRUE(painter->load(scene));
-                return drawWith(*painter, view);
+                EXPECT_TRUE(renderer->load(scene));
+                return drawWith(*renderer, view);
             };
             f.make(m, 0);
             const Image none = drawn();
@@ -93,8 +93,8 @@ TEST(MaterialExtensions, oddNumbersGiveFinitePictures)
 {
     const float odd[] = {-1, 0, 1e30f, std::numeric_limits<float>::infinity(), std::nanf("")};
     for (const char* device : {"reference", "auto"}) {
-        auto painter = painterFor(device);
-        if (!painter)
+        auto renderer = painterFor(device);
+        if (!renderer)
             continue;
         Scene scene = leaningQuad();
         for (const float value : odd)
@@ -107,12 +107,12 @@ TEST(MaterialExtensions, oddNumbersGiveFinitePictures)
                 m.sheen.roughness = value;
                 m.transmission.strength = k == 4 ? value : 0.0f;
                 scene.materials[0] = m;
-                const auto loaded = painter->load(scene);
+                const auto loaded = renderer->load(scene);
                 if (!loaded)
                     continue; // said so
                 View view = quadView(Frame::cotangent);
                 view.environment = true;
-                const Image image = drawWith(*painter, view);
+                const Image image = drawWith(*renderer, view);
                 for (std::size_t i = 0; i < 4 * image.pixelCount(); ++i)
                     ASSERT_TRUE(std::isfinite(image.floats()[i])) << device << " " << k << " " << value;
             }

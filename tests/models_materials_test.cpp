@@ -25,8 +25,8 @@ TEST(Shadows, aCoatThatIsOpaqueNearlyEverywhereThrowsTheShadowOfAnOpaqueOne)
     view.lights.resize(1);
     view.lights[0].direction = glm::normalize(glm::vec3(0.62f, -0.9f, -0.7f));
     for (const char* device : {"reference", "auto"}) {
-        auto painter = painterFor(device);
-        if (!painter)
+        auto renderer = painterFor(device);
+        if (!renderer)
             continue;
         std::vector<Image> pictures;
         for (const AlphaMode mode : {AlphaMode::opaque, AlphaMode::blend}) {
@@ -36,8 +36,8 @@ TEST(Shadows, aCoatThatIsOpaqueNearlyEverywhereThrowsTheShadowOfAnOpaqueOne)
             auto ground = makeGround(scene, view);
             ASSERT_TRUE(ground);
             drawn.ground = std::make_shared<const GroundMap>(std::move(*ground));
-            ASSERT_TRUE(painter->load(scene));
-            pictures.push_back(drawWith(*painter, drawn));
+            ASSERT_TRUE(renderer->load(scene));
+            pictures.push_back(drawWith(*renderer, drawn));
         }
         double sum = 0;
         for (std::size_t i = 0; i < pictures[0].data.size(); ++i)
@@ -50,8 +50,8 @@ TEST(Shadows, aCoatThatIsOpaqueNearlyEverywhereThrowsTheShadowOfAnOpaqueOne)
 TEST(Coat, itsMapIsReadAsTheSurfacesOwnWouldBe)
 {
     for (const char* device : {"reference", "auto"}) {
-        auto painter = painterFor(device);
-        if (!painter)
+        auto renderer = painterFor(device);
+        if (!renderer)
             continue;
         for (const FrameInfo& frame : frames())
             for (const bool turned : {false, true}) {
@@ -81,10 +81,10 @@ TEST(Coat, itsMapIsReadAsTheSurfacesOwnWouldBe)
                 // Tangents are made for the surface's own map.
                 const bool stored = readsTangents(frame.frame) && turned;
                 View view = quadView(frame.frame);
-                ASSERT_TRUE(painter->load(own));
-                const Image expected = drawWith(*painter, view);
-                ASSERT_TRUE(painter->load(coated));
-                const Image found = drawWith(*painter, view);
+                ASSERT_TRUE(renderer->load(own));
+                const Image expected = drawWith(*renderer, view);
+                ASSERT_TRUE(renderer->load(coated));
+                const Image found = drawWith(*renderer, view);
                 const double a = redAt(expected, 12, 17), b = redAt(found, 12, 17);
                 EXPECT_GT(a, 0.001) << device << ", " << frame.name;
                 if (!stored) {
@@ -94,8 +94,8 @@ TEST(Coat, itsMapIsReadAsTheSurfacesOwnWouldBe)
                     continue;
                 // Without its map the highlight lies elsewhere.
                 coated.materials[0].coat.normalMap = {};
-                ASSERT_TRUE(painter->load(coated));
-                EXPECT_GT(std::abs(redAt(drawWith(*painter, view), 12, 17) / a - 1), 0.05) << device << frame.name;
+                ASSERT_TRUE(renderer->load(coated));
+                EXPECT_GT(std::abs(redAt(drawWith(*renderer, view), 12, 17) / a - 1), 0.05) << device << frame.name;
             }
     }
 }
@@ -103,16 +103,16 @@ TEST(Coat, itsMapIsReadAsTheSurfacesOwnWouldBe)
 TEST(Coat, takesItsShareFromEmission)
 {
     for (const char* device : {"reference", "auto"}) {
-        auto painter = painterFor(device);
-        if (!painter)
+        auto renderer = painterFor(device);
+        if (!renderer)
             continue;
         Scene scene = leaningQuad();
         scene.materials[0].emissive = {0.5f, 0.5f, 0.5f};
         scene.materials[0].coat.strength = 0.5f;
         View view = quadView(Frame::cotangent);
         view.lights.clear();
-        ASSERT_TRUE(painter->load(scene));
-        EXPECT_NEAR(redAt(drawWith(*painter, view), 12, 17), 0.5 * (1 - 0.5 * 0.04), 1e-5) << device;
+        ASSERT_TRUE(renderer->load(scene));
+        EXPECT_NEAR(redAt(drawWith(*renderer, view), 12, 17), 0.5 * (1 - 0.5 * 0.04), 1e-5) << device;
     }
 }
 
@@ -120,8 +120,8 @@ TEST(Anisotropy, aHighlightFollowsItsDirectionOnBothRenderers)
 {
     // Seen and lit from straight ahead, leaned along u: stretched along u it is brighter there than across.
     for (const char* device : {"reference", "auto"}) {
-        auto painter = painterFor(device);
-        if (!painter)
+        auto renderer = painterFor(device);
+        if (!renderer)
             continue;
         Scene scene = leaningQuad();
         for (glm::vec2& uv : scene.meshes[0].texcoords[0])
@@ -133,8 +133,8 @@ TEST(Anisotropy, aHighlightFollowsItsDirectionOnBothRenderers)
         const auto lit = [&](float rotation, glm::vec3 way) {
             m.anisotropy.rotation = rotation;
             view.lights[0].direction = glm::normalize(way);
-            EXPECT_TRUE(painter->load(scene));
-            return redAt(drawWith(*painter, view), 12, 17);
+            EXPECT_TRUE(renderer->load(scene));
+            return redAt(drawWith(*renderer, view), 12, 17);
         };
         // dp/du is along x: u does not grow along (0.1, 0.4).
         const glm::vec3 along(-0.8f, 0, -1), across(0, -0.8f, -1), slant(-0.57f, -0.57f, -1);
@@ -152,8 +152,8 @@ TEST(MaterialModels, theVelvetSofaIsBlue)
     COTAN_NEEDS_MODEL("models/GlamVelvetSofa/GlamVelvetSofa.glb");
     const Scene scene = loadModel("models/GlamVelvetSofa/GlamVelvetSofa.glb");
     for (const char* device : {"reference", "auto"}) {
-        auto painter = painterFor(device);
-        if (!painter)
+        auto renderer = painterFor(device);
+        if (!renderer)
             continue;
         View view;
         view.width = 160;
@@ -163,8 +163,8 @@ TEST(MaterialModels, theVelvetSofaIsBlue)
         view.background = false;
         view.linearOutput = true;
         view.samples = 1;
-        ASSERT_TRUE(painter->load(scene));
-        const Image image = drawWith(*painter, view);
+        ASSERT_TRUE(renderer->load(scene));
+        const Image image = drawWith(*renderer, view);
         glm::dvec4 sum(0);
         for (std::size_t i = 0; i < image.pixelCount(); ++i)
             for (int c = 0; c < 4; ++c)
@@ -192,7 +192,7 @@ double meanStep(const Image& a, const Image& b)
     return sum / double(a.pixelCount());
 }
 
-Image pictureOf(Painter& painter, Scene scene, Frame frame, bool layers)
+Image pictureOf(Renderer& renderer, Scene scene, Frame frame, bool layers)
 {
     for (Material& m : scene.materials)
         if (!layers) {
@@ -207,8 +207,8 @@ Image pictureOf(Painter& painter, Scene scene, Frame frame, bool layers)
     view.camera = fitCamera(bounds(scene), view.width, view.height);
     view.lights = defaultLights();
     view.frame = frame;
-    EXPECT_TRUE(painter.load(scene));
-    return drawWith(painter, view);
+    EXPECT_TRUE(renderer.load(scene));
+    return drawWith(renderer, view);
 }
 
 TEST(MaterialModels, bothRenderersDrawTheSameLayers)

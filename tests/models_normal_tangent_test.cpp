@@ -68,16 +68,16 @@ double meanDifference(const Image& normals, const View& view, glm::dvec2 real, g
 void check(const char* device, const char* model, const std::vector<Pair>& pairs)
 {
     COTAN_NEEDS_MODEL(model);
-    auto painter = painterFor(device);
-    if (!painter)
+    auto renderer = painterFor(device);
+    if (!renderer)
         GTEST_SKIP() << "no Vulkan device";
     const Scene scene = loadModel(model);
-    ASSERT_TRUE(painter->load(scene));
+    ASSERT_TRUE(renderer->load(scene));
     View view = frontView({-1.5f, -1.0f}, {1.5f, 1.0f}, kPerUnit);
     view.frame = Frame::cotangent;
-    const Image normals = drawWith(*painter, view);
+    const Image normals = drawWith(*renderer, view);
     view.normalMaps = false;
-    const Image plain = drawWith(*painter, view);
+    const Image plain = drawWith(*renderer, view);
     double worst = 0;
     for (const Pair& pair : pairs)
         for (double row : kRows) {
@@ -89,7 +89,7 @@ void check(const char* device, const char* model, const std::vector<Pair>& pairs
             // the control: without the map the quad is flat and the half-sphere is not
             EXPECT_GT(meanDifference(plain, view, real, mapped), 5);
         }
-    std::cout << model << " on " << painter->device() << ": worst mean " << worst << " degrees\n";
+    std::cout << model << " on " << renderer->device() << ": worst mean " << worst << " degrees\n";
 }
 
 const std::vector<Pair> kTurned = {{-0.96, -0.64}, {-0.16, 0.16}, {0.64, 0.96}};

@@ -79,12 +79,12 @@ struct Error {
     int count = 0;
 };
 
-Error errorOver(const Grid& g, const Scene& scene, Painter& painter)
+Error errorOver(const Grid& g, const Scene& scene, Renderer& renderer)
 {
     View view = frontView(glm::vec2(g.low), glm::vec2(g.high), 300 / float(g.high.x - g.low.x));
     view.frame = Frame::cotangent;
     view.pointSampled = true;
-    const Image normals = drawWith(painter, view);
+    const Image normals = drawWith(renderer, view);
     const Image& map = scene.images[0];
     const double scale = g.degenerate ? 0 : commonScale(g.gradU, g.gradV);
     const double perUnit = view.height / double(view.camera.verticalExtent);
@@ -121,17 +121,17 @@ Error errorOver(const Grid& g, const Scene& scene, Painter& painter)
 void check(const char* device)
 {
     COTAN_NEEDS_MODEL(kModel);
-    auto painter = painterFor(device);
-    if (!painter)
+    auto renderer = painterFor(device);
+    if (!renderer)
         GTEST_SKIP() << "no Vulkan device";
     const Scene scene = loadModel(kModel);
     ASSERT_EQ(scene.instances.size(), 16u);
     ASSERT_EQ(scene.images.size(), 1u);
-    ASSERT_TRUE(painter->load(scene));
+    ASSERT_TRUE(renderer->load(scene));
     int degenerate = 0;
     for (const Instance& instance : scene.instances) {
         const Grid g = gridOf(scene, instance);
-        const Error e = errorOver(g, scene, *painter);
+        const Error e = errorOver(g, scene, *renderer);
         EXPECT_GT(e.count, 3000) << g.name; // `tiny` shows so few texels that most pixels are near a border
         degenerate += g.degenerate;
         if (!g.degenerate) {

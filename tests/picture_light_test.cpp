@@ -112,11 +112,11 @@ TEST(PictureLight, withoutAnEnvironmentItsOptionsAreRefusedByName)
     }
     Options unknown;
     unknown.environment = "noon";
-    const auto opened = openSurroundings(unknown);
+    const auto opened = openEnvironmentMap(unknown);
     ASSERT_FALSE(opened);
     EXPECT_NE(opened.error().message.find("none, or a .hdr or .exr file; found 'noon'"), std::string::npos);
     unknown.use = PictureUse::data; // where nothing is lit nothing is opened
-    EXPECT_TRUE(openSurroundings(unknown));
+    EXPECT_TRUE(openEnvironmentMap(unknown));
 }
 
 // ---- maps --------------------------------------------------------------------------------------------

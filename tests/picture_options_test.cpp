@@ -39,7 +39,7 @@ TEST(PictureWords, camerasHaveTheNamesOfSides)
 {
     const Scene scene = builtinScene();
     const auto from = [&](const char* words) {
-        const auto camera = cameraFromWords(words, scene, 10, 10);
+        const auto camera = parseCamera(words, scene, 10, 10);
         return camera ? glm::normalize(camera->eye - camera->target) : glm::vec3(0);
     };
     EXPECT_LT(glm::distance(from("left"), {-1, 0, 0}), 1e-5f);
@@ -50,7 +50,7 @@ TEST(PictureWords, camerasHaveTheNamesOfSides)
     EXPECT_LT(glm::distance(from("orbit:-90,0"), from("left")), 1e-5f);
     for (const char* wrong :
          {"Left", "orbit", "orbit:", "orbit:1", "orbit:1,2,3", "orbit:1,nan", "orbit:1,90.1", "side"})
-        EXPECT_FALSE(cameraFromWords(wrong, scene, 10, 10)) << wrong;
+        EXPECT_FALSE(parseCamera(wrong, scene, 10, 10)) << wrong;
 }
 
 TEST(PictureWords, camerasAreNumberedFromNoughtToTheLast)
@@ -59,25 +59,25 @@ TEST(PictureWords, camerasAreNumberedFromNoughtToTheLast)
     scene.cameras.resize(2);
     scene.cameras[0].eye = {1, 2, 3};
     scene.cameras[1].eye = {4, 5, 6};
-    EXPECT_EQ(cameraFromWords("0", scene, 10, 10)->eye, glm::vec3(1, 2, 3));
-    EXPECT_EQ(cameraFromWords("1", scene, 10, 10)->eye, glm::vec3(4, 5, 6));
-    EXPECT_FALSE(cameraFromWords("2", scene, 10, 10));
-    EXPECT_FALSE(cameraFromWords("-1", scene, 10, 10));
+    EXPECT_EQ(parseCamera("0", scene, 10, 10)->eye, glm::vec3(1, 2, 3));
+    EXPECT_EQ(parseCamera("1", scene, 10, 10)->eye, glm::vec3(4, 5, 6));
+    EXPECT_FALSE(parseCamera("2", scene, 10, 10));
+    EXPECT_FALSE(parseCamera("-1", scene, 10, 10));
 }
 
 TEST(PictureWords, aCameraLooksFromAndToWithAnUpThatIsNotItsDirection)
 {
     const Scene scene;
-    const auto level = cameraFromWords("1,2,3,4,2,8", scene, 10, 10);
+    const auto level = parseCamera("1,2,3,4,2,8", scene, 10, 10);
     EXPECT_EQ(level->eye, glm::vec3(1, 2, 3));
     EXPECT_EQ(level->target, glm::vec3(4, 2, 8));
     EXPECT_EQ(level->up, glm::vec3(0, 1, 0));
     for (const char* straight : {"0,5,0,0,-1,0", "0,-5,0,0,1,0"})
-        EXPECT_GT(glm::length(glm::cross(cameraFromWords(straight, scene, 10, 10)->up, glm::vec3(0, 1, 0))), 0.5f)
+        EXPECT_GT(glm::length(glm::cross(parseCamera(straight, scene, 10, 10)->up, glm::vec3(0, 1, 0))), 0.5f)
             << straight;
-    EXPECT_FALSE(cameraFromWords("1,2,3,1,2,3", scene, 10, 10)); // nowhere to look
-    EXPECT_FALSE(cameraFromWords("1,2,3,4,5", scene, 10, 10));
-    EXPECT_FALSE(cameraFromWords("1,2,3,4,5,nan", scene, 10, 10));
+    EXPECT_FALSE(parseCamera("1,2,3,1,2,3", scene, 10, 10)); // nowhere to look
+    EXPECT_FALSE(parseCamera("1,2,3,4,5", scene, 10, 10));
+    EXPECT_FALSE(parseCamera("1,2,3,4,5,nan", scene, 10, 10));
 }
 
 CommonOptions quiet()

@@ -43,7 +43,7 @@ glm::mat4 placement(bool mirrored)
     return m;
 }
 
-bool everyFrameExists(Frame frame, Renderer& renderer)
+bool everyFrameExists(Frame frame, VulkanRenderer& renderer)
 {
     const Result<Image> image = renderer.render(viewOf(Output::normal, frame));
     return bool(image);

@@ -13,11 +13,11 @@ class RenderLayers : public ::testing::Test {
 protected:
     static void SetUpTestSuite()
     {
-        RendererOptions options;
+        VulkanRendererOptions options;
         options.validation = true;
-        Result<Renderer> opened = Renderer::create(options);
+        Result<VulkanRenderer> opened = VulkanRenderer::create(options);
         if (opened)
-            renderer = std::make_unique<Renderer>(std::move(*opened));
+            renderer = std::make_unique<VulkanRenderer>(std::move(*opened));
         else
             reason = opened.error().message;
     }
@@ -41,7 +41,7 @@ protected:
         return drawn(*renderer, view);
     }
 
-    static inline std::unique_ptr<Renderer> renderer;
+    static inline std::unique_ptr<VulkanRenderer> renderer;
     static inline std::string reason;
     std::size_t said = 0;
 };

@@ -20,10 +20,10 @@ inline const bool kQuicklyCompiled = ::setenv("GALLIVM_PERF", "nopt", /*replace*
 
 // Opens a renderer, or skips the test with the reason.
 #define COTAN_RENDERER_OR_SKIP(name, options)                                                                          \
-    Result<Renderer> name##Result = Renderer::create(options);                                                         \
+    Result<VulkanRenderer> name##Result = VulkanRenderer::create(options);                                             \
     if (!name##Result)                                                                                                 \
         GTEST_SKIP() << name##Result.error().message;                                                                  \
-    Renderer& name = *name##Result
+    VulkanRenderer& name = *name##Result
 
 inline double degreesBetween(glm::dvec3 a, glm::dvec3 b)
 {
@@ -132,7 +132,7 @@ inline View viewOf(Output output, Frame frame = Frame::cotangent)
     return view;
 }
 
-inline Image drawn(Renderer& renderer, const View& view)
+inline Image drawn(VulkanRenderer& renderer, const View& view)
 {
     Result<Image> image = renderer.render(view);
     if (!image) {
@@ -142,7 +142,7 @@ inline Image drawn(Renderer& renderer, const View& view)
     return *std::move(image);
 }
 
-inline void load(Renderer& renderer, const Scene& scene)
+inline void load(VulkanRenderer& renderer, const Scene& scene)
 {
     const Status status = renderer.load(scene);
     ASSERT_TRUE(status) << status.error().message;

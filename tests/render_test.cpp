@@ -116,9 +116,9 @@ TEST(RenderDevice, unknownNameIsUnavailableAndSaysWhatThereIs)
     const Result<std::vector<std::string>> devices = renderDevices();
     if (!devices)
         GTEST_SKIP() << devices.error().message;
-    RendererOptions options;
+    VulkanRendererOptions options;
     options.device = "no such device";
-    const Result<Renderer> renderer = Renderer::create(options);
+    const Result<VulkanRenderer> renderer = VulkanRenderer::create(options);
     ASSERT_FALSE(renderer);
     EXPECT_EQ(renderer.error().kind, ErrorKind::unavailable);
     EXPECT_NE(renderer.error().message.find("no such device"), std::string::npos);
@@ -134,7 +134,7 @@ TEST(RenderDevice, partOfTheNameInAnyCaseChoosesIt)
     std::string part = devices->back().substr(0, 6);
     for (char& c : part)
         c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
-    RendererOptions options;
+    VulkanRendererOptions options;
     options.device = part;
     COTAN_RENDERER_OR_SKIP(renderer, options);
     EXPECT_EQ(renderer.deviceName().substr(0, 6), devices->back().substr(0, 6));
@@ -284,7 +284,7 @@ Scene withAttributes(Scene scene)
 
 TEST(RenderValidation, layerHasNothingToSayAboutAnyOutputAndFrame)
 {
-    RendererOptions options;
+    VulkanRendererOptions options;
     options.validation = true;
     COTAN_RENDERER_OR_SKIP(renderer, options);
     if (!renderer.messages().empty())

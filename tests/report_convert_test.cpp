@@ -16,7 +16,7 @@ using Lines = std::vector<std::string>;
 
 nlohmann::json parsed(const Json& json) { return nlohmann::json::parse(toText(json)); }
 
-Spread figures(double mean) { return {7, mean, mean + 1, mean + 2}; }
+ValueSummary figures(double mean) { return {7, mean, mean + 1, mean + 2}; }
 
 ConvertedMap convertedMap()
 {
@@ -163,7 +163,7 @@ TEST(ReportWords, countWhatASceneHas)
     EXPECT_EQ(counted(0, "map"), "0 maps");
     EXPECT_EQ(counted(1, "map"), "1 map");
     EXPECT_EQ(counted(2, "map"), "2 maps");
-    EXPECT_EQ(toText(Spread{}), "nothing to measure");
+    EXPECT_EQ(toText(ValueSummary{}), "nothing to measure");
     Scene scene;
     scene.meshes = {makePlane(1, 2, 1), makePlane(1, 1, 1)}; // 8 and 2 triangles
     scene.instances = {{"a", 0, glm::mat4(1)}, {"b", 1, glm::mat4(1)}, {"c", 0, glm::mat4(1)}};

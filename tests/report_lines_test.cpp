@@ -16,7 +16,7 @@ using Lines = std::vector<std::string>;
 
 nlohmann::json readBack(const Json& json) { return nlohmann::json::parse(toText(json)); }
 
-Spread spreadFrom(double mean) { return {7, mean, mean + 1, mean + 2}; }
+ValueSummary spreadFrom(double mean) { return {7, mean, mean + 1, mean + 2}; }
 
 // A primitive whose every figure is another number.
 PrimitiveLint primitive()

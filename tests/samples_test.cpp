@@ -81,14 +81,14 @@ double worstCoverage(const Image& picture, float radians)
 // A half-plane is off by less than two of the sixteen places of a net, and a corner by four.
 TEST(Samples, sixteenCoverWhatATriangleCovers)
 {
-    for (const auto& painter : painters())
+    for (const auto& renderer : painters())
         for (const float radians : {0.0f, 0.1f, 0.4f, 0.785f}) {
             const Scene scene = tiltedSquare(radians);
-            ASSERT_TRUE(painter->load(scene));
-            const auto sixteen = painter->draw(flatView(16)), one = painter->draw(flatView(1));
+            ASSERT_TRUE(renderer->load(scene));
+            const auto sixteen = renderer->draw(flatView(16)), one = renderer->draw(flatView(1));
             ASSERT_TRUE(sixteen && one);
-            EXPECT_LT(worstCoverage(*sixteen, radians), 0.14) << painter->device() << " " << radians;
-            EXPECT_GT(worstCoverage(*one, radians), 0.3) << painter->device() << " " << radians;
+            EXPECT_LT(worstCoverage(*sixteen, radians), 0.14) << renderer->device() << " " << radians;
+            EXPECT_GT(worstCoverage(*one, radians), 0.3) << renderer->device() << " " << radians;
         }
 }
 
@@ -150,15 +150,15 @@ Image quarter(const Image& large)
 TEST(Samples, sixteenDrawTheHighlightsOfNearMirrorsThatFourDot)
 {
     const Scene scene = groovedBall();
-    for (const auto& painter : painters()) {
-        ASSERT_TRUE(painter->load(scene));
-        const auto large = painter->draw(studioView(256, 16));
-        const auto four = painter->draw(studioView(64, 4)), sixteen = painter->draw(studioView(64, 16));
+    for (const auto& renderer : painters()) {
+        ASSERT_TRUE(renderer->load(scene));
+        const auto large = renderer->draw(studioView(256, 16));
+        const auto four = renderer->draw(studioView(64, 4)), sixteen = renderer->draw(studioView(64, 16));
         ASSERT_TRUE(large && four && sixteen);
         const Image truth = quarter(*large);
         const double before = shownDifference(*four, truth), after = shownDifference(*sixteen, truth);
-        EXPECT_GT(before, 0.05) << painter->device();
-        EXPECT_LT(after, 0.35 * before) << painter->device() << " " << before << " " << after;
+        EXPECT_GT(before, 0.05) << renderer->device();
+        EXPECT_LT(after, 0.35 * before) << renderer->device() << " " << before << " " << after;
     }
 }
 
@@ -173,8 +173,8 @@ TEST(Samples, bothRenderersDrawSixteenAlike)
     scene.materials[1].alphaMode = AlphaMode::blend;
     scene.materials[1].baseColor = {0.2f, 0.8f, 0.3f, 0.5f};
     scene.meshes.back().material = 1;
-    for (const auto& painter : all)
-        ASSERT_TRUE(painter->load(scene));
+    for (const auto& renderer : all)
+        ASSERT_TRUE(renderer->load(scene));
     for (const bool orthographic : {false, true})
         for (const bool upward : {false, true}) {
             View view = studioView(120, 16);
@@ -223,7 +223,7 @@ double worstBlock(const Image& bytes, const Image& light)
 // The steps of 8 bits are half a level off over whole bands; dithered, blocks keep their brightness.
 TEST(Levels, paperDoesNotBand)
 {
-    for (const auto& painter : painters())
+    for (const auto& renderer : painters())
         for (const int samples : {1, 4, 16})
             for (const bool model : {false, true}) {
                 Scene scene;
@@ -231,20 +231,21 @@ TEST(Levels, paperDoesNotBand)
                 for (const double at : {-1.0, 1.0})
                     if (model)
                         add(scene, makeCube(1e-4f, 1), placedAt({at, at, 0}, glm::dvec3(1)));
-                ASSERT_TRUE(painter->load(scene));
+                ASSERT_TRUE(renderer->load(scene));
                 View view = paperView(true), plain = paperView(false), light = paperView(true);
                 view.samples = plain.samples = light.samples = samples;
                 light.linearOutput = true;
-                const auto dithered = painter->draw(view), banded = painter->draw(plain), truth = painter->draw(light);
+                const auto dithered = renderer->draw(view), banded = renderer->draw(plain),
+                           truth = renderer->draw(light);
                 ASSERT_TRUE(dithered && banded && truth);
-                EXPECT_LT(worstBlock(*dithered, *truth), 0.1) << painter->device() << samples;
-                EXPECT_GT(worstBlock(*banded, *truth), 0.25) << painter->device() << samples;
+                EXPECT_LT(worstBlock(*dithered, *truth), 0.1) << renderer->device() << samples;
+                EXPECT_GT(worstBlock(*banded, *truth), 0.25) << renderer->device() << samples;
             }
 }
 
 TEST(Levels, ofTheSamePictureAreTheSameForAnyNumberOfThreads)
 {
-    const auto one = openPainter("reference", 1), two = openPainter("reference", 2);
+    const auto one = openRenderer("reference", 1), two = openRenderer("reference", 2);
     ASSERT_TRUE(one && two);
     const Scene scene = sceneOf({});
     ASSERT_TRUE((*one)->load(scene) && (*two)->load(scene));
@@ -260,15 +261,15 @@ TEST(Levels, ofTheSamePictureAreTheSameForAnyNumberOfThreads)
 // Colours of 8 bits that a picture shows as they are stay what they are, and so do pictures that tell numbers.
 TEST(Levels, flatColoursAndDataAreNotDithered)
 {
-    for (const auto& painter : painters()) {
+    for (const auto& renderer : painters()) {
         Scene scene = tiltedSquare(0);
         const float level = f32::cotan_srgb_to_linear(77 / 255.0f);
         scene.materials[0].baseColor = {level, level, level, 1};
-        ASSERT_TRUE(painter->load(scene));
+        ASSERT_TRUE(renderer->load(scene));
         View view = flatView(4);
         view.linearOutput = false;
         view.toneMapping = ToneMapping::none;
-        const auto picture = painter->draw(view);
+        const auto picture = renderer->draw(view);
         ASSERT_TRUE(picture);
         int covered = 0;
         for (std::size_t i = 0; i < picture->pixelCount(); ++i) {
@@ -276,13 +277,13 @@ TEST(Levels, flatColoursAndDataAreNotDithered)
             if (p[3] < 255)
                 continue;
             ++covered;
-            ASSERT_TRUE(p[0] == 77 && p[1] == 77 && p[2] == 77) << painter->device() << int(p[0]);
+            ASSERT_TRUE(p[0] == 77 && p[1] == 77 && p[2] == 77) << renderer->device() << int(p[0]);
         }
         EXPECT_GT(covered, 1000);
         View normals = flatView(4), still = normals;
         normals.output = still.output = Output::normal;
         still.dither = false;
-        EXPECT_EQ(painter->draw(normals)->data, painter->draw(still)->data);
+        EXPECT_EQ(renderer->draw(normals)->data, renderer->draw(still)->data);
     }
     EXPECT_FALSE(inspectionView(View()).dither);
 }

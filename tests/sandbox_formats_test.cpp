@@ -10,7 +10,7 @@
 
 #include "cotan/image.hpp"
 #include "cotan/model.hpp"
-#include "files/account.hpp"
+#include "files/file_registry.hpp"
 #include "files/sandbox/confine.hpp"
 #include "files/sandbox/scene_wire.hpp"
 #include "run_tool.hpp"

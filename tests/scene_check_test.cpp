@@ -112,9 +112,9 @@ TEST(SceneCheck, everybodyRefusesIndicesAndSizesThatLeadOutOfTheScene)
         make(scene);
         expectRefused(checkScene(scene), "scene: " + where);
         expectRefused(drawView(scene, view, "reference"), "scene: " + where);
-        const auto painter = openPainter("reference", 1);
-        ASSERT_TRUE(painter);
-        expectRefused((*painter)->load(scene), "scene: " + where);
+        const auto renderer = openRenderer("reference", 1);
+        ASSERT_TRUE(renderer);
+        expectRefused((*renderer)->load(scene), "scene: " + where);
         expectRefused(gltfDocumentOf(scene), "scene: " + where);
         expectRefused(bakeModel(scene, {.scenes = {sound}, .maps = {}}, smallBake()), "low: " + where);
         expectRefused(bakeModel(sound, {.scenes = {sound, scene}, .maps = {}}, smallBake()),

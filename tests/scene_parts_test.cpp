@@ -1,4 +1,6 @@
 // Scenes turned and taken apart.
+#include <cmath>
+
 #include <gtest/gtest.h>
 
 #include <string>
@@ -157,6 +159,12 @@ TEST(SceneParts, thatCoverThePictureTooOftenAreRefusedUnlessTheyAreTheSame)
     scene.instances = {{"", 0, glm::mat4(1)}};
     const View view = triangleView();
     EXPECT_NEAR(pixelsCovered(scene, view), 5000, 1e-3); // half of it
+    View wide = view;
+    wide.camera.verticalExtent = 2;
+    EXPECT_NEAR(pixelsCovered(scene, wide), 1250, 1e-3);
+    wide.camera.orthographic = false;
+    wide.camera.verticalFieldOfView = 2 * std::atan(0.2f); // two units at a distance of five
+    EXPECT_NEAR(pixelsCovered(scene, wide), 1250, 1e-2);
     for (int i = 0; i < 1000; ++i)
         scene.meshes[0].indices.insert(scene.meshes[0].indices.end(), {0, 1, 2});
     Scene other = scene;

@@ -1,4 +1,4 @@
-// Pictures of real models beside those of three.js: the same camera, surroundings, exposure and tone mapping. The
+// Pictures of real models beside those of three.js: the same camera, environment, exposure and tone mapping. The
 // pairs, and a third picture with four times their difference, are left in the build folder, to be looked at.
 #include <gtest/gtest.h>
 
@@ -34,7 +34,7 @@ struct Case {
 
 const Case kCases[] = {
     {"AnisotropyStrengthTest", "models/AnisotropyStrengthTest/AnisotropyStrengthTest.glb", 22, 0.31,
-     "stretched mirrors: three bends the normal and blurs, as we do, but its filter of the surroundings is coarser"},
+     "stretched mirrors: three bends the normal and blurs, as we do, but its filter of the environment is coarser"},
     {"BoomBox", "models/BoomBox/BoomBox.gltf", 3.5, 0.06, "edges"},
     {"ClearCoatTest", "models/ClearCoatTest/ClearCoatTest.glb", 4.3, 0.085, "edges, and mirrors of small boxes"},
     {"FlightHelmet", "models/FlightHelmet/FlightHelmet.gltf", 9, 0.13,
@@ -44,7 +44,7 @@ const Case kCases[] = {
     {"MultiUVTest", "models/MultiUVTest/MultiUVTest.glb", 16.5, 0.2,
      "a metal of roughness 1, whose light that bounces again three takes from a rougher fit"},
     {"NormalTangentMirrorTest", "models/NormalTangentMirrorTest/NormalTangentMirrorTest.glb", 15, 0.22,
-     "near-mirrors beside bright boxes: three's filter of the surroundings makes them glow"},
+     "near-mirrors beside bright boxes: three's filter of the environment makes them glow"},
     {"NormalTangentTest", "models/NormalTangentTest/NormalTangentTest.glb", 14.5, 0.2, "the same"},
     {"SketchfabCat", "models/SketchfabCat/scene.gltf", 18.5, 0.22,
      "translucent clothes, which three draws in the order of their middles: the coat is missing there"},
@@ -92,10 +92,10 @@ const std::uint8_t* texel(const Image& image, std::size_t i)
     return reinterpret_cast<const std::uint8_t*>(image.data.data()) + 4 * i;
 }
 
-Drawn drawOurs(Painter& painter, Subject& subject, std::shared_ptr<const EnvironmentMap> environment)
+Drawn drawOurs(Renderer& renderer, Subject& subject, std::shared_ptr<const EnvironmentMap> environment)
 {
     deriveVertexFrames(subject.scene, Frame::cotangent, TangentOrigin::stored);
-    EXPECT_TRUE(painter.load(subject.scene));
+    EXPECT_TRUE(renderer.load(subject.scene));
     View view;
     view.width = kWidth;
     view.height = kHeight;
@@ -105,7 +105,7 @@ Drawn drawOurs(Painter& painter, Subject& subject, std::shared_ptr<const Environ
     view.background = false;
     view.shadows = false; // three's lamps cast none unless told to
     view.toneMapping = ToneMapping::neutral;
-    Drawn drawn{drawWith(painter, view), {}};
+    Drawn drawn{drawWith(renderer, view), {}};
     for (std::size_t i = 0; i < drawn.picture.pixelCount(); ++i) {
         std::uint8_t* const p = texel(drawn.picture, i);
         drawn.covered.push_back(p[3] > 0);
@@ -195,13 +195,13 @@ TEST(SecondOpinion, ofThreeOnEveryModelIsThatThePictureIsRight)
     auto map = environmentOfPicture(*studio);
     ASSERT_TRUE(map) << map.error().message;
     const auto environment = std::make_shared<const EnvironmentMap>(std::move(*map));
-    auto painter = openPainter("auto");
-    ASSERT_TRUE(painter) << painter.error().message;
+    auto renderer = openRenderer("auto");
+    ASSERT_TRUE(renderer) << renderer.error().message;
     std::printf("| model | steps of 255 | FLIP |\n| --- | --- | --- |\n");
     for (const Case& c : kCases) {
         const std::string digits = pictures[c.name].get<std::string>();
         ASSERT_EQ(digits.size(), std::size_t(kWidth) * kHeight * 6) << c.name << ": " << digits.substr(0, 200);
-        const Drawn ours = drawOurs(**painter, subjects.at(c.name), environment);
+        const Drawn ours = drawOurs(**renderer, subjects.at(c.name), environment);
         const Image three = theirs(digits);
         leavePair(c.name, ours.picture, three);
         double sum = 0;

@@ -52,7 +52,7 @@ struct Case {
 std::vector<Case> cases();
 std::vector<Case> frameCases(bool drawn = false); // the frames of them
 std::vector<Case> godotCases();                   // what needs no bits of floats
-std::vector<Case> litCases();                     // light, surroundings, tone and shadow
+std::vector<Case> litCases();                     // light, environment, tone and shadow
 
 // A target of kTiles x kTiles tiles, each with differences of its own that are constant in it: the
 // functions that take derivatives themselves.

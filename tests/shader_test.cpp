@@ -200,7 +200,7 @@ TEST(ShaderParity, webGl2AndWebGpu)
     expectDrawn(r.drawnWgsl);
 }
 
-// Nothing of light, its surroundings, shadow and tone is left out above.
+// Nothing of light, its environment, shadow and tone is left out above.
 TEST(ShaderParity, everyFunctionOfLightIsRun)
 {
     std::string run;

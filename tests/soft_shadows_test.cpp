@@ -31,12 +31,12 @@ TEST(SoftShadows, areThoseOfRaysToTheLampsDisc)
     view.samples = 1;
     view.shadowSoftness = 0.06f;
     const dvec3 toLight = -dvec3(view.lights[0].direction);
-    for (const auto& painter : painters()) {
-        ASSERT_TRUE(painter->load(scene));
+    for (const auto& renderer : painters()) {
+        ASSERT_TRUE(renderer->load(scene));
         const auto meanError = [&](const View& drawn) {
             View bare = drawn;
             bare.shadows = false;
-            const auto with = painter->draw(drawn), without = painter->draw(bare);
+            const auto with = renderer->draw(drawn), without = renderer->draw(bare);
             double sum = 0;
             int count = 0;
             for (int i = 0; with && without && i < 96 * 96; ++i) {
@@ -52,8 +52,8 @@ TEST(SoftShadows, areThoseOfRaysToTheLampsDisc)
         };
         View sharp = view;
         sharp.shadowSoftness = 0;
-        EXPECT_LT(meanError(view), 0.003) << painter->device();
-        EXPECT_GT(meanError(sharp), 0.007) << painter->device();
+        EXPECT_LT(meanError(view), 0.003) << renderer->device();
+        EXPECT_GT(meanError(sharp), 0.007) << renderer->device();
     }
 }
 
@@ -101,15 +101,15 @@ TEST(SoftShadows, panesStopLightByTheirAlphaInBothRenderers)
     view.camera.target = {0, 0, 0};
     view.linearOutput = true;
     view.samples = 1;
-    for (const auto& painter : painters())
+    for (const auto& renderer : painters())
         for (const float alpha : {0.0f, 0.1f, 0.35f, 0.5f, 0.8f, 1.0f}) {
             scene.materials[1].baseColor.w = alpha;
-            ASSERT_TRUE(painter->load(scene));
+            ASSERT_TRUE(renderer->load(scene));
             for (const float softness : {0.0f, 0.06f}) {
                 view.shadowSoftness = softness;
                 View bare = view;
                 bare.shadows = false;
-                const auto with = painter->draw(view), without = painter->draw(bare);
+                const auto with = renderer->draw(view), without = renderer->draw(bare);
                 ASSERT_TRUE(with && without);
                 double mean = 0, most = 0;
                 for (std::size_t i = 0; i < with->pixelCount(); ++i) {
@@ -117,8 +117,8 @@ TEST(SoftShadows, panesStopLightByTheirAlphaInBothRenderers)
                     mean += share / double(with->pixelCount());
                     most = std::max(most, std::abs(share - (1 - alpha)));
                 }
-                EXPECT_NEAR(mean, 1 - alpha, 0.012) << painter->device() << " " << alpha << " " << softness;
-                EXPECT_LT(most, softness > 0 ? 0.2 : 0.112) << painter->device() << " " << alpha << " " << softness;
+                EXPECT_NEAR(mean, 1 - alpha, 0.012) << renderer->device() << " " << alpha << " " << softness;
+                EXPECT_LT(most, softness > 0 ? 0.2 : 0.112) << renderer->device() << " " << alpha << " " << softness;
             }
         }
 }
@@ -133,14 +133,14 @@ TEST(SoftShadows, convexSolidsDoNotShadeTheirLitSides)
     view.camera.target = {-0.6f, 0.9f, 0.1f};
     view.linearOutput = true;
     view.samples = 1;
-    for (const auto& painter : painters()) {
-        ASSERT_TRUE(painter->load(scene));
+    for (const auto& renderer : painters()) {
+        ASSERT_TRUE(renderer->load(scene));
         View bare = view;
         bare.shadows = false;
-        const auto with = painter->draw(view), without = painter->draw(bare);
+        const auto with = renderer->draw(view), without = renderer->draw(bare);
         ASSERT_TRUE(with && without);
         for (std::size_t i = 0; i < with->pixelCount(); ++i)
-            ASSERT_NEAR(with->floats()[4 * i], without->floats()[4 * i], 0.004f) << painter->device() << " " << i;
+            ASSERT_NEAR(with->floats()[4 * i], without->floats()[4 * i], 0.004f) << renderer->device() << " " << i;
     }
 }
 
@@ -165,8 +165,8 @@ TEST(SoftShadows, bothRenderersDrawTheSameOverEveryBackground)
     view.camera.eye = {1.5f, 1.6f, 4};
     view.camera.target = {0, 0.5f, 0};
     view.camera.verticalExtent = 3;
-    for (const auto& painter : all)
-        ASSERT_TRUE(painter->load(scene));
+    for (const auto& renderer : all)
+        ASSERT_TRUE(renderer->load(scene));
     for (const Backdrop backdrop : {Backdrop::gradient, Backdrop::blurred, Backdrop::sharp, Backdrop::paper})
         for (const bool background : {true, false})
             for (const bool orthographic : {false, true}) {

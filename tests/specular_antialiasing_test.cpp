@@ -96,10 +96,10 @@ struct Errors {
     double without = 0, with = 0;
 };
 
-Errors errorsOf(const Scene& scene, bool surroundings = true)
+Errors errorsOf(const Scene& scene, bool environment = true)
 {
     View fine = sunlit(kSide * kFiner), view = sunlit(kSide);
-    fine.environment = view.environment = surroundings;
+    fine.environment = view.environment = environment;
     Scene finest = scene; // smaller levels of the map have lost the spread that is looked for
     for (Material& material : finest.materials)
         material.normalMap.sampler.mip = MipFilter::none;
@@ -151,7 +151,7 @@ TEST(SpecularAntialiasing, takesAQuarterOfTheErrorOfASmallLampsGrainAtLeast)
 {
     for (const float repeat : {3.0f, 8.0f}) {
         const Scene scene = shiny(makeTorus(0.8f, 0.35f, 96, 4 * repeat, repeat), 0.35f, true);
-        const Errors e = errorsOf(scene, /*surroundings=*/false);
+        const Errors e = errorsOf(scene, /*environment=*/false);
         EXPECT_LT(e.with, 0.75 * e.without) << repeat;
     }
 }
@@ -186,7 +186,7 @@ double apart(const Image& a, const Image& b)
 
 TEST(SpecularAntialiasing, isTheSameOnTheDevice)
 {
-    auto device = openPainter("auto");
+    auto device = openRenderer("auto");
     if (!device || !(*device)->note.empty())
         GTEST_SKIP() << "no Vulkan device";
     struct Case {
@@ -219,7 +219,7 @@ TEST(SpecularAntialiasing, isTheSameOnTheDevice)
 // Domes of some texels a pixel, and a highlight of half a degree: a place whose normal is turned the wrong way is seen.
 TEST(SpecularAntialiasing, turnsEachPlaceWithTheSurfaceOnTheDeviceToo)
 {
-    auto device = openPainter("auto");
+    auto device = openRenderer("auto");
     if (!device || !(*device)->note.empty())
         GTEST_SKIP() << "no Vulkan device";
     Scene scene = shiny(makeTorus(0.8f, 0.35f, 96, 4, 1), 0.1f, true);

@@ -26,13 +26,13 @@ Scene quadWithTangents(glm::vec4 tangent)
 ComparedFrames compared(const Scene& scene, std::array<Frame, 2> frames = {Frame::mikktspace, Frame::exact},
                         bool normalMaps = true)
 {
-    const auto painter = openPainter("reference", 1);
-    EXPECT_TRUE(painter);
-    EXPECT_TRUE((*painter)->load(scene));
+    const auto renderer = openRenderer("reference", 1);
+    EXPECT_TRUE(renderer);
+    EXPECT_TRUE((*renderer)->load(scene));
     View view = viewOf(Output::shaded);
     view.normalMaps = normalMaps;
     view.lights.push_back({LightKind::directional, {1, 1, 1}, 3, {}, glm::normalize(glm::vec3(-1, -2, -3)), 0, 0, 0});
-    auto done = compareFrames(**painter, scene, view, frames);
+    auto done = compareFrames(**renderer, scene, view, frames);
     EXPECT_TRUE(done) << done.error().message;
     return *std::move(done);
 }
@@ -97,15 +97,15 @@ TEST(CompareFrames, thePicturesAreInTheOrderOfTheFrames)
     const ComparedFrames f = compared(scene), back = compared(scene, {Frame::exact, Frame::mikktspace});
     EXPECT_EQ(f.shaded[0].data, back.shaded[1].data);
     EXPECT_EQ(f.shaded[1].data, back.shaded[0].data);
-    const auto painter = openPainter("reference", 1);
-    ASSERT_TRUE((*painter)->load(scene));
+    const auto renderer = openRenderer("reference", 1);
+    ASSERT_TRUE((*renderer)->load(scene));
     View view = viewOf(Output::normal, Frame::mikktspace);
-    const auto error = errorAgainstExact(**painter, scene, view);
+    const auto error = errorAgainstExact(**renderer, scene, view);
     ASSERT_TRUE(error);
     EXPECT_NEAR(error->degrees.mean, f.normals.mean, 1e-6);
     EXPECT_EQ(error->difference.data, f.difference.data);
     view.frame = Frame::exact;
-    EXPECT_EQ(errorAgainstExact(**painter, scene, view)->degrees.maximum, 0);
+    EXPECT_EQ(errorAgainstExact(**renderer, scene, view)->degrees.maximum, 0);
 }
 
 TEST(CompareFrames, withoutANormalMapNothingIsCompared)

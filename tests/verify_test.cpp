@@ -24,17 +24,17 @@ Scene quadWith(glm::ivec3 texel)
 
 const glm::ivec3 kFlatTexel{128, 128, 255};
 
-std::unique_ptr<Painter> reference()
+std::unique_ptr<Renderer> reference()
 {
-    auto painter = openPainter("reference");
-    return painter ? std::move(*painter) : nullptr;
+    auto renderer = openRenderer("reference");
+    return renderer ? std::move(*renderer) : nullptr;
 }
 
 TEST(VerifyConversion, equalModelsAreNoDegreesApart)
 {
-    const auto painter = reference();
+    const auto renderer = reference();
     const Scene scene = quadWith({168, 98, 240});
-    const auto compared = verifyConversion(*painter, {scene, Frame::cotangent}, {scene, Frame::cotangent}, kPixels);
+    const auto compared = verifyConversion(*renderer, {scene, Frame::cotangent}, {scene, Frame::cotangent}, kPixels);
     ASSERT_TRUE(compared) << compared.error().message;
     EXPECT_TRUE(compared->mapped);
     EXPECT_GT(compared->all.count, 1000u);
@@ -50,15 +50,15 @@ TEST(VerifyConversion, equalModelsAreNoDegreesApart)
         }
     }
     EXPECT_EQ(count, compared->all.count);
-    EXPECT_FALSE(painter->draw(viewOf(Output::normal))); // the scene is gone, and the painter knows
+    EXPECT_FALSE(renderer->draw(viewOf(Output::normal))); // the scene is gone, and the renderer knows
 }
 
 TEST(VerifyConversion, aFlatMapInThePlaceOfATiltedOneIsOffByTheTilt)
 {
-    const auto painter = reference();
+    const auto renderer = reference();
     const double tilt = std::atan2(std::hypot(40, 30), 112) * 57.295779513;
     // All frames of a square are one rotation, those from vertices too: made without being asked for.
-    const auto compared = verifyConversion(*painter, {quadWith({168, 98, 240}), Frame::mikktspace},
+    const auto compared = verifyConversion(*renderer, {quadWith({168, 98, 240}), Frame::mikktspace},
                                            {quadWith(kFlatTexel), Frame::smooth}, kPixels);
     ASSERT_TRUE(compared) << compared.error().message;
     EXPECT_GT(compared->views[0].degrees.count, 1000u); // from the front
@@ -71,11 +71,11 @@ TEST(VerifyConversion, aFlatMapInThePlaceOfATiltedOneIsOffByTheTilt)
 
 TEST(VerifyConversion, theSecondModelIsSeenWithTheCamerasOfTheFirst)
 {
-    const auto painter = reference();
+    const auto renderer = reference();
     const Scene here = quadWith(kFlatTexel);
     Scene there = here;
     there.instances[0].toWorld[3][0] = 10; // out of their sight
-    const auto compared = verifyConversion(*painter, {here, Frame::cotangent}, {there, Frame::cotangent}, kPixels);
+    const auto compared = verifyConversion(*renderer, {here, Frame::cotangent}, {there, Frame::cotangent}, kPixels);
     ASSERT_TRUE(compared) << compared.error().message;
     EXPECT_TRUE(compared->mapped);
     EXPECT_EQ(compared->all.count, 0u);
@@ -83,9 +83,9 @@ TEST(VerifyConversion, theSecondModelIsSeenWithTheCamerasOfTheFirst)
 
 TEST(VerifyConversion, modelsWithoutMapsAreNotCompared)
 {
-    const auto painter = reference();
+    const auto renderer = reference();
     const Scene plain = sceneOf(meshOf(Patch{}));
-    const auto compared = verifyConversion(*painter, {plain, Frame::cotangent}, {plain, Frame::smooth}, kPixels);
+    const auto compared = verifyConversion(*renderer, {plain, Frame::cotangent}, {plain, Frame::smooth}, kPixels);
     ASSERT_TRUE(compared) << compared.error().message;
     EXPECT_FALSE(compared->mapped);
     EXPECT_EQ(compared->all.count, 0u);
@@ -94,12 +94,12 @@ TEST(VerifyConversion, modelsWithoutMapsAreNotCompared)
 
 TEST(VerifyConversion, picturesOfAnotherNumberOrSizeAreRefused)
 {
-    const auto painter = reference();
+    const auto renderer = reference();
     const Scene scene = quadWith(kFlatTexel);
-    const auto all = drawSides(*painter, {scene, Frame::cotangent}, {}, kPixels);
+    const auto all = drawSides(*renderer, {scene, Frame::cotangent}, {}, kPixels);
     ASSERT_TRUE(all) << all.error().message;
-    const auto few = drawSides(*painter, {scene, Frame::cotangent}, {all->cameras[0]}, kPixels);
-    const auto small = drawSides(*painter, {scene, Frame::cotangent}, all->cameras, kPixels / 2);
+    const auto few = drawSides(*renderer, {scene, Frame::cotangent}, {all->cameras[0]}, kPixels);
+    const auto small = drawSides(*renderer, {scene, Frame::cotangent}, all->cameras, kPixels / 2);
     ASSERT_TRUE(few && small);
     for (const DrawnSides* other : {&*few, &*small}) {
         const auto compared = compareSides(*all, *other);
@@ -136,15 +136,15 @@ TEST(VerifyBake, whatIsBakedFitsAndAFlatMapIsOffByTheSlopeOfTheHighSurface)
     ASSERT_TRUE(baked) << baked.error().message;
     const StoredAs stored{};
     const Image map = storeBaked(*baked, BakeKind::normal, stored), flat = solidImage({kFlatTexel, 255});
-    const auto painter = reference();
+    const auto renderer = reference();
 
-    const auto fits = verifyBake(*painter, {pair.low, *low, *high, options, map, stored.format}, kPixels);
+    const auto fits = verifyBake(*renderer, {pair.low, *low, *high, options, map, stored.format}, kPixels);
     ASSERT_TRUE(fits) << fits.error().message;
     ASSERT_EQ(fits->views.size(), std::size_t(kBakeViews));
     EXPECT_GT(fits->views[0].degrees.count, 1000u);
     EXPECT_LT(fits->views[0].degrees.maximum, 0.45); // what rounding to 8 bits costs at worst
 
-    const auto off = verifyBake(*painter, {pair.low, *low, *high, options, flat, stored.format}, kPixels);
+    const auto off = verifyBake(*renderer, {pair.low, *low, *high, options, flat, stored.format}, kPixels);
     ASSERT_TRUE(off) << off.error().message;
     EXPECT_NEAR(off->views[0].degrees.mean, std::atan(slope) * 57.295779513, 1e-3);
     EXPECT_EQ(off->views[0].degrees.count, fits->views[0].degrees.count);

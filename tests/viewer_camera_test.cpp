@@ -162,8 +162,8 @@ TEST(CameraWords, comeBackAsTheSameCameraToTheBit)
         camera.orthographic = i % 3 == 0;
         if (i % 50 == 49)
             seeFrom(camera, i % 100 == 99 ? "top" : "bottom");
-        const std::string words = cameraWords(camera);
-        const auto back = cameraFromWords(words, {}, kSize.x, kSize.y);
+        const std::string words = formatCamera(camera);
+        const auto back = parseCamera(words, {}, kSize.x, kSize.y);
         ASSERT_TRUE(back) << words << ": " << back.error().message;
         EXPECT_EQ(back->eye, camera.eye) << words;
         EXPECT_EQ(back->target, camera.target) << words;
@@ -182,8 +182,8 @@ TEST(CameraWords, wrongOnesAreRefused)
     for (const char* words : {"0,0,5,0,0,0,", "0,0,5,0,0,0,0", "0,0,5,0,0,0,180", "0,0,5,0,0,0,h0", "0,0,5,0,0,0,h",
                               "0,0,5,0,0,0,nan", "0,0,5,0,0,0,45,0", "0,0,5,0,0,0,45,0,0,1", "0,0,5,0,0,0,45,0,0,0",
                               "0,0,5,0,0,0,45,0,1,0,1", "0,0,5,0,0", ""})
-        EXPECT_FALSE(cameraFromWords(words, {}, 10, 10)) << words;
-    const auto wide = cameraFromWords("0,0,5,0,0,0,90,1,0,0", {}, 10, 10);
+        EXPECT_FALSE(parseCamera(words, {}, 10, 10)) << words;
+    const auto wide = parseCamera("0,0,5,0,0,0,90,1,0,0", {}, 10, 10);
     ASSERT_TRUE(wide);
     EXPECT_NEAR(wide->verticalFieldOfView, 1.5707963f, 1e-6f);
     EXPECT_EQ(wide->up, glm::vec3(1, 0, 0));

@@ -376,7 +376,7 @@ TEST(ViewerMemory, keepsEachSwitchAndSizesFrom160x120To8192)
     s.recent[3] = "/line\nbreak.glb";
     State back;
     remember(memoryOf(s), back);
-    ASSERT_EQ(back.recent.size(), kMostRecent);
+    ASSERT_EQ(back.recent.size(), kMaxRecent);
     EXPECT_EQ(back.recent[3], "/4.glb"); // what a line cannot hold is left out
 }
 

@@ -56,7 +56,7 @@ TEST(ViewerMenus, everyMenuAndSubmenuFitsASmallWindowWithLargeText)
     }
     EXPECT_GT(lines.size(), 12u);
     for (const auto& [place, count] : lines)
-        EXPECT_LE(count, kMostLines) << place;
+        EXPECT_LE(count, kMaxLines) << place;
 }
 
 TEST(ViewerMenus, theSheetHasEveryKeyAndSaysWhatIsOn)

@@ -201,12 +201,12 @@ TEST(ViewerLoader, recentFilesAreTenTheLatestFirstAndEachOnce)
     };
     for (int i = 0; i < 12; ++i)
         opened("/f/" + std::to_string(i) + ".glb");
-    ASSERT_EQ(s.recent.size(), kMostRecent);
+    ASSERT_EQ(s.recent.size(), kMaxRecent);
     EXPECT_EQ(s.recent.front(), "/f/11.glb");
     EXPECT_EQ(s.recent.back(), "/f/2.glb");
     opened("/f/x/../5.glb");
     EXPECT_EQ(s.recent.front(), "/f/5.glb");
-    EXPECT_EQ(s.recent.size(), kMostRecent);
+    EXPECT_EQ(s.recent.size(), kMaxRecent);
     EXPECT_EQ(std::ranges::count(s.recent, "/f/5.glb"), 1);
     EXPECT_EQ(s.loads, 13u);
 }

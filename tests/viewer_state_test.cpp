@@ -208,7 +208,7 @@ TEST(ViewerInput, aHotSpotIsOutlinedInTheViewThatShowsItWithTheModelAround)
     EXPECT_TRUE(interfaceOf(state).lines.empty());
 }
 
-// Without surroundings `render` refuses to turn them.
+// Without an environment `render` refuses to turn them.
 TEST(ViewerInput, lightIsNotTurnedWhereThereAreNoSurroundings)
 {
     State state = withModel();

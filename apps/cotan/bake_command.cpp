@@ -130,7 +130,7 @@ Status writeBakedModel(const BakeCommandOptions& o, const BakeJob& job, const Im
         options.material = job.lowScene.materials[std::size_t(o.material)].name;
     const auto written = writeModelWithMap(job.lowScene, o.low, map, options, o.output);
     if (!written)
-        return inWordsOfBake(o, written.error());
+        return withBakeOptionNames(o, written.error());
     for (const std::string& note : written->notes)
         warn(o, note);
     return Done{};
@@ -204,7 +204,7 @@ Result<Json> bakeOne(const BakeCommandOptions& o)
     const auto baked =
         withProgress(o, 1, "baking", [&](const Progress& progress) { return bakeTile(job->setup, o.udim, progress); });
     if (!baked)
-        return inWordsOfBake(o, baked.error());
+        return withBakeOptionNames(o, baked.error());
     const Image& image = baked->image;
     explain(o, *job, baked->statistics);
     if (!o.mask.empty())

@@ -26,7 +26,7 @@ namespace {
 
 Result<Convention> formatFromName(const std::string& option, const std::string& name)
 {
-    const auto convention = conventionFromWords(name);
+    const auto convention = parseConvention(name);
     if (!convention)
         return usageError(option + ": " + convention.error().message);
     if (convention->kind != MapKind::tangentSpace)
@@ -272,7 +272,7 @@ Result<std::vector<std::string>> lowObjects(const BakeCommandOptions& o)
     return names;
 }
 
-Error inWordsOfBake(const BakeCommandOptions& o, const Error& error)
+Error withBakeOptionNames(const BakeCommandOptions& o, const Error& error)
 {
     const struct {
         std::string_view field;
@@ -285,7 +285,7 @@ Error inWordsOfBake(const BakeCommandOptions& o, const Error& error)
     for (const auto& [field, words, hint] : all)
         if (error.message.starts_with(std::string(field) + ": "))
             return {error.kind, words + error.message.substr(field.size()) + hint};
-    return inWords(error);
+    return withOptionNames(error);
 }
 
 Result<BakeJob> loadBake(const BakeCommandOptions& o)
@@ -327,7 +327,7 @@ Result<BakeJob> loadBake(const BakeCommandOptions& o)
         warnings.push_back(std::move(turn));
     auto setup = prepareBake(*low, std::move(*high), *options);
     if (!setup)
-        return inWordsOfBake(o, setup.error());
+        return withBakeOptionNames(o, setup.error());
     warnings.insert(warnings.end(), setup->warnings.begin(), setup->warnings.end());
     const std::size_t objects = objectNames(*low).size();
     return BakeJob{std::move(*low), std::move(*setup), std::move(warnings), objects};

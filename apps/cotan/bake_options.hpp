@@ -47,6 +47,6 @@ Result<BakeJob> loadBake(const BakeCommandOptions& o);
 Result<std::vector<std::string>> lowObjects(const BakeCommandOptions& o);
 
 // An error about one of the library's options, with the command's word for it.
-Error inWordsOfBake(const BakeCommandOptions& o, const Error& error);
+Error withBakeOptionNames(const BakeCommandOptions& o, const Error& error);
 
 } // namespace cotan::app

@@ -8,7 +8,7 @@
 #include "batch/report.hpp"
 #include "batch/run.hpp"
 #include "commands.hpp"
-#include "files/account.hpp"
+#include "files/file_registry.hpp"
 #include "files/output.hpp"
 
 namespace cotan::app {
@@ -157,7 +157,7 @@ Status run(const Arguments& tool, const BatchOptions& o)
     const auto plan = planJobs(*list);
     if (!plan)
         return inputError(fmt::format("{}: {}", o.jobs, plan.error().message));
-    // From here on the account would only grow: each job has one of its own, and the store replaces its own files.
+    // From here on the registry would only grow: each job has one of its own, and the store replaces its own files.
     guardInputs(/*overwrite*/ true);
     const auto all = results(o, *list, *plan, shard);
     if (!all)

@@ -7,7 +7,7 @@
 
 #include <fmt/format.h>
 
-#include "files/account.hpp"
+#include "files/file_registry.hpp"
 #include "files/output.hpp"
 #include "files/report/report_format.hpp"
 #include "image/format_table.hpp"

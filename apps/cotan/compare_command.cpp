@@ -70,13 +70,13 @@ Status run(const CompareCommandOptions& o)
     for (const Frame frame : frames)
         if (const std::string note = frameNote(picture->scene, frame); !note.empty())
             warn(o, note);
-    auto painter = makePicturePainter(o.picture, o, *picture);
-    if (!painter)
-        return painter.error();
+    auto renderer = makePictureRenderer(o.picture, o, *picture);
+    if (!renderer)
+        return renderer.error();
     Stopwatch watch;
     const auto compared = withProgress(o, kComparedFramesPictures, "drawing", [&](Progress progress) {
-        (*painter)->progress = std::move(progress);
-        return compareFrames(**painter, picture->scene, picture->view, frames);
+        (*renderer)->progress = std::move(progress);
+        return compareFrames(**renderer, picture->scene, picture->view, frames);
     });
     if (!compared)
         return compared.error();
@@ -94,7 +94,7 @@ Status run(const CompareCommandOptions& o)
     Json report = {{"command", "compare"}};
     report.update(describeScene(o.picture, *picture));
     report["frames"] = {a, b};
-    report["device"] = (*painter)->device();
+    report["device"] = (*renderer)->device();
     report["normals"] = toJson(compared->normals);
     report["tangents_opposed"] = compared->tangentsOpposed;
     report["bitangents_opposed"] = compared->bitangentsOpposed;

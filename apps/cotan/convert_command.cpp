@@ -124,12 +124,12 @@ Result<ConvertModelReport> convert(const ConvertCommandOptions& o, const FramePa
                              .progress = std::move(progress),
                              .mapDone = mapDone});
     });
-    return done ? std::move(done) : Result<ConvertModelReport>(inWords(done.error()));
+    return done ? std::move(done) : Result<ConvertModelReport>(withOptionNames(done.error()));
 }
 
 Status writeModel(const ConvertCommandOptions& o, const GltfDocument& document, Json& report)
 {
-    const auto written = writeGltfTold(document, o);
+    const auto written = writeGltfWithProgress(document, o);
     if (!written)
         return written.error();
     report["files"] = fileNames(*written);
@@ -177,8 +177,8 @@ Status run(const ConvertCommandOptions& o)
         return frames.error();
     Stopwatch watch;
     if (!o.verify.empty()) { // before anything is done
-        if (const auto painter = openPainter(o.device, o.threads); !painter)
-            return painter.error();
+        if (const auto renderer = openRenderer(o.device, o.threads); !renderer)
+            return renderer.error();
     }
     auto opened = openGltfToEdit(o.model, o);
     if (!opened)
@@ -188,7 +188,7 @@ Status run(const ConvertCommandOptions& o)
     if (*frames) {
         const auto named = namedFrame(document);
         if (!named)
-            return inWords(named.error());
+            return withOptionNames(named.error());
         if (*named && o.from.empty())
             (*frames)->from = **named;
         report.update({{"from", name((*frames)->from)},

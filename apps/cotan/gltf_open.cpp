@@ -40,7 +40,7 @@ Result<OpenedGltf> openGltfToEdit(const std::string& model, const CommonOptions&
     return OpenedGltf{std::move(*document), std::move(scene->warnings)};
 }
 
-Result<GltfWritten> writeGltfTold(const GltfDocument& document, const CommonOptions& common)
+Result<GltfWritten> writeGltfWithProgress(const GltfDocument& document, const CommonOptions& common)
 {
     auto written = writeGltf(document, common.output);
     if (written)

@@ -26,7 +26,7 @@ struct OpenedGltf {
 Result<OpenedGltf> openGltfToEdit(const std::string& model, const CommonOptions& common);
 
 // Writes it where -o says, and warns of what the user should know. Errors: as writeGltf.
-Result<GltfWritten> writeGltfTold(const GltfDocument& document, const CommonOptions& common);
+Result<GltfWritten> writeGltfWithProgress(const GltfDocument& document, const CommonOptions& common);
 
 // The files that were written, for a report.
 std::vector<std::string> fileNames(const GltfWritten& written);

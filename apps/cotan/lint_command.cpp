@@ -66,7 +66,7 @@ Status run(const LintCommandOptions& o)
     Stopwatch watch;
     LoadLimits limits = limitsFor(o.memory, Pixels::whereReadable);
     limits.up = o.up;
-    auto scene = loadTold(o, limits, o.model);
+    auto scene = loadWithProgress(o, limits, o.model);
     if (!scene)
         return scene.error();
     if (Status applied = applyOwnMaps(o.maps, o.memory, *scene); !applied)
@@ -78,7 +78,7 @@ Status run(const LintCommandOptions& o)
         return lintScene(*scene, {.distance = o.distance, .memory = std::size_t(o.memory) << 20}, progress);
     });
     if (!linted)
-        return inWords(linted.error());
+        return withOptionNames(linted.error());
     const LintReport& report = *linted;
     const std::string command = commandFor(o, report);
     const LintCheck check = checkLimits(report, o.limits);
@@ -88,7 +88,7 @@ Status run(const LintCommandOptions& o)
     std::vector<std::string> details = detailLines(report);
     const std::vector<HotSpot> spots = report.primitives.empty() ? std::vector<HotSpot>() : hotSpots(*scene);
     for (const HotSpot& spot : spots)
-        details.push_back(fmt::format("look: {}: --camera {}", spot.text, cameraWords(spot.camera)));
+        details.push_back(fmt::format("look: {}: --camera {}", spot.text, formatCamera(spot.camera)));
     if (o.limits.any())
         for (const std::string& line : checkLines(check, o.details ? check.failures.size() : 1))
             say(o, line);
@@ -118,7 +118,7 @@ Status run(const LintCommandOptions& o)
         j["hot_spots"].push_back({{"text", spot.text},
                                   {"mesh", scene->meshes[spot.mesh].name},
                                   {"share", spot.share},
-                                  {"camera", cameraWords(spot.camera)}});
+                                  {"camera", formatCamera(spot.camera)}});
     j["check"] = toJson(check);
     j["over_limit"] = overLimits(check);
     j["seconds"] = {{"load", loadSeconds}, {"lint", watch.lap()}};

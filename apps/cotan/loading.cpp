@@ -8,7 +8,7 @@
 
 namespace cotan::app {
 
-Error inWords(const Error& error)
+Error withOptionNames(const Error& error)
 {
     std::string text = error.message;
     constexpr std::string_view kField = "options.";
@@ -29,7 +29,7 @@ Error inWords(const Error& error)
 Result<Scene> loadSceneWithin(const LoadLimits& limits, const std::filesystem::path& file)
 {
     auto scene = loadScene(file, limits);
-    return scene ? std::move(scene) : Result<Scene>(inWords(scene.error()));
+    return scene ? std::move(scene) : Result<Scene>(withOptionNames(scene.error()));
 }
 
 Result<Scene> loadSceneWithin(int memory, const std::filesystem::path& file, Pixels pixels)
@@ -40,25 +40,25 @@ Result<Scene> loadSceneWithin(int memory, const std::filesystem::path& file, Pix
 Result<Image> readImageWithin(int memory, const std::filesystem::path& file)
 {
     auto image = readImage(file, limitsFor(memory));
-    return image ? std::move(image) : Result<Image>(inWords(image.error()));
+    return image ? std::move(image) : Result<Image>(withOptionNames(image.error()));
 }
 
-Result<Scene> loadTold(const CommonOptions& common, const LoadLimits& limits, const std::string& file)
+Result<Scene> loadWithProgress(const CommonOptions& common, const LoadLimits& limits, const std::string& file)
 {
     const ProgressLine loading(common.quiet, 0, "loading " + file);
     return loadSceneWithin(limits, file);
 }
 
-Result<std::unique_ptr<Painter>> told(Result<std::unique_ptr<Painter>> painter, const CommonOptions& common)
+Result<std::unique_ptr<Renderer>> warnOfNote(Result<std::unique_ptr<Renderer>> renderer, const CommonOptions& common)
 {
-    if (painter && !(*painter)->note.empty())
-        warn(common, (*painter)->note);
-    return painter;
+    if (renderer && !(*renderer)->note.empty())
+        warn(common, (*renderer)->note);
+    return renderer;
 }
 
-Result<std::unique_ptr<Painter>> openDevice(const std::string& device, const CommonOptions& common, bool validation)
+Result<std::unique_ptr<Renderer>> openDevice(const std::string& device, const CommonOptions& common, bool validation)
 {
-    return told(openPainter(device, common.threads, validation), common);
+    return warnOfNote(openRenderer(device, common.threads, validation), common);
 }
 
 } // namespace cotan::app

@@ -37,7 +37,7 @@ void addDither(Arguments& command, bool& dither)
 
 Result<StatedConvention> parseConvention(const std::string& text, const std::string& option)
 {
-    auto convention = statedFromWords(text);
+    auto convention = parseStatedConvention(text);
     return convention ? convention : usageError(option + ": " + convention.error().message);
 }
 

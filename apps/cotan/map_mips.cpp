@@ -1,7 +1,7 @@
 // `cotan map mips`: the chain as one DDS or a file for each level.
 #include <fmt/format.h>
 
-#include "files/account.hpp"
+#include "files/file_registry.hpp"
 #include "map_files/mips.hpp"
 #include "map_options.hpp"
 #include "parse.hpp"

@@ -21,7 +21,7 @@ void addBits(Arguments& command, MapOptions& options, const std::string& help);
 void addCompress(Arguments& command, std::string& compress);
 void addDither(Arguments& command, bool& dither);
 
-// statedFromWords with the option in front of its message.
+// parseStatedConvention with the option in front of its message.
 Result<StatedConvention> parseConvention(const std::string& text, const std::string& option);
 
 // The two of --from and --to.
@@ -37,7 +37,7 @@ template<class Work> auto onFiles(const MapOptions& o, const std::string& what, 
     auto result = withProgress(o, 1, what, [&](Progress progress) {
         return work(maps::FileOptions{limitsFor(o.memory), o.threads, std::move(progress)});
     });
-    return result ? std::move(result) : decltype(result)(inWords(result.error()));
+    return result ? std::move(result) : decltype(result)(withOptionNames(result.error()));
 }
 
 // The same for work that writes a normal map: once the work has begun, warns where the format of -o does not keep it.

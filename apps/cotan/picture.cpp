@@ -15,17 +15,17 @@ Result<Picture> loadPicture(const PictureOptions& options, const CommonOptions& 
     };
     auto picture = open();
     if (!picture)
-        return inWords(picture.error());
+        return withOptionNames(picture.error());
     for (const std::string& line : picture->scene.warnings)
         warn(common, line);
     picture->loadSeconds = watch.lap();
     return picture;
 }
 
-Result<std::unique_ptr<Painter>> makePicturePainter(const PictureOptions& options, const CommonOptions& common,
-                                                    Picture& picture)
+Result<std::unique_ptr<Renderer>> makePictureRenderer(const PictureOptions& options, const CommonOptions& common,
+                                                      Picture& picture)
 {
-    return told(cotan::openPicturePainter(options, picture), common);
+    return warnOfNote(cotan::openPictureRenderer(options, picture), common);
 }
 
 Json describeScene(const PictureOptions& options, const Picture& picture)

@@ -18,7 +18,7 @@
 #include "common.hpp"
 #include "cotan/files.hpp"
 #include "cotan/model.hpp"
-#include "files/account.hpp"
+#include "files/file_registry.hpp"
 #include "files/interrupt.hpp"
 #include "terminal/printable.hpp"
 

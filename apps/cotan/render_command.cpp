@@ -37,21 +37,21 @@ double rateOf(const RenderCommandOptions& o)
     return animationRate(o.output, kUsualRate) == kUsualRate ? kUsualRate : kUsualGifRate;
 }
 
-Result<Image> drawPicture(Painter& painter, const Picture& picture, const RenderCommandOptions& o, Json& report)
+Result<Image> drawPicture(Renderer& renderer, const Picture& picture, const RenderCommandOptions& o, Json& report)
 {
-    auto image = drawShow(painter, picture.scene, picture.view, o.picture.show, keepsFloats(o.output),
+    auto image = drawShow(renderer, picture.scene, picture.view, o.picture.show, keepsFloats(o.output),
                           [&](const AngleStatistics& degrees) {
                               report["error_against_exact"] = toJson(degrees);
                               say(o, "{} against exact: {}", name(picture.view.frame), toText(degrees));
                           });
     if (image)
-        if (Status laid = layEdges(painter, picture.view, o.picture, picture.edges, *image); !laid)
+        if (Status laid = layEdges(renderer, picture.view, o.picture, picture.edges, *image); !laid)
             return laid.error();
     return image;
 }
 
 // What the pictures of a sequence share: the view that is made for the first, with its camera, which frames all of the
-// animation, and surroundings that take a second to make; and the file of all, where there is one.
+// animation, and an environment that takes a second to make; and the file of all, where there is one.
 struct Sequence {
     std::optional<View> view;
     std::unique_ptr<AnimationWriter> animation;
@@ -88,15 +88,15 @@ Status renderOne(const RenderCommandOptions& o, FrameChoice frame, Sequence& seq
         return picture.error();
 
     Stopwatch watch;
-    auto painter = makePicturePainter(o.picture, o, *picture);
-    if (!painter)
-        return painter.error();
+    auto renderer = makePictureRenderer(o.picture, o, *picture);
+    if (!renderer)
+        return renderer.error();
     shared = picture->view;
-    const double openSeconds = watch.lap() - (*painter)->uploadSeconds();
+    const double openSeconds = watch.lap() - (*renderer)->uploadSeconds();
     Json report = {{"command", "render"}};
     const auto image = withProgress(o, drawsOf(o), "drawing", [&](Progress progress) {
-        (*painter)->progress = std::move(progress);
-        return drawPicture(**painter, *picture, o, report);
+        (*renderer)->progress = std::move(progress);
+        return drawPicture(**renderer, *picture, o, report);
     });
     if (!image)
         return image.error();
@@ -109,17 +109,17 @@ Status renderOne(const RenderCommandOptions& o, FrameChoice frame, Sequence& seq
     report["frame"] = name(picture->view.frame);
     report["view"] = o.picture.show;
     report["shading"] = wordOf(kShadings, o.picture.shading);
-    report["device"] = (*painter)->device();
+    report["device"] = (*renderer)->device();
     report["output"] = o.output.string();
     report["seconds"] = {
-        {"load", picture->loadSeconds}, {"open_device", openSeconds}, {"upload", (*painter)->uploadSeconds()},
+        {"load", picture->loadSeconds}, {"open_device", openSeconds}, {"upload", (*renderer)->uploadSeconds()},
         {"draw", drawSeconds},          {"write", writeSeconds},      {"total", total.lap()}};
     say(o, "{}: {}x{}, {} triangles, frame {}, on {}", o.output.string(), picture->view.width, picture->view.height,
-        trianglesDrawn(picture->scene), name(picture->view.frame), (*painter)->device());
+        trianglesDrawn(picture->scene), name(picture->view.frame), (*renderer)->device());
     return writeReport(o, report);
 }
 
-constexpr int kMostFrames = 100000;
+constexpr int kMaxFrames = 100000;
 
 // The numbers of the images of --frames or --turntable; none without either.
 Result<std::vector<int>> imageNumbers(const RenderCommandOptions& o)
@@ -138,9 +138,9 @@ Result<std::vector<int>> imageNumbers(const RenderCommandOptions& o)
     int first = 0, last = 0;
     const std::string_view text = o.frames;
     if (dots == std::string::npos || !parseNumber(text.substr(0, dots), first)
-        || !parseNumber(text.substr(dots + 2), last) || first < 0 || last < first || last - first >= kMostFrames)
+        || !parseNumber(text.substr(dots + 2), last) || first < 0 || last < first || last - first >= kMaxFrames)
         return usageError(fmt::format("--frames: expected A..B, numbers from 0 up, at most {} pictures; found '{}'",
-                                      kMostFrames, o.frames));
+                                      kMaxFrames, o.frames));
     if (o.picture.animation.empty() || o.picture.time > 0 || !o.json.empty())
         return usageError("--frames: expected --animation with it, and neither --time nor --json");
     frames.resize(std::size_t(last - first + 1));
@@ -195,26 +195,26 @@ Status renderTurn(const RenderCommandOptions& o, FrameChoice frame, const std::v
     auto picture = loadFramed(one, frame, nullptr);
     if (!picture)
         return picture.error();
-    auto painter = makePicturePainter(one.picture, o, *picture);
-    if (!painter)
-        return painter.error();
+    auto renderer = makePictureRenderer(one.picture, o, *picture);
+    if (!renderer)
+        return renderer.error();
     const Turntable table(picture->scene);
     one.quiet = true; // not a line for each
     Json none;
     const std::size_t draws = numbers.size() * drawsOf(o);
     const auto drawAll = [&](Progress progress) -> Status {
-        (*painter)->progress = std::move(progress);
+        (*renderer)->progress = std::move(progress);
         for (const int number : numbers) {
             if (number > 0) {
                 table.turn(picture->scene, 360.0 * number / double(numbers.size()));
-                if (Status loaded = (*painter)->load(picture->scene, /*sameImages=*/true); !loaded)
+                if (Status loaded = (*renderer)->load(picture->scene, /*sameImages=*/true); !loaded)
                     return loaded;
                 picture->view.ground = groundOf(one.picture, picture->scene, picture->view);
                 if (o.picture.edges != Edges::none)
                     picture->edges = surfaceEdges(picture->scene);
             }
             one.output = sequence.animation ? o.output : numbered(o.output, number);
-            const auto image = drawPicture(**painter, *picture, one, none);
+            const auto image = drawPicture(**renderer, *picture, one, none);
             if (!image)
                 return image.error();
             if (Status written = writeNext(one, *image, sequence); !written)
@@ -226,7 +226,7 @@ Status renderTurn(const RenderCommandOptions& o, FrameChoice frame, const std::v
         return drawn;
     say(o, "{}: {} images of {}x{}, {} triangles, frame {}, on {}", o.output.string(), numbers.size(),
         picture->view.width, picture->view.height, trianglesDrawn(picture->scene), name(picture->view.frame),
-        (*painter)->device());
+        (*renderer)->device());
     return Done{};
 }
 

@@ -92,7 +92,7 @@ Status write(const TangentsCommandOptions& o, GltfDocument& document, Json& repo
         }
         report["primitives"].push_back(std::move(row));
     }
-    const auto written = writeGltfTold(document, o);
+    const auto written = writeGltfWithProgress(document, o);
     if (!written)
         return written.error();
     report["generated"] = given->generated;

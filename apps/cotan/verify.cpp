@@ -12,12 +12,12 @@ namespace cotan::app {
 
 namespace {
 
-Result<DrawnSides> drawModel(Painter& painter, const std::filesystem::path& file, ModelInFrame model,
+Result<DrawnSides> drawModel(Renderer& renderer, const std::filesystem::path& file, ModelInFrame model,
                              const CommonOptions& common, std::vector<Camera> cameras = {})
 {
     return withProgress(common, kConversionViews, fmt::format("drawing {}", file.string()), [&](Progress progress) {
-        painter.progress = std::move(progress);
-        return drawSides(painter, std::move(model), std::move(cameras));
+        renderer.progress = std::move(progress);
+        return drawSides(renderer, std::move(model), std::move(cameras));
     });
 }
 
@@ -42,17 +42,17 @@ Result<ComparedViews> drawAndCompare(const VerifyOptions& o, const CommonOptions
         return before.error();
     if (Status read = readAsAfter(*before, o); !read)
         return read.error();
-    const auto painter = openDevice(o.device, common);
-    if (!painter)
-        return painter.error();
-    device = (*painter)->device();
-    const auto first = drawModel(**painter, o.before, {std::move(*before), o.from, o.fromTangents}, common);
+    const auto renderer = openDevice(o.device, common);
+    if (!renderer)
+        return renderer.error();
+    device = (*renderer)->device();
+    const auto first = drawModel(**renderer, o.before, {std::move(*before), o.from, o.fromTangents}, common);
     if (!first)
         return first.error();
     auto after = loadSceneWithin(o.memory, o.after);
     if (!after)
         return after.error();
-    const auto second = drawModel(**painter, o.after, {std::move(*after), o.to}, common, first->cameras);
+    const auto second = drawModel(**renderer, o.after, {std::move(*after), o.to}, common, first->cameras);
     if (!second)
         return second.error();
     return compareSides(*first, *second);
@@ -88,12 +88,12 @@ Result<Json> verifyBake(const BakeToVerify& bake, const std::string& device, con
 {
     if (Status made = makeFolder(folder); !made)
         return made.error();
-    const auto painter = openDevice(device, common);
-    if (!painter)
-        return painter.error();
+    const auto renderer = openDevice(device, common);
+    if (!renderer)
+        return renderer.error();
     const auto compared = withProgress(common, kBakeViews, "drawing and comparing", [&](Progress progress) {
-        (*painter)->progress = std::move(progress);
-        return cotan::verifyBake(**painter, bake);
+        (*renderer)->progress = std::move(progress);
+        return cotan::verifyBake(**renderer, bake);
     });
     if (!compared)
         return compared.error();
@@ -101,7 +101,7 @@ Result<Json> verifyBake(const BakeToVerify& bake, const std::string& device, con
         say(common, "view {}: {}", k, toText(compared->views[k].degrees));
     if (Status written = writeViews(*compared, kBakeNames, folder); !written)
         return written.error();
-    say(common, "drawn with {} by {}, against the high mesh: {}", name(bake.options.frame), (*painter)->device(),
+    say(common, "drawn with {} by {}, against the high mesh: {}", name(bake.options.frame), (*renderer)->device(),
         toText(compared->all));
     const std::size_t others = compared->others, pixels = compared->pixels;
     const bool lost = !showsHighSurface(*compared);
@@ -118,7 +118,7 @@ Result<Json> verifyBake(const BakeToVerify& bake, const std::string& device, con
     Json all = toJson(compared->all);
     all["surface_known"] = pixels;
     all["another_surface"] = others;
-    return Json{{"device", (*painter)->device()},
+    return Json{{"device", (*renderer)->device()},
                 {"all", all},
                 {"shows_the_high_surface", pixels > 0 && !lost},
                 {"views", viewsOf(*compared)}};

@@ -113,12 +113,12 @@ Status runAccuracy(const AccuracyCommandOptions& o)
     const auto selection = chooseRows(o);
     if (!selection)
         return selection.error();
-    std::unique_ptr<Painter> painter; // opened first: a device that is not there is no reason to measure for minutes
+    std::unique_ptr<Renderer> renderer; // opened first: a device that is not there is no reason to measure for minutes
     if (tables->rendered && o.device != "none") {
         auto opened = openDevice(o.device, o);
         if (!opened)
             return opened.error();
-        painter = *std::move(opened);
+        renderer = *std::move(opened);
     }
     auto measured = withProgress(o, 1, "measuring tables", [&](const Progress& progress) {
         return measureTables(tables->computed, *selection, o.threads, progress);
@@ -126,9 +126,9 @@ Status runAccuracy(const AccuracyCommandOptions& o)
     if (!measured)
         return measured.error();
     std::vector<Measurement> rows = *std::move(measured);
-    if (painter) {
+    if (renderer) {
         const auto rendered = withProgress(o, 1, "drawing surfaces", [&](const Progress& progress) {
-            return figures::measureRendered(*painter, *selection, progress);
+            return figures::measureRendered(*renderer, *selection, progress);
         });
         if (!rendered)
             return rendered.error();

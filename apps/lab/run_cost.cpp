@@ -47,7 +47,7 @@ Status runCost(const CostCommandOptions& o)
                             .progress = std::move(progress)});
     });
     if (!report)
-        return inWords(report.error());
+        return withOptionNames(report.error());
     // Tables without machine code do not take the place of older ones that may have it.
     if (!report->codeSilence.empty())
         for (const std::filesystem::path& file : {std::filesystem::path(o.output), std::filesystem::path(o.csv),

@@ -39,14 +39,14 @@ Status runFigures(const FiguresCommandOptions& o)
             return notOneOf("--only", names, word);
     if (Status planned = beginOutputs(o, plannedIn("-o", o.output, {"index.html", "overview.png"})); !planned)
         return planned;
-    const auto painter = openDevice(o.device, o);
-    if (!painter)
-        return painter.error();
+    const auto renderer = openDevice(o.device, o);
+    if (!renderer)
+        return renderer.error();
     if (Status made = makeFolder(o.output); !made)
         return made;
     const auto figures = withProgress(o, 1, "drawing figures", [&](Progress progress) {
         return figures::drawFigures(
-            **painter, o.output,
+            **renderer, o.output,
             {.only = only,
              .width = size->width,
              .height = size->height,
@@ -56,11 +56,11 @@ Status runFigures(const FiguresCommandOptions& o)
              .progress = std::move(progress)});
     });
     if (!figures)
-        return inWords(figures.error());
+        return withOptionNames(figures.error());
     say(o, "page: {}", (o.output / "index.html").string());
     return writeReport(o,
                        {{"command", "figures"},
-                        {"device", (*painter)->device()},
+                        {"device", (*renderer)->device()},
                         {"size", {size->width, size->height}},
                         {"figures", *figures}});
 }

@@ -33,7 +33,7 @@ Status setCamera(State& state, const std::string& words)
 {
     if (!state.model)
         return expected("camera", "a model", "none");
-    const auto camera = cameraFromWords(words, state.model->scene, state.size.x, state.size.y);
+    const auto camera = parseCamera(words, state.model->scene, state.size.x, state.size.y);
     if (!camera)
         return camera.error();
     state.camera = *camera;

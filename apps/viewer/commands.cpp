@@ -71,7 +71,7 @@ Status setSide(Side& side, const std::string& what, const std::string& value)
         side.normalMap = value;
     } else if (what == "convention") {
         if (!value.empty())
-            if (const auto known = conventionFromWords(value); !known)
+            if (const auto known = parseConvention(value); !known)
                 return known.error();
         side.convention = value;
     } else {
@@ -183,7 +183,7 @@ Status copy(State& state, const std::string& what)
     if (what != "command" && what != "camera")
         return expected("copy", "command or camera", what);
     state.requests.push_back(
-        request::Copy{what == "camera" ? cameraWords(state.camera) : commandLine(state, "picture.png", state.size)});
+        request::Copy{what == "camera" ? formatCamera(state.camera) : commandLine(state, "picture.png", state.size)});
     return Done{};
 }
 
@@ -206,7 +206,7 @@ Status performSet(State& state, Words& words)
     if (setting->after == Setting::After::metering)
         state.metered = 0;
     if (name == "exposure")
-        state.meteredFrom = state.cameraMoved ? cameraWords(state.camera) : "";
+        state.meteredFrom = state.cameraMoved ? formatCamera(state.camera) : "";
     if (name == "animation")
         state.picture.time = 0;
     if (state.picture.animation.empty())
@@ -299,7 +299,7 @@ const std::map<std::string, Perform>& performers()
     return all;
 }
 
-// Options that are refused without surroundings go with them.
+// Options that are refused without an environment go with it.
 void settle(PictureOptions& o)
 {
     if (o.environment != "none")

@@ -31,7 +31,7 @@ struct Entry {
 };
 
 // Lines that a menu or submenu has at most: so many fit under each other in 720 pixels with text of 200 %.
-inline constexpr std::size_t kMostLines = 17;
+inline constexpr std::size_t kMaxLines = 17;
 
 // In the order of the menus.
 std::vector<Entry> entriesOf(const State& state);

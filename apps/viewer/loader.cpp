@@ -26,7 +26,7 @@ Loaded readModel(const PictureOptions& options, std::uint64_t number, LastRead& 
     loaded.options = options;
     auto opened = openMovingModel(options);
     if (!opened) {
-        loaded.error = app::inWords(opened.error());
+        loaded.error = app::withOptionNames(opened.error());
         return loaded;
     }
     auto model = std::make_shared<Model>();
@@ -55,7 +55,7 @@ Loaded poseKept(const PictureOptions& wanted, std::uint64_t number, LastRead& ke
     }
     auto scene = poseModel(*kept.animated, loaded.options, kept.model->scene.images);
     if (!scene) {
-        loaded.error = app::inWords(scene.error());
+        loaded.error = app::withOptionNames(scene.error());
         return loaded;
     }
     auto model = std::make_shared<Model>();
@@ -142,7 +142,7 @@ void take(State& state, const Loaded& loaded)
         const std::string file = std::filesystem::absolute(loaded.options.model).lexically_normal().string();
         std::erase(state.recent, file);
         state.recent.insert(state.recent.begin(), file);
-        state.recent.resize(std::min(state.recent.size(), kMostRecent));
+        state.recent.resize(std::min(state.recent.size(), kMaxRecent));
     }
     if (!loaded.model->scene.warnings.empty())
         state.said = loaded.model->scene.warnings[0];

@@ -50,7 +50,7 @@ void remember(const std::string& text, State& state)
         std::istringstream words(line);
         std::string first, second;
         words >> first >> second;
-        if (first == "recent" && line.size() > 7 && state.recent.size() < kMostRecent)
+        if (first == "recent" && line.size() > 7 && state.recent.size() < kMaxRecent)
             state.recent.push_back(line.substr(7));
         else if (first == "scale")
             perform(state, line);

@@ -66,8 +66,8 @@ std::string capital(std::string word)
 template<class Add> void addList(Entries& e, const std::string& title, std::size_t count, const Add& add)
 {
     for (std::size_t i = 0; i < count; ++i) {
-        if (i % kMostLines == 0)
-            e.submenu((i == 0 ? title : fmt::format("{} {}", title, i / kMostLines + 1)).c_str());
+        if (i % kMaxLines == 0)
+            e.submenu((i == 0 ? title : fmt::format("{} {}", title, i / kMaxLines + 1)).c_str());
         add(i);
     }
     e.submenu("");

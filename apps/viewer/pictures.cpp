@@ -32,7 +32,7 @@ std::string keyOf(const State& s)
 } // namespace
 
 Pictures::Pictures(app::CommonOptions common, PictureOptions first, bool validation, std::function<void()> done)
-    : artist_(std::move(common), std::move(first), validation, std::move(done))
+    : renderThread_(std::move(common), std::move(first), validation, std::move(done))
 {
 }
 
@@ -42,18 +42,18 @@ void Pictures::ask(const State& state)
         return;
     const std::string key = keyOf(state);
     const bool meter = state.metered == 0 && state.show == "shaded" && meters(optionsOf(state, false))
-        && !artist_.busy() && !failed_; // what failed would fail again
+        && !renderThread_.busy() && !failed_; // what failed would fail again
     if (key == key_ && !meter)
         return;
     key_ = key;
     Order order = orderOf(state);
     order.number = ++orders_;
-    artist_.ask(std::move(order));
+    renderThread_.ask(std::move(order));
 }
 
 void Pictures::receive(State& state, bool timed)
 {
-    auto drawn = artist_.take();
+    auto drawn = renderThread_.take();
     if (!drawn)
         return;
     state.device = drawn->device.empty() ? state.device : drawn->device;
@@ -105,7 +105,10 @@ void Pictures::goBack(State& state) const
     state.b = good_.b;
 }
 
-bool Pictures::idle(const State& state) const { return !artist_.busy() && (!state.model || key_ == keyOf(state)); }
+bool Pictures::idle(const State& state) const
+{
+    return !renderThread_.busy() && (!state.model || key_ == keyOf(state));
+}
 
 Shown Pictures::shown(const State& state) const
 {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "artist.hpp"
+#include "render_thread.hpp"
 #include "state.hpp"
 #include "window.hpp"
 
@@ -13,7 +13,7 @@ namespace cotan::viewer {
 
 class Pictures {
 public:
-    // As for Artist.
+    // As for RenderThread.
     Pictures(app::CommonOptions common, PictureOptions first, bool validation, std::function<void()> done);
 
     // Orders a picture where the state shows something else than the last order.
@@ -29,15 +29,15 @@ public:
     // Of the picture that is shown, at the pointer; below 0: none.
     float degreesAtPointer(const State& state) const;
     // A picture for a file, whatever is drawn meanwhile; waits for it.
-    Result<Image> drawNow(const Order& order, bool floats) { return artist_.drawNow(order, floats); }
+    Result<Image> drawNow(const Order& order, bool floats) { return renderThread_.drawNow(order, floats); }
 
-    std::vector<std::string> finish() { return artist_.finish(); }
+    std::vector<std::string> finish() { return renderThread_.finish(); }
 
     bool any() const { return drawn_.picture != nullptr; }
     double firstSeconds() const { return firstSeconds_; } // that the first picture took
 
 private:
-    Artist artist_;
+    RenderThread renderThread_;
     Drawn drawn_;
     struct {
         bool any = false;

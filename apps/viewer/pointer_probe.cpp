@@ -21,8 +21,9 @@ void PointerProbe::follow(State& state)
         return;
     }
     const Side& side = sideOf(state, state.compare == Compare::flip && state.second);
-    const std::string key = fmt::format("{} {} {} {} {} {}", state.pointer.x, state.pointer.y,
-                                        cameraWords(state.camera), state.model->number, side.frame, int(side.tangents));
+    const std::string key =
+        fmt::format("{} {} {} {} {} {}", state.pointer.x, state.pointer.y, formatCamera(state.camera),
+                    state.model->number, side.frame, int(side.tangents));
     if (key == key_)
         return;
     key_ = key;

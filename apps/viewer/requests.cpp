@@ -44,7 +44,7 @@ Status carryOut(Parts& parts, const request::WritePicture& r)
         order.first.use = order.second.use = PictureUse::radiance;
     const auto image = parts.pictures.drawNow(order, floats);
     if (!image)
-        return app::inWords(image.error());
+        return app::withOptionNames(image.error());
     if (Status done = writeImage(file, *image); !done)
         return done;
     state.said = commandLine(wanted, file.string(), wanted.size);

@@ -12,7 +12,7 @@ void beginLoads(Parts& parts);
 // What cannot be done becomes state.problem. Errors: the first of those.
 Status carryOutRequests(Parts& parts);
 
-// Watches all files that are shown: the model with its own, maps and surroundings, as soon as they are chosen.
+// Watches all files that are shown: the model with its own, maps and the environment, as soon as they are chosen.
 void watchShown(Parts& parts);
 
 } // namespace cotan::viewer

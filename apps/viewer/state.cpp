@@ -65,7 +65,7 @@ PictureOptions optionsOf(const State& state, bool second)
     PictureOptions o = state.picture;
     o.size = {std::max(1, state.size.x), std::max(1, state.size.y)};
     if (state.cameraMoved)
-        o.camera = cameraWords(state.camera);
+        o.camera = formatCamera(state.camera);
     o.use = state.show == "shaded" ? PictureUse::shown : PictureUse::data;
     if (state.compare == Compare::angle)
         o.use = PictureUse::data;

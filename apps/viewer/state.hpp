@@ -1,5 +1,5 @@
-// What the viewer is doing. Events and commands change it (input.hpp, commands.hpp); the artist draws it (artist.hpp);
-// the window shows it.
+// What the viewer is doing. Events and commands change it (input.hpp, commands.hpp); the render thread draws it
+// (render_thread.hpp); the window shows it.
 #pragma once
 
 #include <filesystem>
@@ -86,7 +86,7 @@ struct Probe {
     float degrees = -1; // in the picture of angles; below 0: none
 };
 
-inline constexpr std::size_t kMostRecent = 10; // files that are kept
+inline constexpr std::size_t kMaxRecent = 10; // files that are kept
 
 struct State {
     PictureOptions picture; // of the first picture; its camera: the words that a reset goes back to

@@ -21,7 +21,7 @@ struct Derive {
 };
 
 constexpr std::uint32_t kGroupSize = 64;
-constexpr std::uint32_t kMostInARow = 65535; // what every device can
+constexpr std::uint32_t kMaxInARow = 65535; // what every device can
 
 } // namespace
 
@@ -80,7 +80,7 @@ double Passes::run(Pass pass)
     commands.pushConstants<Derive>(*layout_, vk::ShaderStageFlagBits::eCompute, 0, constants);
     commands.bindPipeline(vk::PipelineBindPoint::eCompute, *pipelines_[static_cast<std::size_t>(pass)]);
     const std::uint32_t workGroups = (count + kGroupSize - 1) / kGroupSize,
-                        row = std::clamp(workGroups, 1u, kMostInARow);
+                        row = std::clamp(workGroups, 1u, kMaxInARow);
     commands.resetQueryPool(*times_, 0, 2);
     commands.writeTimestamp2(vk::PipelineStageFlagBits2::eAllCommands, *times_, 0);
     commands.dispatch(row, (workGroups + row - 1) / row, 1);

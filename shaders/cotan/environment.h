@@ -1,4 +1,4 @@
-// Cotan portable text: light from a picture of the surroundings. Include lang.h and light.h first.
+// Cotan portable text: light from a picture of the environment. Include lang.h and light.h first.
 //
 // The picture is an atlas of square tiles, which the caller reads with bilinear filtering and without mips:
 //   tiles 0..8   radiance, filtered for roughness 0, 1/8, ... 1
@@ -99,7 +99,7 @@ COTAN_FUNCTION cotan_bounces cotan_bounces_of(cotan_vec3 f0, cotan_real f90, cot
     return b;
 }
 
-// What a surface reflects of its surroundings. irradiance: tile 9 along n. radiance: where cotan_reflecting_normal
+// What a surface reflects of its environment. irradiance: tile 9 along n. radiance: where cotan_reflecting_normal
 // mirrors the eye, between the two tiles of the roughness. albedo: tile 10.
 // What is not reflected at the surface is scattered below it, so that a white dielectric reflects all light; a white
 // metal does, too.
@@ -115,7 +115,7 @@ COTAN_FUNCTION cotan_vec3 cotan_reflect_image(
     return (irradiance * (below + all.more) + radiance * all.once) * s.occlusion;
 }
 
-// What a coat reflects of its surroundings. radiance, albedo: as above, for its normal and roughness.
+// What a coat reflects of its environment. radiance, albedo: as above, for its normal and roughness.
 COTAN_FUNCTION cotan_vec3 cotan_reflect_coat_image(cotan_coat c, cotan_vec3 radiance, cotan_vec2 albedo)
 {
     return radiance * (c.strength * (cotan_real(0.04) * albedo.x + albedo.y));

@@ -88,7 +88,7 @@ COTAN_FUNCTION cotan_vec3 cotan_reflect_sheen(
         + c.color * (cotan_charlie(n, v, l, c.roughness) * nl);
 }
 
-// The same of the surroundings. The lobe is so wide that it sees what the surface does.
+// The same of the environment. The lobe is so wide that it sees what the surface does.
 // irradiance: divided by pi.
 COTAN_FUNCTION cotan_vec3 cotan_reflect_sheen_around(
     cotan_sheen c, cotan_vec3 n, cotan_vec3 v, cotan_vec3 irradiance, cotan_vec3 beneath)

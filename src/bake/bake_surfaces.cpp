@@ -20,7 +20,7 @@ namespace cotan {
 
 namespace {
 
-constexpr double kMostRows = 4e7; // of texels under all triangles, and two a texel
+constexpr double kMaxRows = 4e7; // of texels under all triangles, and two a texel
 
 using StateCounts = std::array<std::size_t, 256>; // how many texels are in each combination of TexelState
 
@@ -78,7 +78,7 @@ private:
     void mark(std::size_t texel, int flag) { out_.states[texel] = std::uint8_t(out_.states[texel] | flag); }
 
     // Returns how many rays were traced.
-    std::size_t bakePacket(std::span<const glm::ivec2> samples, std::span<const UvPlace> places)
+    std::size_t bakePacket(std::span<const glm::ivec2> samples, std::span<const UvSample> places)
     {
         Traced& traced = traced_[packet_ % traced_.size()];
         Probes& probes = traced.probes;
@@ -195,7 +195,7 @@ Status checkRows(const UvTriangles& triangles, glm::dvec2 size)
         if (const bool drawn = high > low; drawn)
             rows += std::min(high - low, size.y);
     }
-    const double most = kMostRows + 2 * size.x * size.y;
+    const double most = kMaxRows + 2 * size.x * size.y;
     if (rows > most)
         return inputError(fmt::format("low: its triangles lie over one another in {:.3g} rows of texels; expected at "
                                       "most {:.3g}: fewer, or a smaller map",

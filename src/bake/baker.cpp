@@ -52,7 +52,7 @@ Baker::Baker(const LowSurface& low, const HighSurface& high, const BakeOptions& 
     lift_ = kLift * diagonal;
 }
 
-void Baker::aim(const LowPoints& points, std::span<const UvPlace> places, Probes& probes) const
+void Baker::aim(const LowPoints& points, std::span<const UvSample> places, Probes& probes) const
 {
     probes.count = places.size();
     probes.point = points.position;
@@ -71,7 +71,7 @@ void Baker::aim(const LowPoints& points, std::span<const UvPlace> places, Probes
             aimFromStart(points, places[i], i, probes);
 }
 
-void Baker::aimFromCage(const UvPlace& place, std::size_t i, Probes& probes) const
+void Baker::aimFromCage(const UvSample& place, std::size_t i, Probes& probes) const
 {
     const std::uint32_t* v = &low_.indices[3 * std::size_t(place.triangle)];
     const glm::vec3 cage = options_.cage[v[0]] * (1 - place.b1 - place.b2) + options_.cage[v[1]] * place.b1
@@ -83,7 +83,7 @@ void Baker::aimFromCage(const UvPlace& place, std::size_t i, Probes& probes) con
     probes.direction.set(i, before > 0 ? way / before : glm::vec3(0));
 }
 
-void Baker::aimFromStart(const LowPoints& points, const UvPlace& place, std::size_t i, Probes& probes) const
+void Baker::aimFromStart(const LowPoints& points, const UvSample& place, std::size_t i, Probes& probes) const
 {
     const RayStarts& starts = *options_.starts;
     const std::uint32_t* v = &low_.indices[3 * std::size_t(place.triangle)];
@@ -101,7 +101,7 @@ void Baker::aimFromStart(const LowPoints& points, const UvPlace& place, std::siz
                                         starts.skip, probes.before[i]);
 }
 
-std::size_t Baker::find(std::span<const UvPlace> places, const Probes& probes, Hits& hits) const
+std::size_t Baker::find(std::span<const UvSample> places, const Probes& probes, Hits& hits) const
 {
     std::size_t rays = probes.count;
     if (options_.cage.empty() && options_.search == BakeSearch::nearest) {
@@ -122,7 +122,7 @@ std::size_t Baker::find(std::span<const UvPlace> places, const Probes& probes, H
 }
 
 // Lanes that found nothing, or only what faces away, look again from as far out as surfaces count.
-std::size_t Baker::findFromFurtherOut(std::span<const UvPlace> places, const Probes& probes, Hits& hits) const
+std::size_t Baker::findFromFurtherOut(std::span<const UvSample> places, const Probes& probes, Hits& hits) const
 {
     Probes further;
     std::size_t rays = 0;

@@ -16,10 +16,10 @@ public:
     float distance() const { return distance_; }
 
     // The lines on which the high surface is looked for from places of the low one.
-    void aim(const LowPoints& points, std::span<const UvPlace> places, Probes& probes) const;
+    void aim(const LowPoints& points, std::span<const UvSample> places, Probes& probes) const;
     // The points of the high surface that belong to places of the low one. This and the next three return how many rays
     // that took.
-    std::size_t find(std::span<const UvPlace> places, const Probes& probes, Hits& hits) const;
+    std::size_t find(std::span<const UvSample> places, const Probes& probes, Hits& hits) const;
     // Where something lies nearer to the low surface than what was found, so that BakeSearch::nearest would take that.
     // 0 everywhere for other rules.
     std::size_t somethingNearer(const Probes& probes, const Hits& hits, Lanes<int>& nearer) const;
@@ -33,9 +33,9 @@ public:
 
 private:
     bool measured() const { return options_.cage.empty() && options_.search == BakeSearch::first; }
-    void aimFromCage(const UvPlace& place, std::size_t i, Probes& probes) const;
-    void aimFromStart(const LowPoints& points, const UvPlace& place, std::size_t i, Probes& probes) const;
-    std::size_t findFromFurtherOut(std::span<const UvPlace> places, const Probes& probes, Hits& hits) const;
+    void aimFromCage(const UvSample& place, std::size_t i, Probes& probes) const;
+    void aimFromStart(const LowPoints& points, const UvSample& place, std::size_t i, Probes& probes) const;
+    std::size_t findFromFurtherOut(std::span<const UvSample> places, const Probes& probes, Hits& hits) const;
     float openness(glm::vec3 where, glm::vec3 face, glm::vec3 n, std::uint32_t pattern) const;
 
     const LowSurface& low_;

@@ -14,7 +14,7 @@ namespace {
 // What is to be said of a map that stays.
 std::string whyKept(const ConvertedMap& map, const std::string& to)
 {
-    const Spread& off = map.figures.unconverted;
+    const ValueSummary& off = map.figures.unconverted;
     if (off.count == 0)
         return fmt::format("{}: stays as it is; nothing was judged, for no triangle with area, also in uv, shows it",
                            map.name);

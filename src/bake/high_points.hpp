@@ -10,7 +10,7 @@
 
 namespace cotan {
 
-inline constexpr int kMostCuts = 64; // of an edge of a large triangle
+inline constexpr int kMaxCuts = 64; // of an edge of a large triangle
 
 // Into how many parts the edges of a triangle are cut for points about `spacing` apart; 0 of a small one, and of one
 // that nothing sees.
@@ -22,7 +22,7 @@ inline int cutsOf(const HighSurface::Triangles& part, std::size_t triangle, floa
     const glm::vec3 p0 = part.positions[c[0]], p1 = part.positions[c[1]], p2 = part.positions[c[2]];
     const float longest =
         std::sqrt(std::max({glm::dot(p1 - p0, p1 - p0), glm::dot(p2 - p1, p2 - p1), glm::dot(p0 - p2, p0 - p2)}));
-    return longest > spacing ? int(std::min(std::ceil(longest / spacing), float(kMostCuts))) : 0;
+    return longest > spacing ? int(std::min(std::ceil(longest / spacing), float(kMaxCuts))) : 0;
 }
 
 // Calls add(point, normal) for points between the corners of a triangle, about `spacing` apart.

@@ -105,7 +105,7 @@ void makeFrames(Frame frame, const Ingredients& in, LowPoints& points)
 
 } // namespace
 
-void pointsOf(const LowSurface& surface, std::span<const UvPlace> places, LowPoints& points)
+void pointsOf(const LowSurface& surface, std::span<const UvSample> places, LowPoints& points)
 {
     Ingredients& in = points.from;
     for (std::size_t i = 0; i < places.size(); ++i) {

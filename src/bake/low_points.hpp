@@ -25,7 +25,7 @@ struct LowPoints {
 };
 
 // The points at up to kLanes places. The same as pointOf in double, to rounding.
-void pointsOf(const LowSurface& surface, std::span<const UvPlace> places, LowPoints& points);
+void pointsOf(const LowSurface& surface, std::span<const UvSample> places, LowPoints& points);
 
 // Unit texels of these frames, as encode has them.
 void encode(const LowPoints& points, const Lanes3& targets, Lanes3& texels);

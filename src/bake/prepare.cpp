@@ -18,7 +18,7 @@ namespace cotan {
 namespace {
 
 constexpr int kLargestSide = 65535; // texels: the number of a texel has 32 bits
-constexpr int kMostOcclusionRays = 1 << 16;
+constexpr int kMaxOcclusionRays = 1 << 16;
 constexpr float kFarthest = 1e17f; // model units: Embree ends the program for rays that start beyond 1.8e18
 
 Status checkRanges(const Scene& low, const HighModel& high, const BakeModelOptions& options)
@@ -36,8 +36,8 @@ Status checkRanges(const Scene& low, const HighModel& high, const BakeModelOptio
                                       int(isFrame(int(b.frame)) ? options.highFrame : b.frame)));
     if (options.tiles.empty())
         return usageError("options.tiles: expected one tile or more; found none");
-    if (b.occlusionRays < 1 || b.occlusionRays > kMostOcclusionRays)
-        return usageError(fmt::format("options.bake: expected 1 to {} rays for occlusion; found {}", kMostOcclusionRays,
+    if (b.occlusionRays < 1 || b.occlusionRays > kMaxOcclusionRays)
+        return usageError(fmt::format("options.bake: expected 1 to {} rays for occlusion; found {}", kMaxOcclusionRays,
                                       b.occlusionRays));
     if (!(b.maxDistance >= 0 && b.maxDistance <= kFarthest))
         return usageError(fmt::format("options.maxDistance: expected 0 to {:g}; found {:g}", kFarthest, b.maxDistance));

@@ -19,19 +19,19 @@ namespace cotan {
 
 namespace {
 
-constexpr float kLimit = 0.1f;      // of the diagonal
-constexpr float kMargin = 0.002f;   // of the diagonal
-constexpr float kMore = 1.05f;      // of the measured distance
-constexpr float kLeastLean = 0.2f;  // cosine between a vertex's normal and its direction
-constexpr float kLeastSlope = 0.3f; // cosine by which distances are divided at least: no cage leaves the model
-constexpr float kFaces = 0.1f;      // cosine from which two surfaces count as facing the same way
-constexpr float kAside = 0.35f;     // cosine below which the nearest point lies aside
-constexpr std::size_t kMostVertices = 400000; // that are measured: of more every second, third and so on
-constexpr double kMostAsked = 2e7;            // triangles that all points together may look at
-constexpr std::size_t kTried = 256;           // triangles that say how many a point looks at
-constexpr std::size_t kCrowded = 2000;        // triangles that half of all points look at least at: too many
-constexpr float kSpacing = 1.0f / 256;        // of the diagonal, between points of large triangles
-constexpr float kSkip = 1e-4f;                // of the diagonal
+constexpr float kLimit = 0.1f;               // of the diagonal
+constexpr float kMargin = 0.002f;            // of the diagonal
+constexpr float kMore = 1.05f;               // of the measured distance
+constexpr float kMinLean = 0.2f;             // cosine between a vertex's normal and its direction
+constexpr float kMinSlope = 0.3f;            // cosine by which distances are divided at least: no cage leaves the model
+constexpr float kFaces = 0.1f;               // cosine from which two surfaces count as facing the same way
+constexpr float kAside = 0.35f;              // cosine below which the nearest point lies aside
+constexpr std::size_t kMaxVertices = 400000; // that are measured: of more every second, third and so on
+constexpr double kMaxAsked = 2e7;            // triangles that all points together may look at
+constexpr std::size_t kTried = 256;          // triangles that say how many a point looks at
+constexpr std::size_t kCrowded = 2000;       // triangles that half of all points look at least at: too many
+constexpr float kSpacing = 1.0f / 256;       // of the diagonal, between points of large triangles
+constexpr float kSkip = 1e-4f;               // of the diagonal
 
 // Numbers for vertices: equal for those of one instance at one position.
 struct Groups {
@@ -91,7 +91,7 @@ void findDirections(const LowSurface& low, const Groups& groups, RayStarts& star
     for (std::size_t v = 0; v < low.normals.size(); ++v) {
         const std::uint32_t g = groups.of[v];
         const float length = glm::length(sums[g]);
-        if (seen[g] < 2 || !(length > 0) || glm::dot(sums[g], low.normals[v]) < kLeastLean * length)
+        if (seen[g] < 2 || !(length > 0) || glm::dot(sums[g], low.normals[v]) < kMinLean * length)
             continue;
         starts.directions[v] = sums[g] / length;
         starts.bent = starts.bent || starts.directions[v] != low.normals[v];
@@ -247,7 +247,7 @@ private:
             if (weights[i] < 1e-6f)
                 continue;
             const std::uint32_t v = low_.indices[3 * std::size_t(triangle) + i];
-            raiseVertex(v, distance / std::max(kLeastSlope, glm::dot(starts_.directions[v], way)));
+            raiseVertex(v, distance / std::max(kMinSlope, glm::dot(starts_.directions[v], way)));
         }
     }
     void raiseVertex(std::uint32_t v, float distance)
@@ -263,7 +263,7 @@ private:
     }
     void addRay(std::uint32_t index)
     {
-        constexpr int kMostLayers = 16;
+        constexpr int kMaxLayers = 16;
         const std::uint32_t v = low_.indices[index], triangle = index / 3;
         const glm::vec3 way = starts_.directions[v], point = low_.positions[v];
         const float lift = 1e-5f * body_.diagonal;
@@ -271,7 +271,7 @@ private:
             return;
         const float from = openDistance(*body_.tree, triangle, point, way, starts_.skip, starts_.limit);
         float passed = 0;
-        for (int layer = 0; layer < kMostLayers && passed < from; ++layer) {
+        for (int layer = 0; layer < kMaxLayers && passed < from; ++layer) {
             const Hit hit = high_.trace({point + way * (from - passed), -way, 0, from - passed});
             if (!hit.found)
                 return;
@@ -325,8 +325,8 @@ Result<std::size_t> stepFor(const HighSurface& high, float spacing, const Measur
                                       "most {}: leave out those that nobody sees",
                                       *middle, kCrowded));
     const double mean = double(std::reduce(asked.begin(), asked.end())) / double(asked.size());
-    const double work = double(std::min(vertices, kMostVertices) + between) * mean;
-    return 1 + std::size_t(work / kMostAsked);
+    const double work = double(std::min(vertices, kMaxVertices) + between) * mean;
+    return 1 + std::size_t(work / kMaxAsked);
 }
 
 // The result: which part of the points had to do, as by stepFor.
@@ -338,7 +338,7 @@ Result<std::size_t> measure(const HighSurface& high, float spacing, Measuring& m
     const auto fitting = stepFor(high, spacing, measuring);
     if (!fitting)
         return fitting.error();
-    const std::size_t every = *fitting, step = std::max(1 + vertices / kMostVertices, every);
+    const std::size_t every = *fitting, step = std::max(1 + vertices / kMaxVertices, every);
     std::size_t before = 0; // triangles
     for (std::uint32_t instance = 0; instance < high.names().size(); ++instance) {
         const HighSurface::Triangles part = high.triangles(instance);
@@ -365,11 +365,11 @@ Result<std::size_t> measure(const HighSurface& high, float spacing, Measuring& m
 // Whether some of the rays of a triangle would start behind another one.
 bool isCrossed(const LowSurface& low, const RayStarts& starts, std::size_t triangle, float diagonal)
 {
-    constexpr int kLeastSteps = 3, kMostSteps = 12;
+    constexpr int kMinSteps = 3, kMaxSteps = 12;
     const std::uint32_t* v = &low.indices[3 * triangle];
     const glm::vec3 p[3] = {low.positions[v[0]], low.positions[v[1]], low.positions[v[2]]};
     const float longest = std::max({glm::length(p[1] - p[0]), glm::length(p[2] - p[1]), glm::length(p[0] - p[2])});
-    const int steps = std::max(kLeastSteps, int(std::min(longest / (4 * kSpacing * diagonal), float(kMostSteps))));
+    const int steps = std::max(kMinSteps, int(std::min(longest / (4 * kSpacing * diagonal), float(kMaxSteps))));
     for (int i = 0; i <= steps; ++i)
         for (int j = 0; j <= steps - i; ++j) {
             // A little inside the edges.

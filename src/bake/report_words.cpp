@@ -11,13 +11,13 @@ std::string counted(std::size_t number, const std::string& noun)
     return fmt::format("{} {}{}", number, noun, number == 1 ? "" : "s");
 }
 
-std::string toText(const Spread& s)
+std::string toText(const ValueSummary& s)
 {
     return s.count > 0 ? fmt::format("{:.2f} / {:.2f} / {:.2f}", s.mean, s.percentile95, s.maximum)
                        : "nothing to measure";
 }
 
-Json toJson(const Spread& s)
+Json toJson(const ValueSummary& s)
 {
     return {{"count", s.count}, {"mean", s.mean}, {"percentile95", s.percentile95}, {"maximum", s.maximum}};
 }

@@ -13,7 +13,7 @@ namespace cotan {
 namespace {
 
 constexpr float kApart = 0.001f;   // of the low surface's diagonal: other surfaces
-constexpr int kMostLayers = 32;    // on one line
+constexpr int kMaxLayers = 32;     // on one line
 constexpr float kUpright = -1e-3f; // cosine down to which a front faces outwards
 
 glm::vec3 rayThrough(const View& view, const Camera& c, int x, int y)
@@ -61,7 +61,7 @@ public:
         const LowTree::Met seen = tree_.first({eye, ray, 0, 1e30f});
         if (!seen.found || seen.triangle >= low_.triangleCount() || glm::dot(tree_.face(seen.triangle), ray) >= 0)
             return {};
-        const UvPlace place{seen.triangle, seen.b1, seen.b2, true};
+        const UvSample place{seen.triangle, seen.b1, seen.b2, true};
         LowPoints point;
         Probes probe;
         pointsOf(low_, {&place, 1}, point);
@@ -71,7 +71,7 @@ public:
             return {};
         const float from = openDistance(tree_, seen.triangle, at, way, 1e-4f * diagonal_, limit_);
         float passed = 0;
-        for (int layer = 0; layer < kMostLayers; ++layer) {
+        for (int layer = 0; layer < kMaxLayers; ++layer) {
             const float left = from + limit_ - passed;
             const glm::vec3 start = at + way * (from - passed);
             const Hit hit = left > 0 ? high_.trace({start, -way, 0, left}) : Hit{};
@@ -95,7 +95,7 @@ private:
             && !high_.blocked({eye, way / distance, 0, distance - std::min(kApart * diagonal_, 0.5f * distance)});
     }
     // Whether the baker takes the surface that lies `off` in front.
-    Answer judge(const UvPlace& place, const Probes& probe, float off, glm::vec3 normal) const
+    Answer judge(const UvSample& place, const Probes& probe, float off, glm::vec3 normal) const
     {
         Hits hits;
         baker_.find({&place, 1}, probe, hits);

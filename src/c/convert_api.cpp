@@ -45,12 +45,12 @@ void fill(const ConvertModelReport& report, cotan_convert_result& r)
     r = {};
     r.size = size;
     r.worst_degrees_before = r.worst_degrees_after = -1;
-    const auto take = [](double& worst, const Spread& map) {
+    const auto take = [](double& worst, const ValueSummary& map) {
         if (map.count > 0)
             worst = std::max(worst, map.mean);
     };
     for (const ConvertedMap& map : report.maps) {
-        const Spread &before = map.figures.unconverted, &after = map.kept ? before : map.figures.error;
+        const ValueSummary &before = map.figures.unconverted, &after = map.kept ? before : map.figures.error;
         ++(map.kept ? r.maps_kept : r.maps_converted);
         take(r.worst_degrees_before, before);
         take(r.worst_degrees_after, after);

@@ -21,7 +21,7 @@ std::string adviceOf(const LintReport& report)
     return report.advice == Advice::nothing ? "" : std::string(name(frameOf(report)));
 }
 
-double worst(const LintReport& report, Spread MapFit::*frame)
+double worst(const LintReport& report, ValueSummary MapFit::*frame)
 {
     double degrees = -1;
     for (const MapFit& fit : report.fits)

@@ -14,9 +14,9 @@ struct cotan_image {
 
 namespace cotan::c {
 
-inline constexpr int kMostSide = 65536;
+inline constexpr int kMaxSide = 65536;
 // Work on a pixel takes up to 64 bytes; their number must fit where addresses have 32 bits.
-inline constexpr std::uint64_t kMostPixels = SIZE_MAX / 64;
+inline constexpr std::uint64_t kMaxPixels = SIZE_MAX / 64;
 
 inline PixelType typeOf(const cotan_picture& p, const char* name)
 {
@@ -31,13 +31,13 @@ inline const cotan_picture& checkedPicture(const cotan_picture* given, const cha
 {
     const cotan_picture& p = checked(given, name);
     typeOf(p, name);
-    if (p.width < 1 || p.height < 1 || p.width > kMostSide || p.height > kMostSide)
+    if (p.width < 1 || p.height < 1 || p.width > kMaxSide || p.height > kMaxSide)
         fail(ErrorKind::usage,
              std::string(name) + ": expected 1 to 65536 pixels a side, found " + std::to_string(p.width) + " x "
                  + std::to_string(p.height));
-    if (std::uint64_t(p.width) * std::uint64_t(p.height) > kMostPixels)
+    if (std::uint64_t(p.width) * std::uint64_t(p.height) > kMaxPixels)
         fail(ErrorKind::unavailable,
-             std::string(name) + ": expected at most " + std::to_string(kMostPixels) + " pixels in all, found "
+             std::string(name) + ": expected at most " + std::to_string(kMaxPixels) + " pixels in all, found "
                  + std::to_string(p.width) + " x " + std::to_string(p.height));
     if (!p.pixels)
         fail(ErrorKind::usage, std::string(name) + ".pixels: expected an array, found null");
@@ -81,7 +81,7 @@ inline Frame frameOr(const char* given, Frame otherwise, const char* name)
 
 inline Convention conventionOf(const char* words, const char* name)
 {
-    return valueOf(conventionFromWords(word(words, name)), name);
+    return valueOf(parseConvention(word(words, name)), name);
 }
 
 // Of a result with such components.

@@ -62,18 +62,18 @@ Image draw(const Wanted& wanted, const cotan_render_options& o, Json& report)
     Picture picture = valueOf(openPicture(wanted.picture, o.threads, {frame, Frame::exact}));
     picture.view.frame = picture.frames.front();
     picture.view.output = outputOf(wanted.picture.show);
-    const auto painter = valueOf(openPicturePainter(wanted.picture, picture));
-    painter->progress = progressOf(o.progress, o.user);
-    report = {{"frame", name(picture.view.frame)}, {"view", wanted.picture.show}, {"device", painter->device()}};
+    const auto renderer = valueOf(openPictureRenderer(wanted.picture, picture));
+    renderer->progress = progressOf(o.progress, o.user);
+    report = {{"frame", name(picture.view.frame)}, {"view", wanted.picture.show}, {"device", renderer->device()}};
     report.update(countsOf(picture.scene));
-    if (!painter->note.empty())
-        report["note"] = painter->note;
+    if (!renderer->note.empty())
+        report["note"] = renderer->note;
     if (const std::string note = frameNote(picture.scene, picture.view.frame); !note.empty())
         report["frame_note"] = note;
     Image image =
-        valueOf(drawShow(*painter, picture.scene, picture.view, wanted.picture.show, o.floats != 0,
+        valueOf(drawShow(*renderer, picture.scene, picture.view, wanted.picture.show, o.floats != 0,
                          [&](const AngleStatistics& degrees) { report["error_against_exact"] = toJson(degrees); }));
-    if (const Status laid = layEdges(*painter, picture.view, wanted.picture, picture.edges, image); !laid)
+    if (const Status laid = layEdges(*renderer, picture.view, wanted.picture, picture.edges, image); !laid)
         throw Failure{laid.error()};
     return image;
 }

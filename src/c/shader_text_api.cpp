@@ -31,7 +31,7 @@ cotan_status cotan_shader_text(const char* language, const char* frame, const ch
                      "stage: expected fragment, vertex, mesh or compute, found '" + std::string(stage) + "'");
             choice.stage = *wanted;
         }
-        choice.convention = valueOf(sampledFromWords(word(convention, "convention")), "convention");
+        choice.convention = valueOf(parseSampledConvention(word(convention, "convention")), "convention");
         const shader_text::ShaderText made = valueOf(shader_text::makeShaderText(choice), "shader");
         const std::size_t needed = made.text.size() + 1;
         if (text && *text_size >= needed)

@@ -125,13 +125,13 @@ std::vector<std::string> damageWords()
     return words;
 }
 
-Result<Convention> conventionFromWords(std::string_view text)
+Result<Convention> parseConvention(std::string_view text)
 {
     const auto stated = undamaged(text);
     return stated ? Result<Convention>(stated->convention) : stated.error();
 }
 
-Result<Convention> sampledFromWords(std::string_view text)
+Result<Convention> parseSampledConvention(std::string_view text)
 {
     const auto stated = undamaged(text);
     if (!stated || stated->channels)
@@ -143,6 +143,6 @@ Result<Convention> sampledFromWords(std::string_view text)
     return convention;
 }
 
-Result<StatedConvention> statedFromWords(std::string_view text) { return parsed(text, true); }
+Result<StatedConvention> parseStatedConvention(std::string_view text) { return parsed(text, true); }
 
 } // namespace cotan

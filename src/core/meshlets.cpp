@@ -9,8 +9,8 @@ constexpr std::uint32_t kNowhere = 0xffffffffu;
 // Takes triangles until a limit is met. places: per vertex of the mesh its place in the meshlet, or kNowhere.
 class Cutter {
 public:
-    Cutter(RingMeshlets& out, std::size_t vertexCount, std::uint32_t mostVertices, std::uint32_t mostTriangles)
-        : out_(out), places_(vertexCount, kNowhere), mostVertices_(mostVertices), mostTriangles_(mostTriangles)
+    Cutter(RingMeshlets& out, std::size_t vertexCount, std::uint32_t maxVertices, std::uint32_t maxTriangles)
+        : out_(out), places_(vertexCount, kNowhere), maxVertices_(maxVertices), maxTriangles_(maxTriangles)
     {
     }
 
@@ -19,7 +19,7 @@ public:
         const std::uint32_t fresh = std::uint32_t(places_[a] == kNowhere)
             + std::uint32_t(places_[b] == kNowhere && b != a)
             + std::uint32_t(places_[c] == kNowhere && c != a && c != b);
-        if (open_.vertexCount + fresh > mostVertices_ || open_.triangleCount == mostTriangles_)
+        if (open_.vertexCount + fresh > maxVertices_ || open_.triangleCount == maxTriangles_)
             close();
         const std::uint32_t packed = place(a) | place(b) << 8 | place(c) << 16;
         out_.triangles.push_back(packed);
@@ -47,7 +47,7 @@ private:
 
     RingMeshlets& out_;
     std::vector<std::uint32_t> places_;
-    std::uint32_t mostVertices_, mostTriangles_;
+    std::uint32_t maxVertices_, maxTriangles_;
     RingMeshlet open_;
 };
 
@@ -71,14 +71,14 @@ void addRings(RingMeshlets& out, const Adjacency& adjacency, std::size_t vertexC
 
 } // namespace
 
-RingMeshlets ringMeshlets(const MeshView& mesh, std::uint32_t mostVertices, std::uint32_t mostTriangles)
+RingMeshlets ringMeshlets(const MeshView& mesh, std::uint32_t maxVertices, std::uint32_t maxTriangles)
 {
     const Adjacency adjacency = makeAdjacency(mesh);
-    if (adjacency.vertexBegin.empty() || mostVertices < 3 || mostVertices > 256 || mostTriangles < 1)
+    if (adjacency.vertexBegin.empty() || maxVertices < 3 || maxVertices > 256 || maxTriangles < 1)
         return {};
     RingMeshlets out;
     out.triangles.reserve(mesh.indices.size() / 3);
-    Cutter cutter(out, mesh.positions.size(), mostVertices, mostTriangles);
+    Cutter cutter(out, mesh.positions.size(), maxVertices, maxTriangles);
     for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3)
         cutter.add(mesh.indices[i], mesh.indices[i + 1], mesh.indices[i + 2]);
     cutter.close();

@@ -37,14 +37,14 @@ glm::vec3 projected(glm::vec3 v, glm::vec3 n) { return v - n * glm::dot(n, v); }
 bool sumInOneHalf(const Triangles& t, std::span<const std::uint32_t> group, std::span<const glm::vec4> contributions,
                   glm::vec3 n, glm::vec3& sum)
 {
-    constexpr float kCosine = 0.001f, kMostWeight = 3.15f;
+    constexpr float kCosine = 0.001f, kMaxWeight = 3.15f;
     const glm::vec3 firstU(contributions[group[0]]), firstV = projected(t.alongV[group[0] / 3], n);
-    const float leastU = kCosine * kMostWeight * std::sqrt(glm::dot(firstU, firstU));
+    const float minU = kCosine * kMaxWeight * std::sqrt(glm::dot(firstU, firstU));
     bool inOneHalf = true;
     sum = glm::vec3(0);
     for (const std::uint32_t c : group) {
         const glm::vec3 u(contributions[c]);
-        inOneHalf &= glm::dot(firstU, u) > leastU;
+        inOneHalf &= glm::dot(firstU, u) > minU;
         inOneHalf &= glm::dot(firstV, t.alongV[c / 3]) > kCosine; // along n there is nothing of the first
         sum += u;
     }
@@ -131,14 +131,14 @@ template<std::size_t kSize> std::uint32_t placesOf(std::uint32_t value, const st
     return places;
 }
 
-// The groups at a vertex with at most kMost corners: sets of corners are the bits of a word, and neighbours are
+// The groups at a vertex with at most kMax corners: sets of corners are the bits of a word, and neighbours are
 // found by comparing all with all.
-template<std::size_t kMost>
+template<std::size_t kMax>
 void averageFew(const Triangles& t, std::span<const std::uint32_t> corners, Members& members, std::span<glm::vec4> out)
 {
     constexpr std::uint32_t kNobody = 31; // no corner has that bit
     const auto count = static_cast<std::uint32_t>(corners.size());
-    std::array<std::uint32_t, kMost> leaving, coming, left, right; // as in Ring
+    std::array<std::uint32_t, kMax> leaving, coming, left, right; // as in Ring
     std::uint32_t preserving = 0;
     coming.fill(kNone);
     right.fill(kNobody);
@@ -160,7 +160,7 @@ void averageFew(const Triangles& t, std::span<const std::uint32_t> corners, Memb
     while (free != 0) {
         const auto seed = std::uint32_t(std::countr_zero(free));
         const std::uint32_t alike = (preserving >> seed & 1) != 0 ? preserving : ~preserving;
-        std::array<std::uint32_t, kMost> group;
+        std::array<std::uint32_t, kMax> group;
         std::size_t size = 0;
         walk(seed, left, right, [&](std::uint32_t i) {
             if ((free & alike & 1u << i) == 0)
@@ -207,23 +207,23 @@ constexpr double kWelded = 0.2, kDerived = 0.5, kListed = 0.6;
 bool averageByVertex(const Triangles& t, const CornersAt& at, std::size_t threads, const Listener& listener,
                      std::span<glm::vec4> out)
 {
-    return runToldParts(t.mesh.positions.size(), threads, listener, kListed, 1,
-                        [&](std::size_t begin, std::size_t end) {
-                            Members members;
-                            ManyCorners many;
-                            std::vector<std::uint32_t> all;
-                            std::array<std::uint32_t, 16> few;
-                            std::uint32_t count = 0;
-                            for (std::size_t v = begin; v < end; ++v)
-                                if (at.list(v, few, count) != kNone) {
-                                    at.list(v, all);
-                                    many.average(t, all, members, out);
-                                } else if (count > 8) {
-                                    averageFew<16>(t, std::span(few).first(count), members, out);
-                                } else if (count > 0) { // not welded to another
-                                    averageFew<8>(t, std::span(few).first(count), members, out);
-                                }
-                        });
+    return runPartsWithProgress(t.mesh.positions.size(), threads, listener, kListed, 1,
+                                [&](std::size_t begin, std::size_t end) {
+                                    Members members;
+                                    ManyCorners many;
+                                    std::vector<std::uint32_t> all;
+                                    std::array<std::uint32_t, 16> few;
+                                    std::uint32_t count = 0;
+                                    for (std::size_t v = begin; v < end; ++v)
+                                        if (at.list(v, few, count) != kNone) {
+                                            at.list(v, all);
+                                            many.average(t, all, members, out);
+                                        } else if (count > 8) {
+                                            averageFew<16>(t, std::span(few).first(count), members, out);
+                                        } else if (count > 0) { // not welded to another
+                                            averageFew<8>(t, std::span(few).first(count), members, out);
+                                        }
+                                });
 }
 
 // left and right by corner: Ring for all vertices. left takes the place of at.next.

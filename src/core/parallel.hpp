@@ -91,8 +91,8 @@ struct Listener {
 // As runParts, and tells the shares between `from` and `to` after each of at most 65536 items, from any thread. Returns
 // false where the listener has said to stop; the rest is not done then.
 template<class Run>
-bool runToldParts(std::size_t count, std::size_t threads, const Listener& listener, double from, double to,
-                  const Run& run)
+bool runPartsWithProgress(std::size_t count, std::size_t threads, const Listener& listener, double from, double to,
+                          const Run& run)
 {
     const std::size_t usual = threads == 1 ? 1 : std::min(count, threads * 8);
     const std::size_t parts = listener.hear ? std::max(usual, count / 65536) : usual;

@@ -17,7 +17,7 @@ using tangents::edgesAt;
 using tangents::Side;
 using tangents::slot;
 
-constexpr std::size_t kLeastCorners = 100000; // of a thread
+constexpr std::size_t kMinCorners = 100000; // of a thread
 
 // The unit direction of dP/du, or zero.
 glm::vec3 alongU(const Edges& e)
@@ -57,14 +57,14 @@ bool tangents::averageCotangents(const MeshView& mesh, int threads, const Listen
     const std::size_t count = mesh.positions.size();
     auto makeRoom = [&] { made = {zeros<glm::vec3>(count), zeros<glm::vec3>(count)}; };
     const Task beside{[](void* room) { (*static_cast<decltype(makeRoom)*>(room))(); }, &makeRoom};
-    const std::size_t all = threadsFor(mesh.indices.size(), kLeastCorners, threads);
+    const std::size_t all = threadsFor(mesh.indices.size(), kMinCorners, threads);
     return count == 0 || groupCorners(mesh, all, {&made, {}, {}}, listener, beside).first;
 }
 
 Cotangents smoothCotangents(const MeshView& mesh, int threads)
 {
     Cotangents made;
-    if (tangents::usable(mesh, threadsFor(mesh.indices.size(), kLeastCorners, threads)))
+    if (tangents::usable(mesh, threadsFor(mesh.indices.size(), kMinCorners, threads)))
         tangents::averageCotangents(mesh, threads, {}, made);
     return made;
 }
@@ -170,7 +170,7 @@ std::vector<glm::vec4> generateTangents(Frame frame, const MeshView& mesh, int t
 
 SplitCotangents splitSmoothCotangents(const MeshView& mesh, int threads)
 {
-    const std::size_t all = threadsFor(mesh.indices.size(), kLeastCorners, threads);
+    const std::size_t all = threadsFor(mesh.indices.size(), kMinCorners, threads);
     if (!tangents::usable(mesh, all))
         return {};
     const Shared shared = sharedVertices(mesh, all);

@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include "files/account.hpp"
+#include "files/file_registry.hpp"
 
 namespace cotan {
 

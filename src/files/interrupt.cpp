@@ -23,7 +23,7 @@ struct Slot {
     std::atomic<int> state;
     char name[4096];
 };
-Slot slots[kMostParts];
+Slot slots[kMaxParts];
 
 std::atomic<int> holds = 0;
 std::atomic<int> waiting = 0;     // the signal that came while it was held; 0: none
@@ -102,7 +102,7 @@ GuardedPart::GuardedPart(const std::filesystem::path& file) : slot_(-1)
     stayWhereEnding();
     if (file.empty() || file.native().size() >= sizeof Slot::name)
         return;
-    for (std::size_t i = 0; i < kMostParts && slot_ < 0; ++i) {
+    for (std::size_t i = 0; i < kMaxParts && slot_ < 0; ++i) {
         int expected = slotFree;
         if (!slots[i].state.compare_exchange_strong(expected, slotTaken))
             continue;

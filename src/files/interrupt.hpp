@@ -21,9 +21,9 @@ public:
     InterruptsHeld& operator=(const InterruptsHeld&) = delete;
 };
 
-// A file that a signal has to remove; up to kMostParts at a time and with names of up to 4095 bytes, others are left
+// A file that a signal has to remove; up to kMaxParts at a time and with names of up to 4095 bytes, others are left
 // alone. The name counts for as long as this lives.
-inline constexpr std::size_t kMostParts = 1024;
+inline constexpr std::size_t kMaxParts = 1024;
 class GuardedPart {
 public:
     explicit GuardedPart(const std::filesystem::path& file);

@@ -17,7 +17,7 @@
 #include <unistd.h>
 
 #include "ending.hpp"
-#include "files/account.hpp"
+#include "files/file_registry.hpp"
 
 namespace cotan {
 
@@ -80,9 +80,9 @@ bool isSpecial(const fs::path& file)
 // What a symbolic link leads to, whether that is there or not; other files are themselves.
 fs::path followed(fs::path file)
 {
-    constexpr int kMostLinks = 40; // as Linux has it
+    constexpr int kMaxLinks = 40; // as Linux has it
     std::error_code error;
-    for (int i = 0; i < kMostLinks && fs::is_symlink(fs::symlink_status(file, error)); ++i) {
+    for (int i = 0; i < kMaxLinks && fs::is_symlink(fs::symlink_status(file, error)); ++i) {
         const fs::path target = fs::read_symlink(file, error);
         if (error)
             break;

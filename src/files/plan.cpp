@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "files/account.hpp"
+#include "files/file_registry.hpp"
 #include "files/output.hpp"
 
 namespace cotan {

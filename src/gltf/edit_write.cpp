@@ -177,9 +177,9 @@ fs::path binaryBeside(const GltfSource& source, const fs::path& file)
 
 std::string plainName(const std::string& name)
 {
-    constexpr std::size_t kMost = 64;
+    constexpr std::size_t kMax = 64;
     std::string plain;
-    for (const char c : name.substr(0, kMost))
+    for (const char c : name.substr(0, kMax))
         plain += std::isalnum(static_cast<unsigned char>(c)) || c == '-' || c == '_' ? c : '_';
     return plain;
 }

@@ -83,8 +83,8 @@ private:
     // The end of what was read, on one line.
     static std::string quotedTail(std::string_view read)
     {
-        constexpr std::size_t kMost = 24;
-        std::string tail(read.substr(read.size() - std::min(read.size(), kMost)));
+        constexpr std::size_t kMax = 24;
+        std::string tail(read.substr(read.size() - std::min(read.size(), kMax)));
         for (char& c : tail)
             if (c < ' ' || c > '~')
                 c = '?';

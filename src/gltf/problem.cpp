@@ -15,8 +15,8 @@ void GltfWarnings::add(const std::string& where, const std::string& what, std::s
 {
     auto same = std::find_if(entries_.begin(), entries_.end(), [&](const Entry& e) { return e.what == what; });
     // Names from the file may make every line different; nobody reads thousands.
-    constexpr std::size_t kMost = 100;
-    if (same == entries_.end() && entries_.size() >= kMost) {
+    constexpr std::size_t kMax = 100;
+    if (same == entries_.end() && entries_.size() >= kMax) {
         ++leftOut_;
         return;
     }

@@ -15,9 +15,9 @@ namespace cotan {
 namespace {
 
 constexpr double kMomentsASecond = 30;
-constexpr std::size_t kMostMoments = 256, kFewestMoments = 9;
-constexpr std::size_t kMostPosed = 8'000'000; // vertices of all moments
-constexpr std::size_t kMostKept = 300'000;    // points
+constexpr std::size_t kMaxMoments = 256, kFewestMoments = 9;
+constexpr std::size_t kMaxPosed = 8'000'000; // vertices of all moments
+constexpr std::size_t kMaxKept = 300'000;    // points
 constexpr std::size_t kDirections = 64;
 
 // Evenly over the sphere, with their opposites (R. Swinbank, R. J. Purser, Fibonacci grids, 2006).
@@ -97,10 +97,10 @@ Result<std::vector<glm::vec3>> pointsReached(AnimatedGltf& model, const std::str
             return scene.error();
         if (i == 0 && seconds > 0) {
             vertices = std::max<std::size_t>(verticesPlaced(*scene), 1);
-            const std::size_t payable = std::clamp(kMostPosed / vertices, kFewestMoments, kMostMoments);
+            const std::size_t payable = std::clamp(kMaxPosed / vertices, kFewestMoments, kMaxMoments);
             moments = std::min(payable, std::size_t(std::min(seconds * kMomentsASecond, 1e6)) + 2);
         }
-        if (vertices * moments <= kMostKept)
+        if (vertices * moments <= kMaxKept)
             addAll(*scene, points);
         else
             addFurthest(*scene, points);

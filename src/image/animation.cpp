@@ -30,17 +30,20 @@ public:
     {
     }
 
-    Status add(const Image& picture) override { return inWords(writer_->add(picture)); }
+    Status add(const Image& picture) override { return withOptionNames(writer_->add(picture)); }
 
     Status finish() override
     {
         if (Status done = writer_->finish(); !done)
-            return inWords(std::move(done));
+            return withOptionNames(std::move(done));
         return output_.commit();
     }
 
 private:
-    Status inWords(Status status) const { return status ? std::move(status) : Status(output_.failed(status.error())); }
+    Status withOptionNames(Status status) const
+    {
+        return status ? std::move(status) : Status(output_.failed(status.error()));
+    }
 
     OutputFile output_;
     std::unique_ptr<AnimationWriter> writer_;

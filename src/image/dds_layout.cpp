@@ -91,9 +91,9 @@ Problem checkDds(File& file)
     if (format.block == 0 && format.pixel == 0)
         return "its pixel format is not read here";
     // OpenImageIO counts up to the number of levels, for each tile of a cube.
-    constexpr std::uint64_t kMostLevels = 32;
-    if (const std::uint64_t levels = numbers.at(28, 4); levels > kMostLevels)
-        return fmt::format("it has {} levels, the most is {}", levels, kMostLevels);
+    constexpr std::uint64_t kMaxLevels = 32;
+    if (const std::uint64_t levels = numbers.at(28, 4); levels > kMaxLevels)
+        return fmt::format("it has {} levels, the most is {}", levels, kMaxLevels);
     const std::uint64_t blocks = ((width + 3) / 4) * ((height + 3) / 4);
     const std::uint64_t bytes = format.block > 0 ? blocks : width * height;
     const std::uint64_t each = format.block > 0 ? format.block : format.pixel;

@@ -20,8 +20,8 @@ namespace {
 
 // A progressive file may repeat the whole picture in any number of scans; real ones have about ten.
 // Each costs about a nanosecond a pixel, even if it is empty.
-constexpr std::size_t kMostScans = 100;
-constexpr std::size_t kMostScannedPixels = 4'000'000'000;
+constexpr std::size_t kMaxScans = 100;
+constexpr std::size_t kMaxScannedPixels = 4'000'000'000;
 
 // libjpeg reports errors by calling back and must be left by longjmp, so the functions that call
 // it hold nothing with a destructor.
@@ -114,10 +114,10 @@ std::optional<Error> checkScans(const jpeg_decompress_struct& jpeg, std::span<co
 {
     const std::size_t pixels = std::size_t(jpeg.image_width) * jpeg.image_height;
     const std::size_t scans = countScans(bytes);
-    if (scans > kMostScans || scans * pixels > kMostScannedPixels)
+    if (scans > kMaxScans || scans * pixels > kMaxScannedPixels)
         return inputError(
             fmt::format("{}: expected at most {} scans and {} pixels in all of them, found {} scans of {} x {} pixels",
-                        name, kMostScans, kMostScannedPixels, scans, jpeg.image_width, jpeg.image_height));
+                        name, kMaxScans, kMaxScannedPixels, scans, jpeg.image_width, jpeg.image_height));
     std::size_t coefficients = 0;
     for (int c = 0; c < jpeg.num_components; ++c)
         coefficients += std::size_t(jpeg.comp_info[c].width_in_blocks) * jpeg.comp_info[c].height_in_blocks * DCTSIZE2;

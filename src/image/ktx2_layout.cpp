@@ -125,8 +125,8 @@ Result<Ktx2Picture> checkKtx2(std::span<const std::byte> bytes)
     if (width == 0 || height == 0 || depth > 1 || layers > 1 || faces != 1)
         return inputError(fmt::format("expected one flat picture, found {} x {} x {}, {} layers, {} faces", width,
                                       height, depth, layers, faces));
-    constexpr std::uint64_t kMostSide = 1 << 24;
-    if (width > kMostSide || height > kMostSide)
+    constexpr std::uint64_t kMaxSide = 1 << 24;
+    if (width > kMaxSide || height > kMaxSide)
         return inputError(fmt::format("its size is {} x {}", width, height));
     if (levels > std::uint64_t(std::bit_width(std::max(width, height))))
         return inputError(fmt::format("it has {} levels, {} x {} pixels have {}", levels, width, height,

@@ -95,9 +95,9 @@ std::uint64_t plainRowBytes(TiffDirectory& tiff, bool tiled, bool planes)
 // Parts of `each` that cover `whole`, at least 1.
 std::uint64_t partsOf(std::uint64_t whole, std::uint64_t each)
 {
-    constexpr std::uint64_t kMost = 0xffffffff;
-    each = std::clamp<std::uint64_t>(each, 1, kMost);
-    return std::max<std::uint64_t>(1, (std::min(whole, kMost) + each - 1) / each);
+    constexpr std::uint64_t kMax = 0xffffffff;
+    each = std::clamp<std::uint64_t>(each, 1, kMax);
+    return std::max<std::uint64_t>(1, (std::min(whole, kMax) + each - 1) / each);
 }
 
 // What libtiff decodes. Of a picture compressed otherwise OpenImageIO hands out what the memory held.

@@ -133,7 +133,7 @@ struct Texels {
 };
 
 // Of vectors that lie flat the angle grows with the root of the step; this is where that begins.
-constexpr float kLeastZ = 0.08f;
+constexpr float kMinZ = 0.08f;
 
 // Codes of a block's red and green: what a component of 0 is, and how many more one of 1. Texels beyond the edges are
 // those on it.
@@ -158,7 +158,7 @@ Texels texelsOf(const Image& map, int left, int top, const CodeScale& scale)
     const float inverse = 1 / scale.unit;
     for (std::size_t i = 0; i < 4; ++i) {
         const Four nx = (t.x[i] - scale.zero) * inverse, ny = (t.y[i] - scale.zero) * inverse;
-        const Four square = most(1 - nx * nx - ny * ny, kNone + kLeastZ * kLeastZ);
+        const Four square = most(1 - nx * nx - ny * ny, kNone + kMinZ * kMinZ);
         const Four z = rootOf(square);
         t.u[i] = nx / z;
         t.v[i] = ny / z;

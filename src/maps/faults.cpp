@@ -69,7 +69,7 @@ std::vector<Fault> faultsOf(const NormalStatistics& s, const GreenVerdict* green
     return faults;
 }
 
-std::string mendingOptions(const std::vector<Fault>& faults, const NormalStatistics& statistics)
+std::string fixOptions(const std::vector<Fault>& faults, const NormalStatistics& statistics)
 {
     if (faults.empty())
         return {};
@@ -95,7 +95,7 @@ std::string sentenceOf(const std::string& name, const std::vector<Fault>& faults
     std::string text = name + ": ";
     for (const Fault& fault : faults)
         text += fault.text + "; ";
-    return text + "cotan map convert " + mendingOptions(faults, statistics) + " mends it.";
+    return text + "cotan map convert " + fixOptions(faults, statistics) + " mends it.";
 }
 
 } // namespace cotan::maps

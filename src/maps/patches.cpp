@@ -7,16 +7,16 @@ namespace cotan::maps {
 
 namespace {
 
-constexpr int kMostASide = 16;
-constexpr int kLeastSide = 3, kLargestSide = 128; // texels
-constexpr int kWhole = kMostASide * kLargestSide; // pictures of that side and below are looked at whole
+constexpr int kMaxASide = 16;
+constexpr int kMinSide = 3, kLargestSide = 128;  // texels
+constexpr int kWhole = kMaxASide * kLargestSide; // pictures of that side and below are looked at whole
 
 } // namespace
 
 PatchSampler::PatchSampler(int width, int height, PixelType type) : width_(width), height_(height), type_(type)
 {
     const int longer = std::max(width, height);
-    square_ = std::max(kLeastSide, (longer + kMostASide - 1) / kMostASide);
+    square_ = std::max(kMinSide, (longer + kMaxASide - 1) / kMaxASide);
     side_ = longer <= kWhole ? square_ : kLargestSide;
     const int margin = (square_ - side_) / 2;
     for (int y = 0; y < height; y += square_)

@@ -7,9 +7,9 @@
 
 #include <fmt/format.h>
 
-#include "files/account.hpp"
 #include "files/bytes.hpp"
 #include "files/extension.hpp"
+#include "files/file_registry.hpp"
 #include "sandboxed_models.hpp"
 #include "scene/up.hpp"
 

@@ -104,7 +104,7 @@ std::shared_ptr<const GroundMap> groundOf(const PictureOptions& options, const S
     return map ? std::make_shared<const GroundMap>(std::move(*map)) : nullptr;
 }
 
-Result<std::shared_ptr<const EnvironmentMap>> openSurroundings(const PictureOptions& options)
+Result<std::shared_ptr<const EnvironmentMap>> openEnvironmentMap(const PictureOptions& options)
 {
     if (!surrounded(options) || options.use == PictureUse::data)
         return std::shared_ptr<const EnvironmentMap>();

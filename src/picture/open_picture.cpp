@@ -11,8 +11,8 @@
 #include "cotan/render.hpp"
 #include "cotan/scene.hpp"
 #include "cotan/view.hpp"
-#include "files/account.hpp"
 #include "files/extension.hpp"
+#include "files/file_registry.hpp"
 #include "picture/option_words.hpp"
 #include "picture/words.hpp"
 #include "scene/geometry.hpp"
@@ -57,7 +57,7 @@ Result<View> viewOf(const PictureOptions& options, const Scene& scene)
     const bool ownCamera = options.camera.empty() && options.model.empty() && options.shape.empty()
         && !scene.cameras.empty() && !options.turntable;
     const std::string camera = !options.camera.empty() ? options.camera : ownCamera ? "0" : "front";
-    auto parsed = cameraFromWords(camera, scene, view.width, view.height);
+    auto parsed = parseCamera(camera, scene, view.width, view.height);
     if (!parsed)
         return usageError("--camera: " + parsed.error().message);
     view.camera = *parsed;
@@ -226,10 +226,10 @@ Result<Picture> openPicture(const PictureOptions& options, int threads, std::ini
     Picture picture;
     // What takes its time while the model is read.
     picture.device =
-        std::async(std::launch::async, [name = deviceOf(options), threads] { return openPainter(name, threads); });
-    std::future<Result<std::shared_ptr<const EnvironmentMap>>> surroundings;
+        std::async(std::launch::async, [name = deviceOf(options), threads] { return openRenderer(name, threads); });
+    std::future<Result<std::shared_ptr<const EnvironmentMap>>> environment;
     if (!like)
-        surroundings = std::async(std::launch::async, openSurroundings, options);
+        environment = std::async(std::launch::async, openEnvironmentMap, options);
     // The first picture of a sequence has the camera of all.
     const bool moves = !like && !options.animation.empty();
     auto scene = moves ? sceneOf(openMovingModel(options)) : openModel(options);
@@ -250,7 +250,7 @@ Result<Picture> openPicture(const PictureOptions& options, int threads, std::ini
         return view.error();
     picture.view = std::move(*view);
     if (!like) {
-        auto opened = surroundings.get();
+        auto opened = environment.get();
         if (!opened)
             return opened.error();
         picture.view.environmentMap = std::move(*opened);
@@ -269,23 +269,23 @@ std::string deviceOf(const PictureOptions& options)
     return reference ? "reference" : options.device;
 }
 
-Result<std::unique_ptr<Painter>> openPicturePainter(const PictureOptions& options, Picture& picture)
+Result<std::unique_ptr<Renderer>> openPictureRenderer(const PictureOptions& options, Picture& picture)
 {
     auto ground =
         std::async(std::launch::async, [&] { return groundOf(options, picture.scene, std::as_const(picture.view)); });
-    auto painter = picture.device.get();
-    if (!painter)
-        return painter;
-    if (Status loaded = (*painter)->load(picture.scene); !loaded)
+    auto renderer = picture.device.get();
+    if (!renderer)
+        return renderer;
+    if (Status loaded = (*renderer)->load(picture.scene); !loaded)
         return loaded.error();
     std::optional<Result<float>> exposure;
     if (picture.meter)
-        exposure = meterExposure(**painter, picture.view);
+        exposure = meterExposure(**renderer, picture.view);
     picture.view.ground = ground.get(); // not needed before, and read by nobody else now
     if (exposure && !*exposure)
         return exposure->error();
     picture.view.exposure = exposure ? **exposure : picture.view.exposure;
-    return painter;
+    return renderer;
 }
 
 Status checkLighting(const PictureOptions& options, FrameChoice frame)

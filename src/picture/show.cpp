@@ -36,14 +36,14 @@ Output outputOf(const std::string& show)
     return Output::shaded;
 }
 
-Result<Image> drawShow(Painter& painter, const Scene& scene, View view, const std::string& show, bool floats,
+Result<Image> drawShow(Renderer& renderer, const Scene& scene, View view, const std::string& show, bool floats,
                        const std::function<void(const AngleStatistics&)>& error)
 {
     view.output = outputOf(show);
     if (inspectionFromName(show))
-        return painter.draw(inspectionView(view));
+        return renderer.draw(inspectionView(view));
     if (show == "error") {
-        auto found = errorAgainstExact(painter, scene, view);
+        auto found = errorAgainstExact(renderer, scene, view);
         if (!found)
             return found.error();
         if (error)
@@ -51,19 +51,19 @@ Result<Image> drawShow(Painter& painter, const Scene& scene, View view, const st
         return std::move(found->difference);
     }
     view.linearOutput = show == "shaded" && floats;
-    auto image = painter.draw(view);
+    auto image = renderer.draw(view);
     if (image && show != "shaded" && !floats)
         return asColor(view.output, *image);
     return image;
 }
 
-Status layEdges(Painter& painter, View view, const PictureOptions& options, std::span<const SurfaceEdge> edges,
+Status layEdges(Renderer& renderer, View view, const PictureOptions& options, std::span<const SurfaceEdge> edges,
                 Image& picture)
 {
     if (options.edges == Edges::none || picture.type != PixelType::unorm8)
         return Done{};
     view.output = Output::depth;
-    const auto depth = painter.draw(view);
+    const auto depth = renderer.draw(view);
     if (!depth)
         return depth.error();
     drawEdges(picture, *depth, view.camera, edges, {options.edges != Edges::seams, options.edges != Edges::triangles});

@@ -98,7 +98,7 @@ Result<Camera> orbiting(const std::string& text, const Scene& scene, int width, 
 
 } // namespace
 
-Result<Camera> cameraFromWords(const std::string& text, const Scene& scene, int width, int height)
+Result<Camera> parseCamera(const std::string& text, const Scene& scene, int width, int height)
 {
     if (text == "fit")
         return fitCamera(framedBounds(scene), width, height);
@@ -118,7 +118,7 @@ Result<Camera> cameraFromWords(const std::string& text, const Scene& scene, int 
     return scene.cameras[std::size_t(number)];
 }
 
-std::string cameraWords(const Camera& camera)
+std::string formatCamera(const Camera& camera)
 {
     std::string text;
     const auto add = [&](auto value) {

@@ -7,16 +7,16 @@ namespace cotan {
 
 Result<Image> drawView(Scene scene, const View& view, const std::string& device, int threads)
 {
-    const auto painter = openPainter(device, threads);
-    if (!painter)
-        return painter.error();
+    const auto renderer = openRenderer(device, threads);
+    if (!renderer)
+        return renderer.error();
     if (const Status sound = checkScene(scene, "scene", {.finite = false, .pixels = false}); !sound)
         return sound.error();
-    if (isFrame(int(view.frame))) // others are for the painter to refuse
+    if (isFrame(int(view.frame))) // others are for the renderer to refuse
         deriveVertexFrames(scene, view.frame, TangentOrigin::stored);
-    if (const Status loaded = (*painter)->load(scene); !loaded)
+    if (const Status loaded = (*renderer)->load(scene); !loaded)
         return loaded.error();
-    return (*painter)->draw(view);
+    return (*renderer)->draw(view);
 }
 
 } // namespace cotan

@@ -12,7 +12,7 @@ namespace cotan {
 
 namespace {
 
-constexpr double kMostPixels = 20000;
+constexpr double kMaxPixels = 20000;
 constexpr float kProbe = 0.25f; // exposure of the small picture: so much more fits under a tone curve's end
 constexpr float kGrey = 0.2f;   // where the mean goes
 constexpr float kPart = 0.35f;  // of the way, in stops
@@ -61,19 +61,19 @@ std::vector<float> brightness(const Image& picture, ToneMapping tone)
 
 } // namespace
 
-Result<float> meterExposure(Painter& painter, View view)
+Result<float> meterExposure(Renderer& renderer, View view)
 {
-    const double scale = std::min(1.0, std::sqrt(kMostPixels / (double(view.width) * view.height)));
+    const double scale = std::min(1.0, std::sqrt(kMaxPixels / (double(view.width) * view.height)));
     view.width = std::max(1, int(view.width * scale));
     view.height = std::max(1, int(view.height * scale));
     view.output = Output::shaded;
     view.linearOutput = false;
     view.dither = false;
-    view.samples = std::min(view.samples, kMostSharedSamples);
+    view.samples = std::min(view.samples, kMaxSharedSamples);
     view.background = false;
     view.ground.reset();
     view.exposure = kProbe;
-    const auto picture = painter.draw(view);
+    const auto picture = renderer.draw(view);
     if (!picture)
         return picture.error();
     std::vector<float> found = brightness(*picture, view.toneMapping);

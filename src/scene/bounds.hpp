@@ -16,11 +16,11 @@
 namespace cotan {
 
 // Instances times vertices up to which the box is the smallest one: a tenth of a second.
-inline constexpr std::size_t kMostPlacedVertices = std::size_t(1) << 24;
+inline constexpr std::size_t kMaxPlacedVertices = std::size_t(1) << 24;
 
 // What a picture may draw, instances multiplied: minutes on a processor, and the memory of the
 // reference renderer, which takes about 150 bytes a triangle.
-inline constexpr std::size_t kMostTrianglesDrawn = 100'000'000;
+inline constexpr std::size_t kMaxTrianglesDrawn = 100'000'000;
 
 // The mesh that an instance places; null where it has none.
 inline const Mesh* meshPlacedBy(const Scene& scene, const Instance& instance)
@@ -55,7 +55,7 @@ inline Bounds bounds(const Mesh& mesh)
 }
 
 // Calls work(toWorld, point) for the points in whose box a scene lies: every vertex of every instance up to
-// kMostPlacedVertices; beyond, the corners of each instance's mesh's box.
+// kMaxPlacedVertices; beyond, the corners of each instance's mesh's box.
 template<class Work> void forEachPlacedPoint(const Scene& scene, const Work& work)
 {
     std::size_t placed = 0;
@@ -68,7 +68,7 @@ template<class Work> void forEachPlacedPoint(const Scene& scene, const Work& wor
         const Mesh* mesh = meshPlacedBy(scene, instance);
         if (!mesh)
             continue;
-        if (placed <= kMostPlacedVertices) {
+        if (placed <= kMaxPlacedVertices) {
             for (const glm::vec3& p : mesh->positions)
                 work(instance.toWorld, p);
             continue;
@@ -84,7 +84,7 @@ template<class Work> void forEachPlacedPoint(const Scene& scene, const Work& wor
 }
 
 // The box around all instances in world space; positions that are not finite count for nothing. It is
-// the smallest one up to kMostPlacedVertices; beyond, each instance counts with the corners of its mesh's
+// the smallest one up to kMaxPlacedVertices; beyond, each instance counts with the corners of its mesh's
 // box, which a matrix that turns makes larger: by sqrt(3) along an axis at most.
 inline Bounds bounds(const Scene& scene)
 {
@@ -123,11 +123,11 @@ inline std::size_t trianglesDrawn(const Scene& scene)
 inline Status checkTrianglesDrawn(const Scene& scene)
 {
     const std::size_t count = trianglesDrawn(scene);
-    if (count <= kMostTrianglesDrawn)
+    if (count <= kMaxTrianglesDrawn)
         return Done{};
     return inputError((scene.name.empty() ? "scene" : scene.name) + ": " + std::to_string(scene.instances.size())
                       + " instances draw " + std::to_string(count) + " triangles: expected at most "
-                      + std::to_string(kMostTrianglesDrawn));
+                      + std::to_string(kMaxTrianglesDrawn));
 }
 
 } // namespace cotan

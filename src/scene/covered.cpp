@@ -22,12 +22,12 @@ namespace {
 // All in times the picture. On Mesa's driver for the CPU, 1280 x 720 pixels at one of these limits take about 10 s of
 // processor.
 constexpr double kDroppedFrom = 20;  // from which on it is worth looking for triangles that repeat
-constexpr double kMostCovered = 96;  // by what hides what is behind
-constexpr double kMostLayers = 16;   // by what is translucent: each is shaded, and put in order
+constexpr double kMaxCovered = 96;   // by what hides what is behind
+constexpr double kMaxLayers = 16;    // by what is translucent: each is shaded, and put in order
 constexpr double kPlainLayer = 0.5;  // of such a one without a coat and the like; with one of these it is 1
 constexpr double kFurtherLobe = 0.8; // for each more: coat, sheen, other highlights
-constexpr double kMostLights = 340;  // times what is covered, at most once
-constexpr double kMostEdges = 2;     // by pixels along long edges, of which each is shaded and shows little
+constexpr double kMaxLights = 340;   // times what is covered, at most once
+constexpr double kMaxEdges = 2;      // by pixels along long edges, of which each is shaded and shows little
 constexpr double kLongEdge = 16;     // pixels: shorter ones are what many small triangles have
 constexpr double kFewPoints =
     30'000; // models of n times as many vertices, each in its own place, may take n times as long
@@ -118,8 +118,8 @@ Covered coveredBy(const Scene& scene, const View& view)
 
 bool isTooMuch(const Covered& covered, double picture)
 {
-    return covered.opaque > kMostCovered * picture || covered.translucent > kMostLayers * picture
-        || covered.edges > kMostEdges * picture;
+    return covered.opaque > kMaxCovered * picture || covered.translucent > kMaxLayers * picture
+        || covered.edges > kMaxEdges * picture;
 }
 
 // How many places the vertices of all meshes are in. Not how many vertices there are: a loader may have made them,
@@ -166,17 +166,17 @@ Status settleCovered(Scene& scene, const View& view, std::size_t pictures)
     if (isTooMuch(covered, picture)) // only then: it takes time
         picture *= std::max(1.0, double(placesOf(scene)) / kFewPoints);
     const char* const further = "look from further away, or leave some out";
-    if (covered.opaque > kMostCovered * picture)
-        return tooMuch(scene, "its triangles cover the picture", covered.opaque / picture, kMostCovered, further);
-    if (covered.translucent > kMostLayers * picture)
-        return tooMuch(scene, "its translucent triangles cover the picture", covered.translucent / picture, kMostLayers,
+    if (covered.opaque > kMaxCovered * picture)
+        return tooMuch(scene, "its triangles cover the picture", covered.opaque / picture, kMaxCovered, further);
+    if (covered.translucent > kMaxLayers * picture)
+        return tooMuch(scene, "its translucent triangles cover the picture", covered.translucent / picture, kMaxLayers,
                        further);
-    if (covered.edges > kMostEdges * picture)
-        return tooMuch(scene, "the long edges of its triangles fill the picture", covered.edges / picture, kMostEdges,
+    if (covered.edges > kMaxEdges * picture)
+        return tooMuch(scene, "the long edges of its triangles fill the picture", covered.edges / picture, kMaxEdges,
                        further);
     const double lit = double(view.lights.size()) * std::min(1.0, (covered.opaque + covered.translucent) / picture);
-    if (view.output == Output::shaded && lit > kMostLights)
-        return tooMuch(scene, "its lights shine on the picture", lit, kMostLights, "leave some out");
+    if (view.output == Output::shaded && lit > kMaxLights)
+        return tooMuch(scene, "its lights shine on the picture", lit, kMaxLights, "leave some out");
     return Done{};
 }
 

@@ -1,4 +1,4 @@
-// Surroundings as a renderer reads them: the atlas that shaders/cotan/environment.h describes.
+// An environment as a renderer reads it: the atlas that shaders/cotan/environment.h describes.
 #pragma once
 
 #include <algorithm>
@@ -62,7 +62,7 @@ inline glm::vec2 albedoOf(const EnvironmentMap& map, glm::vec3 n, glm::vec3 v, f
     return {albedo.x, albedo.y};
 }
 
-// What a surface reflects of its surroundings.
+// What a surface reflects of its environment.
 inline glm::vec3 reflectedGlossy(const EnvironmentMap& map, const f32::cotan_surface& s, const f32::cotan_gloss& g)
 {
     const glm::vec3 mirrored = f32::cotan_mirrored(f32::cotan_reflecting_normal(s, g), s.v);

@@ -21,8 +21,8 @@ namespace cotan {
 
 namespace {
 
-constexpr std::size_t kSmall = 256;          // triangles of a mesh that is put together with others
-constexpr std::size_t kMostJoined = 4 << 20; // triangles
+constexpr std::size_t kSmall = 256;         // triangles of a mesh that is put together with others
+constexpr std::size_t kMaxJoined = 4 << 20; // triangles
 
 // ---- parts ----------------------------------------------------------------------------------
 
@@ -108,7 +108,7 @@ void joinSmall(Scene& scene)
 {
     const std::vector<int> first = firstSame(scene.meshes);
     std::unordered_set<Placed, PlacedHash> placed; // opaque ones: a second in the place of the first is not seen
-    placed.reserve(std::min(scene.instances.size(), kMostJoined));
+    placed.reserve(std::min(scene.instances.size(), kMaxJoined));
     std::map<decltype(keyOf(Mesh{})), Mesh> joined;
     std::vector<Instance> kept;
     std::size_t triangles = 0;
@@ -117,7 +117,7 @@ void joinSmall(Scene& scene)
             continue;
         const Mesh& mesh = scene.meshes[std::size_t(instance.mesh)];
         const std::size_t count = mesh.triangleCount();
-        if (count > kSmall || triangles + count > kMostJoined || !mesh.cotangentsU.empty()) {
+        if (count > kSmall || triangles + count > kMaxJoined || !mesh.cotangentsU.empty()) {
             kept.push_back(std::move(instance));
             continue;
         }
@@ -191,9 +191,9 @@ void dropRepeated(Mesh& mesh)
 
 } // namespace
 
-void joinParts(Scene& scene, std::size_t mostParts)
+void joinParts(Scene& scene, std::size_t maxParts)
 {
-    if (scene.instances.size() > mostParts)
+    if (scene.instances.size() > maxParts)
         joinSmall(scene);
 }
 

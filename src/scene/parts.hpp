@@ -7,11 +7,11 @@
 
 namespace cotan {
 
-// Puts parts of one material together where there are over mostParts: meshes of up to 256 triangles, placed by their
+// Puts parts of one material together where there are over maxParts: meshes of up to 256 triangles, placed by their
 // instances in float; larger ones stay, and so does what would be more than 4 million triangles. Instances with
 // matrices that are not finite go; so do the names of parts that are put together, and an opaque part that lies in the
 // place of one that is the same. Parts with cotangents stay.
-void joinParts(Scene& scene, std::size_t mostParts = 1000);
+void joinParts(Scene& scene, std::size_t maxParts = 1000);
 
 // Leaves out triangles of opaque meshes that have the corners of an earlier one of their mesh, in the same order round:
 // the first is what a picture shows.

@@ -15,7 +15,7 @@
 namespace cotan {
 
 // More samples than these are not parts of one pixel's light, but lit at a place of their own.
-inline constexpr int kMostSharedSamples = 4;
+inline constexpr int kMaxSharedSamples = 4;
 inline constexpr int kPlaces = 16;
 // Textures are read as finely as pixels of a quarter of the size would.
 inline constexpr float kPlacesApart = 0.25f;

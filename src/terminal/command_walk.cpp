@@ -34,12 +34,12 @@ void walk(const CommandHelp& tool, const std::function<void(const std::string&, 
 
 std::string shortHelp(std::string_view help)
 {
-    constexpr std::size_t kLeast = 20, kMost = 70; // characters: enough to know it by, and a line
+    constexpr std::size_t kMin = 20, kMax = 70; // characters: enough to know it by, and a line
     std::size_t end = help.size();
     for (const std::string_view pause : {"; ", ": ", " (", ". "})
-        end = std::min(end, help.find(pause, kLeast));
-    if (end > kMost)
-        end = help.find_last_of(" ,", kMost);
+        end = std::min(end, help.find(pause, kMin));
+    if (end > kMax)
+        end = help.find_last_of(" ,", kMax);
     return std::string(help.substr(0, end));
 }
 

@@ -15,7 +15,7 @@ namespace cotan {
 
 namespace {
 
-constexpr std::size_t kLeastWidth = 40, kMaxWidth = 120, kUsualWidth = 80;
+constexpr std::size_t kMinWidth = 40, kMaxWidth = 120, kUsualWidth = 80;
 constexpr std::size_t kIndent = 2, kColumn = 26,
                       kNarrowColumn = 8; // where help begins, and where the terminal is narrow
 
@@ -170,7 +170,7 @@ std::string_view headingOf(HelpGroup group)
 
 std::string helpText(const std::vector<const CommandHelp*>& path, HelpLength length, std::size_t width)
 {
-    width = std::max(width, kLeastWidth);
+    width = std::max(width, kMinWidth);
     const CommandHelp& command = *path.back();
     std::string text = wrapped(command.summary, 0, 0, width) + "\n\n" + usage(path, width);
     text += commandLists(command, width) + optionLists(command, length, width);
@@ -193,7 +193,7 @@ std::size_t helpWidth()
     else if (const char* text = std::getenv("COLUMNS"))
         if (int given = 0; parseNumber(std::string_view(text), given) && given > 0)
             columns = std::size_t(given);
-    return std::clamp(columns, kLeastWidth, kMaxWidth);
+    return std::clamp(columns, kMinWidth, kMaxWidth);
 }
 
 } // namespace cotan

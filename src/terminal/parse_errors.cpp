@@ -100,9 +100,9 @@ std::string wrongNumber(const CLI::App& command, const std::string& message)
     const std::string name = nameIn(message, ":");
     if (message.ends_with(" missing"))
         return name + " needs a value: " + withValue(command, name);
-    constexpr std::string_view kMost = "ost 1 required but received ";
-    if (const std::size_t at = message.find(kMost); at != std::string::npos)
-        return name + " is given " + message.substr(at + kMost.size()) + " times; expected once";
+    constexpr std::string_view kTooOften = "ost 1 required but received ";
+    if (const std::size_t at = message.find(kTooOften); at != std::string::npos)
+        return name + " is given " + message.substr(at + kTooOften.size()) + " times; expected once";
     return message; // one of the command's own
 }
 

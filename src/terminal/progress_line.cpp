@@ -16,7 +16,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr std::size_t kMostColumns = 79; // a full line of 80 would wrap on some terminals
+constexpr std::size_t kMaxColumns = 79; // a full line of 80 would wrap on some terminals
 constexpr auto kBetween = std::chrono::milliseconds(100);
 constexpr double kSettle = 2;         // seconds, and
 constexpr double kSettleShare = 0.03; // of the work, before a time is told
@@ -30,7 +30,7 @@ std::size_t columns()
 {
     winsize size{};
     const bool known = ::ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 1;
-    return known ? std::min<std::size_t>(size.ws_col - 1u, kMostColumns) : kMostColumns;
+    return known ? std::min<std::size_t>(size.ws_col - 1u, kMaxColumns) : kMaxColumns;
 }
 
 // Names may hold anything: no control characters, and no more than `room` characters of UTF-8, the end left out.

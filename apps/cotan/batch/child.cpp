@@ -10,9 +10,9 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
-#include "files/account.hpp"
 #include "files/bytes.hpp"
 #include "files/extension.hpp"
+#include "files/file_registry.hpp"
 #include "files/output.hpp"
 #include "files/sandbox/confine.hpp"
 #include "image/format_table.hpp"
@@ -26,7 +26,7 @@ using nlohmann::ordered_json;
 
 constexpr const char* kJobWord = "run-for-batch"; // its first argument
 constexpr std::size_t kFixedWords = 6;
-constexpr std::size_t kMostAnswerBytes = 256 << 20;
+constexpr std::size_t kMaxAnswerBytes = 256 << 20;
 
 // Files that the command names, each once, in order; from any thread.
 class Names {
@@ -141,7 +141,7 @@ int runJobProcess(int argc, const char* const* argv, const std::function<int(con
 ChildAnswer readAnswer(const std::filesystem::path& work)
 {
     ChildAnswer answer;
-    const auto bytes = readReplacedBytes(work / kAnswerName, kMostAnswerBytes);
+    const auto bytes = readReplacedBytes(work / kAnswerName, kMaxAnswerBytes);
     if (!bytes)
         return answer;
     try {

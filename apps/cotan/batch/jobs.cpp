@@ -21,11 +21,11 @@ namespace {
 
 using nlohmann::json;
 
-constexpr std::size_t kMostBytes = std::size_t(4) << 30;
-constexpr std::size_t kMostNameBytes = 1000;
-constexpr double kMostMegabytes = 1 << 24;
-constexpr double kLeastSeconds = 0.001, kMostSeconds = 1e6;
-constexpr double kMostRetries = 100, kMostPriority = 1000000;
+constexpr std::size_t kMaxBytes = std::size_t(4) << 30;
+constexpr std::size_t kMaxNameBytes = 1000;
+constexpr double kMaxMegabytes = 1 << 24;
+constexpr double kMinSeconds = 0.001, kMaxSeconds = 1e6;
+constexpr double kMaxRetries = 100, kMaxPriority = 1000000;
 
 // Lists and objects are named only: writing one out takes stack for each level that it is deep.
 Error expected(const std::string& member, const std::string& what, const json& found)
@@ -104,15 +104,15 @@ Status readEnvironment(const json& job, std::map<std::string, std::string>& envi
 Status readOptions(const json& job, JobOptions& options)
 {
     std::optional<int> priority;
-    Status read = readNumber(job, "limit-memory", 0, kMostMegabytes, options.megabytes);
+    Status read = readNumber(job, "limit-memory", 0, kMaxMegabytes, options.megabytes);
     if (read)
-        read = readNumber(job, "limit-time", kLeastSeconds, kMostSeconds, options.seconds);
+        read = readNumber(job, "limit-time", kMinSeconds, kMaxSeconds, options.seconds);
     if (read)
-        read = readNumber(job, "limit-processor-time", 0, kMostSeconds, options.processorSeconds);
+        read = readNumber(job, "limit-processor-time", 0, kMaxSeconds, options.processorSeconds);
     if (read)
-        read = readNumber(job, "retries", 0, kMostRetries, options.retries);
+        read = readNumber(job, "retries", 0, kMaxRetries, options.retries);
     if (read)
-        read = readNumber(job, "priority", -kMostPriority, kMostPriority, priority);
+        read = readNumber(job, "priority", -kMaxPriority, kMaxPriority, priority);
     options.priority = priority.value_or(0);
     return read ? readEnvironment(job, options.environment) : read;
 }
@@ -138,9 +138,9 @@ Result<Job> readJob(std::string_view line, const CheckWords& check)
     job.words = *command;
     if (parsed.contains("name")) {
         const json& name = parsed["name"];
-        if (!name.is_string() || name.get<std::string>().empty() || name.get<std::string>().size() > kMostNameBytes)
-            return expected("name", fmt::format("a text of 1 to {} bytes", kMostNameBytes), name);
-        job.name = printable(name.get<std::string>(), kMostNameBytes);
+        if (!name.is_string() || name.get<std::string>().empty() || name.get<std::string>().size() > kMaxNameBytes)
+            return expected("name", fmt::format("a text of 1 to {} bytes", kMaxNameBytes), name);
+        job.name = printable(name.get<std::string>(), kMaxNameBytes);
     } else {
         job.name = commandLine(job.words);
     }
@@ -186,7 +186,7 @@ std::vector<std::string> Job::key() const
 
 Result<JobList> readJobs(const std::filesystem::path& file, const CheckWords& check)
 {
-    const auto bytes = readFileBytes(file, kMostBytes);
+    const auto bytes = readFileBytes(file, kMaxBytes);
     if (!bytes)
         return bytes.error();
     std::string_view text(reinterpret_cast<const char*>(bytes->data()), bytes->size());

@@ -193,7 +193,7 @@ new ResizeObserver(() => draw(true)).observe(list);
 choose();
 )";
 
-constexpr std::size_t kMostSaid = 1500; // bytes on the page of what a good job printed; of a bad one all that is kept
+constexpr std::size_t kMaxSaid = 1500; // bytes on the page of what a good job printed; of a bad one all that is kept
 
 // A path as the reference of a link.
 std::string link(const std::string& path)
@@ -228,7 +228,7 @@ ordered_json rowOf(const JobList& list, const JobResult& result, const fs::path&
                         std::round(r.megabytes),
                         commandLine(job.words),
                         r.reason,
-                        bad || r.said.size() <= kMostSaid ? r.said : r.said.substr(0, kMostSaid) + "...",
+                        bad || r.said.size() <= kMaxSaid ? r.said : r.said.substr(0, kMaxSaid) + "...",
                         outputs,
                         inputs,
                         nullptr,
@@ -264,7 +264,7 @@ std::string head(int column, std::string_view text, std::string_view className)
 } // namespace
 
 std::string batchPage(const JobList& list, const std::vector<JobResult>& results, const std::string& title,
-                      const std::string& footer, const fs::path& folder, std::size_t mostRows)
+                      const std::string& footer, const fs::path& folder, std::size_t maxRows)
 {
     ordered_json data = {{"states", ordered_json::array()},
                          {"bad", ordered_json::array()},
@@ -284,9 +284,9 @@ std::string batchPage(const JobList& list, const std::vector<JobResult>& results
     }
     std::vector<std::size_t> order = worstFirst(results);
     std::string more;
-    if (order.size() > mostRows) {
-        more = fmt::format("the worst {} of {}; ", mostRows, order.size());
-        order.resize(mostRows);
+    if (order.size() > maxRows) {
+        more = fmt::format("the worst {} of {}; ", maxRows, order.size());
+        order.resize(maxRows);
     }
     for (const std::size_t i : order)
         data["rows"].push_back(rowOf(list, results[i], folder));

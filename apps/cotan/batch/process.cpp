@@ -23,7 +23,7 @@ using Seconds = std::chrono::duration<double>;
 
 constexpr double kGrace = 2;                      // seconds to end in once asked
 constexpr std::size_t kHead = 4096, kTail = 8192; // bytes that are kept of what it prints
-constexpr int kMostReads = 64;                    // at a time: others want to be heard, too
+constexpr int kMaxReads = 64;                     // at a time: others want to be heard, too
 
 double secondsOf(const timeval& time) { return double(time.tv_sec) + 1e-6 * double(time.tv_usec); }
 
@@ -69,7 +69,7 @@ Result<JobProcess> JobProcess::start(const std::string& program, const std::file
 void JobProcess::listen()
 {
     std::array<char, 4096> bytes;
-    for (int i = 0; i < kMostReads && messages_.get() >= 0; ++i) {
+    for (int i = 0; i < kMaxReads && messages_.get() >= 0; ++i) {
         const ssize_t got = ::read(messages_.get(), bytes.data(), bytes.size());
         if (got < 0 && (errno == EAGAIN || errno == EINTR))
             return;

@@ -24,9 +24,9 @@ StateCounts countsOf(const std::vector<JobResult>& results);
 std::string summaryOf(const std::vector<JobResult>& results);
 
 // One HTML file that needs no other and no network: rows that are in view only, a filter, sorting, thumbnails. Links to
-// outputs are relative to `folder`, where the page will be. Of more than `mostRows` jobs it has the worst.
+// outputs are relative to `folder`, where the page will be. Of more than `maxRows` jobs it has the worst.
 std::string batchPage(const JobList& list, const std::vector<JobResult>& results, const std::string& title,
-                      const std::string& footer, const std::filesystem::path& folder, std::size_t mostRows);
+                      const std::string& footer, const std::filesystem::path& folder, std::size_t maxRows);
 
 // The jobs, worst first: name, state, reason, degrees, seconds, memory, files.
 Json batchJson(const JobList& list, const std::vector<JobResult>& results);

@@ -31,7 +31,7 @@ constexpr int kTick = 50;                                  // milliseconds betwe
 constexpr int kSoon = 1;                                   // where a process has closed its output and is about to end
 constexpr auto kTryAgain = std::chrono::milliseconds(200); // where all that is left runs elsewhere
 constexpr auto kFileClockStep = std::chrono::milliseconds(1);
-constexpr std::size_t kMostReportBytes = std::size_t(256) << 20;
+constexpr std::size_t kMaxReportBytes = std::size_t(256) << 20;
 
 struct Running {
     std::size_t job;
@@ -335,7 +335,7 @@ private:
                 removeParts((list_.folder / output).parent_path(), number);
         const fs::path report = job.json.empty() ? r.work / kReportName : list_.folder / job.json;
         if (isGood(record))
-            if (const auto bytes = readReplacedBytes(report, kMostReportBytes))
+            if (const auto bytes = readReplacedBytes(report, kMaxReportBytes))
                 record.degrees = degreesIn({reinterpret_cast<const char*>(bytes->data()), bytes->size()});
         ChildAnswer answer = readAnswer(r.work);
         record.thumbnail = std::move(answer.thumbnail);

@@ -22,7 +22,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr std::size_t kMostRecordBytes = 64 << 20;
+constexpr std::size_t kMaxRecordBytes = 64 << 20;
 constexpr const char* kResults = "results";
 constexpr const char* kWork = "work";
 constexpr const char* kLock = "lock";
@@ -103,7 +103,7 @@ std::optional<JobRecord> Store::find(const std::vector<std::string>& words) cons
     const fs::path file = fileOf(words);
     if (::access(file.c_str(), R_OK) != 0)
         return std::nullopt;
-    const auto bytes = readReplacedBytes(file, kMostRecordBytes);
+    const auto bytes = readReplacedBytes(file, kMaxRecordBytes);
     if (!bytes)
         return std::nullopt;
     return parseRecord({reinterpret_cast<const char*>(bytes->data()), bytes->size()});

@@ -77,7 +77,7 @@ Result<Image> throughMesh(const Image& map, const RecodeSettings& s, const MeshO
             for (std::size_t x = 0; x < normals.size(); ++x) {
                 if (places.first[x] == places.first[x + 1])
                     continue;
-                const UvPlace& place = places.places[places.first[x]];
+                const UvSample& place = places.places[places.first[x]];
                 ++found;
                 const std::size_t at = std::size_t(y) * normals.size() + x;
                 const LowPoint p = pointOf(*surface, place.triangle, double(place.b1), double(place.b2));

@@ -38,7 +38,7 @@ Scene mirrorScene(Expansion expansion)
 }
 
 // Straight into the mirror, which shows the horizon of the environment. Nothing else gives light.
-View mirrorView(const Studio& studio)
+View mirrorView(const FigureRenderer& studio)
 {
     Camera camera;
     camera.eye = {0, 0, 3};
@@ -60,7 +60,7 @@ Scene domeScene(Image map, Channels channels, bool greenUp)
 
 constexpr std::array<float, 3> kUpright{0, 0, 1};
 
-void addMirrors(Studio& studio, Figure& figure)
+void addMirrors(FigureRenderer& studio, Figure& figure)
 {
     const View view = mirrorView(studio);
     const Scene biased = mirrorScene(Expansion::biased), exact = mirrorScene(Expansion::exact);
@@ -82,7 +82,7 @@ void addMirrors(Studio& studio, Figure& figure)
     figure.panels.push_back({"c-difference", "difference of the two, 8 times", "", std::move(difference)});
 }
 
-void addDomes(Studio& studio, Figure& figure)
+void addDomes(FigureRenderer& studio, Figure& figure)
 {
     const View view = squareView(studio, frontal(1));
     const Image map = makeReliefMap(Relief::domes, 512);
@@ -109,7 +109,7 @@ void addDomes(Studio& studio, Figure& figure)
 
 } // namespace
 
-Figure makeDecodeFigure(Studio& studio)
+Figure makeDecodeFigure(FigureRenderer& studio)
 {
     Figure figure;
     figure.title = "Decoding: zero, two channels, green";

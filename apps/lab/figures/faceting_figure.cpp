@@ -14,7 +14,7 @@ constexpr int kSegments = 12;
 
 } // namespace
 
-Figure makeFacetingFigure(Studio& studio)
+Figure makeFacetingFigure(FigureRenderer& studio)
 {
     Figure figure;
     figure.title = "Faceting on coarse meshes";

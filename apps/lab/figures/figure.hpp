@@ -10,7 +10,7 @@
 
 namespace cotan::figures {
 
-class Studio;
+class FigureRenderer;
 
 struct Panel {
     std::string file; // the PNG's name without the figure's, as in "a-square"
@@ -42,16 +42,16 @@ struct Figure {
     std::pair<std::size_t, std::size_t> overview{0, 1}; // the two panels that stand for it
 };
 
-Figure makeTeapotFigure(Studio& studio);
-Figure makePatchFigure(Studio& studio);
-Figure makePlaneFigure(Studio& studio);
-Figure makeTutorialFigure(Studio& studio);
-Figure makeNormalMatrixFigure(Studio& studio);
-Figure makeMirroredFigure(Studio& studio);
-Figure makeTargetsFigure(Studio& studio);
-Figure makeDecodeFigure(Studio& studio);
-Figure makeFacetingFigure(Studio& studio);
-Figure makeFurnaceFigure(Studio& studio);
-Figure makeSparkleFigure(Studio& studio);
+Figure makeTeapotFigure(FigureRenderer& studio);
+Figure makePatchFigure(FigureRenderer& studio);
+Figure makePlaneFigure(FigureRenderer& studio);
+Figure makeTutorialFigure(FigureRenderer& studio);
+Figure makeNormalMatrixFigure(FigureRenderer& studio);
+Figure makeMirroredFigure(FigureRenderer& studio);
+Figure makeTargetsFigure(FigureRenderer& studio);
+Figure makeDecodeFigure(FigureRenderer& studio);
+Figure makeFacetingFigure(FigureRenderer& studio);
+Figure makeFurnaceFigure(FigureRenderer& studio);
+Figure makeSparkleFigure(FigureRenderer& studio);
 
 } // namespace cotan::figures

@@ -9,10 +9,10 @@
 
 #include "cotan/image.hpp"
 #include "figure.hpp"
+#include "figure_renderer.hpp"
 #include "files/output.hpp"
 #include "files/report/page.hpp"
 #include "stage.hpp"
-#include "studio.hpp"
 
 namespace cotan::figures {
 
@@ -20,7 +20,7 @@ namespace {
 
 struct FigureInfo {
     std::string_view name; // as FiguresOptions::only has it, and the first word of its files
-    Figure (*make)(Studio& studio);
+    Figure (*make)(FigureRenderer& studio);
 };
 
 constexpr FigureInfo kFigures[] = {
@@ -137,13 +137,13 @@ std::vector<std::string_view> figureNames()
     return names;
 }
 
-Result<Json> drawFigures(Painter& painter, const std::filesystem::path& folder, const FiguresOptions& o)
+Result<Json> drawFigures(Renderer& renderer, const std::filesystem::path& folder, const FiguresOptions& o)
 {
     const auto figures = chosen(o.only);
     if (!figures)
         return figures.error();
-    Studio studio(painter, o.threads, o.width, o.height);
-    Page page = emptyPage(painter.device());
+    FigureRenderer studio(renderer, o.threads, o.width, o.height);
+    Page page = emptyPage(renderer.device());
     Json report = Json::array();
     std::vector<Figure> made;
     CountedSteps steps(o.progress, figures->size());

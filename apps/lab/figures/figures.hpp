@@ -26,8 +26,8 @@ struct FiguresOptions {
 };
 
 // Draws figures and writes their pictures, overview.png and index.html into a folder that is there. Returns the
-// figures' names, pictures and angles for a report. Errors: those of the painter and of writing; ErrorKind::usage:
+// figures' names, pictures and angles for a report. Errors: those of the renderer and of writing; ErrorKind::usage:
 // "options.only: " for a name that is no figure's; ErrorKind::stopped.
-Result<Json> drawFigures(Painter& painter, const std::filesystem::path& folder, const FiguresOptions& options);
+Result<Json> drawFigures(Renderer& renderer, const std::filesystem::path& folder, const FiguresOptions& options);
 
 } // namespace cotan::figures

@@ -14,8 +14,8 @@ namespace cotan::figures {
 
 namespace {
 
-constexpr float kGrey = 0.5f;    // how bright the furnace is shown
-constexpr int kMostPixels = 360; // a side: 64 walks each take their time
+constexpr float kGrey = 0.5f;   // how bright the furnace is shown
+constexpr int kMaxPixels = 360; // a side: 64 walks each take their time
 
 Scene ballScene(Material material)
 {
@@ -26,10 +26,10 @@ Scene ballScene(Material material)
     return scene;
 }
 
-View ballView(const Studio& studio, NormalMapping mapping)
+View ballView(const FigureRenderer& studio, NormalMapping mapping)
 {
     View view = squareView(studio, frontal(2.2f));
-    view.width = view.height = std::min(view.height, kMostPixels);
+    view.width = view.height = std::min(view.height, kMaxPixels);
     view.frame = Frame::cotangent;
     view.shading = Shading::pbr;
     view.normalMapping = mapping;
@@ -69,7 +69,7 @@ constexpr struct {
     {NormalMapping::mirrorFacet, "mirror-facet", "two facets, the second a mirror", "The paper's own choice."},
     {NormalMapping::facets, "facets", "two facets of one material", "All bounces between them."}};
 
-void addFurnace(Studio& studio, Figure& figure)
+void addFurnace(FigureRenderer& studio, Figure& figure)
 {
     const auto white =
         std::make_shared<const EnvironmentMap>(makeEnvironment([](glm::vec3) { return glm::vec3(1); }, 1));
@@ -91,11 +91,11 @@ void addFurnace(Studio& studio, Figure& figure)
     }
 }
 
-void addLit(Studio& studio, Figure& figure)
+void addLit(FigureRenderer& studio, Figure& figure)
 {
     const Scene scene = ballScene(metal({0.95f, 0.72f, 0.45f}, 0.35f));
     studio.show(scene);
-    figure.panels.push_back({"lit-shading", "classic, as it is shaded", "Lights and surroundings meet the normal.",
+    figure.panels.push_back({"lit-shading", "classic, as it is shaded", "Lights and the environment meet the normal.",
                              studio.drawReference(ballView(studio, NormalMapping::shading))});
     for (const auto& mode : kModes)
         figure.panels.push_back({std::string("lit-") + mode.file, mode.label, mode.caption,
@@ -104,7 +104,7 @@ void addLit(Studio& studio, Figure& figure)
 
 } // namespace
 
-Figure makeFurnaceFigure(Studio& studio)
+Figure makeFurnaceFigure(FigureRenderer& studio)
 {
     Figure figure;
     figure.title = "What turned normals lose of light";

@@ -38,7 +38,7 @@ HeightSample mirroredDomes(double u, double v)
 
 } // namespace
 
-Figure makeMirroredFigure(Studio& studio)
+Figure makeMirroredFigure(FigureRenderer& studio)
 {
     Figure figure;
     figure.title = "Mirrored texture coordinates";

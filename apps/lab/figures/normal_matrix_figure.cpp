@@ -52,7 +52,7 @@ glm::dmat3 scaled(double x, double y, double z) { return glm::dmat3(x, 0, 0, 0, 
 
 } // namespace
 
-Figure makeNormalMatrixFigure(Studio& studio)
+Figure makeNormalMatrixFigure(FigureRenderer& studio)
 {
     Figure figure;
     figure.title = "Non-uniform scale and three normal matrices";

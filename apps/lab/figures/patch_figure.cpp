@@ -12,7 +12,7 @@ namespace {
 // With stretches by whole numbers and shears by 0 or 1 every layout shows whole dots only, or parts
 // that complete one another: the means over the picture are those over one dot.
 constexpr double kRepeat = 1.5;
-constexpr double kLeastTilt = 5; // degrees: the flat ground between the dots would dilute the mean
+constexpr double kMinTilt = 5; // degrees: the flat ground between the dots would dilute the mean
 
 struct PatchLayout {
     const char* name;
@@ -28,11 +28,11 @@ Scene patchScene(const PatchLayout& layout, const Image& map)
 }
 
 // Angles between what each frame draws and the analytic normals, for one layout.
-void measureLayout(Studio& studio, const PatchLayout& layout, const View& view, Figure& figure)
+void measureLayout(FigureRenderer& studio, const PatchLayout& layout, const View& view, Figure& figure)
 {
     const Image uv = studio.vectors(view, Frame::exact, Output::uv);
     const Image truth =
-        truthNormals(uv, domeHeight(), patchChart(layout.stretch, layout.shear, layout.mirrored, kRepeat), kLeastTilt);
+        truthNormals(uv, domeHeight(), patchChart(layout.stretch, layout.shear, layout.mirrored, kRepeat), kMinTilt);
     for (Frame frame : {Frame::orthonormal, Frame::unit, Frame::cotangent})
         figure.measures.push_back({fmt::format("{}, {}", layout.name, name(frame)),
                                    compareNormals(studio.normals(view, frame), truth).degrees});
@@ -40,7 +40,7 @@ void measureLayout(Studio& studio, const PatchLayout& layout, const View& view, 
 
 } // namespace
 
-Figure makePatchFigure(Studio& studio)
+Figure makePatchFigure(FigureRenderer& studio)
 {
     constexpr PatchLayout kSquare{"square", 1, 0, false}, kSheared{"stretched 2:1 and sheared", 2, 1, false};
     Figure figure;

@@ -48,7 +48,7 @@ Camera lowCamera()
     return camera;
 }
 
-View planeView(const Studio& studio, const Camera& camera)
+View planeView(const FigureRenderer& studio, const Camera& camera)
 {
     View view = wideView(studio, camera);
     view.environment = false; // the sky in the floor would drown the dots
@@ -98,7 +98,7 @@ AngleStatistics sweep(double tilt)
 }
 
 // Draws both frames and the angle between them.
-std::vector<float> addTriple(Studio& studio, const View& view, const std::string& file, const std::string& what,
+std::vector<float> addTriple(FigureRenderer& studio, const View& view, const std::string& file, const std::string& what,
                              Figure& figure)
 {
     figure.panels.push_back({file + "-transpose", what + ", (A) paper-transpose", "Two crosses: the inverse transpose.",
@@ -115,7 +115,7 @@ std::vector<float> addTriple(Studio& studio, const View& view, const std::string
 
 } // namespace
 
-Figure makePlaneFigure(Studio& studio)
+Figure makePlaneFigure(FigureRenderer& studio)
 {
     Figure figure;
     figure.title = "2.6.5: foreshortening, not perspective";

@@ -47,7 +47,7 @@ std::vector<FrameGroup> frameGroups(const AccuracySelection& selection)
 }
 
 // One frame over all cameras.
-Result<Measurement> drawn(Painter& painter, const PaintedScene& painted, Frame frame, Measurement names)
+Result<Measurement> drawn(Renderer& renderer, const PaintedScene& painted, Frame frame, Measurement names)
 {
     AngleCollector angles;
     for (const Camera& camera : painted.cameras) {
@@ -56,9 +56,9 @@ Result<Measurement> drawn(Painter& painter, const PaintedScene& painted, Frame f
         view.camera = camera;
         view.frame = frame;
         view.output = Output::normal;
-        const auto normals = painter.draw(view);
+        const auto normals = renderer.draw(view);
         view.output = Output::uv;
-        const auto uv = painter.draw(view);
+        const auto uv = renderer.draw(view);
         if (!normals)
             return normals.error();
         if (!uv)
@@ -79,10 +79,10 @@ Scene sceneFor(const PaintedScene& painted, const FrameGroup& group)
 
 } // namespace
 
-Result<std::vector<Measurement>> measureRendered(Painter& painter, const AccuracySelection& selection,
+Result<std::vector<Measurement>> measureRendered(Renderer& renderer, const AccuracySelection& selection,
                                                  const Progress& progress)
 {
-    const std::string arithmetic = painter.device() == "reference" ? "reference" : "vulkan";
+    const std::string arithmetic = renderer.device() == "reference" ? "reference" : "vulkan";
     std::vector<Measurement> rows;
     const std::vector<Subject> list = subjects(selection);
     CountedSteps steps(progress, list.size());
@@ -91,11 +91,11 @@ Result<std::vector<Measurement>> measureRendered(Painter& painter, const Accurac
             const PaintedScene painted = paintedScene(subject.surface, segments);
             for (const FrameGroup& group : frameGroups(selection)) {
                 const Scene scene = sceneFor(painted, group);
-                if (Status loaded = painter.load(scene); !loaded)
+                if (Status loaded = renderer.load(scene); !loaded)
                     return loaded.error();
                 for (Frame frame : group) {
                     const char* truth = frame == Frame::gradient ? "E" : "S";
-                    const auto row = drawn(painter, painted, frame,
+                    const auto row = drawn(renderer, painted, frame,
                                            {"rendered", subject.surface.name, fmt::format("{}", segments),
                                             std::string(name(frame)), truth, arithmetic});
                     if (!row)

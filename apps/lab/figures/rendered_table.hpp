@@ -11,8 +11,8 @@ namespace cotan::figures {
 
 // Draws every surface at some tessellations with every frame, reads normals and uv back, and
 // compares with the analytic truth. The rows' arithmetic is "vulkan" or "reference".
-// Errors: those of the painter; ErrorKind::stopped.
-Result<std::vector<Measurement>> measureRendered(Painter& painter, const AccuracySelection& selection,
+// Errors: those of the renderer; ErrorKind::stopped.
+Result<std::vector<Measurement>> measureRendered(Renderer& renderer, const AccuracySelection& selection,
                                                  const Progress& progress = {});
 
 } // namespace cotan::figures

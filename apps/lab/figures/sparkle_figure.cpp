@@ -14,9 +14,9 @@ namespace cotan::figures {
 
 namespace {
 
-constexpr int kFiner = 16;      // samples along a side of a pixel, in the truth
-constexpr int kEnlarged = 3;    // pixels of a panel along a side of one that was drawn
-constexpr int kMostDrawn = 160; // pixels that are drawn, a side: the truth takes 256 times as much memory
+constexpr int kFiner = 16;     // samples along a side of a pixel, in the truth
+constexpr int kEnlarged = 3;   // pixels of a panel along a side of one that was drawn
+constexpr int kMaxDrawn = 160; // pixels that are drawn, a side: the truth takes 256 times as much memory
 
 Scene sparkling(Image map)
 {
@@ -83,13 +83,13 @@ double error(const Image& a, const Image& b)
     return std::sqrt(sum / double(a.pixelCount()));
 }
 
-void addRow(Studio& studio, Figure& figure, const std::string& name, Image map)
+void addRow(FigureRenderer& studio, Figure& figure, const std::string& name, Image map)
 {
     const Scene scene = sparkling(std::move(map));
     Scene finest = scene; // smaller levels of the map would have lost what is looked for
     finest.materials[0].normalMap.sampler.mip = MipFilter::none;
     studio.show(finest);
-    const int side = std::clamp(studio.height() / kEnlarged, 8, kMostDrawn);
+    const int side = std::clamp(studio.height() / kEnlarged, 8, kMaxDrawn);
     const Image truth = averaged(studio.drawReference(sparklingView(side * kFiner)));
     studio.show(scene);
     View view = sparklingView(side);
@@ -108,7 +108,7 @@ void addRow(Studio& studio, Figure& figure, const std::string& name, Image map)
 
 } // namespace
 
-Figure makeSparkleFigure(Studio& studio)
+Figure makeSparkleFigure(FigureRenderer& studio)
 {
     Figure figure;
     figure.title = "Highlights smaller than a pixel";

@@ -76,7 +76,7 @@ Camera frontal(float extent)
     return camera;
 }
 
-View wideView(const Studio& studio, const Camera& camera)
+View wideView(const FigureRenderer& studio, const Camera& camera)
 {
     View view;
     view.width = studio.width();
@@ -89,7 +89,7 @@ View wideView(const Studio& studio, const Camera& camera)
     return view;
 }
 
-View squareView(const Studio& studio, const Camera& camera)
+View squareView(const FigureRenderer& studio, const Camera& camera)
 {
     View view = wideView(studio, camera);
     view.width = view.height;

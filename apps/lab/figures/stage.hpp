@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "cotan/scene.hpp"
-#include "studio.hpp"
+#include "figure_renderer.hpp"
 
 namespace cotan::figures {
 
@@ -29,8 +29,8 @@ Light behindLeft();
 Camera frontal(float extent);
 
 // A panel's view: Blinn-Phong, upperLeft(), no shadows.
-View squareView(const Studio& studio, const Camera& camera);
-View wideView(const Studio& studio, const Camera& camera);
+View squareView(const FigureRenderer& studio, const Camera& camera);
+View wideView(const FigureRenderer& studio, const Camera& camera);
 
 // Draws `inset` into the lower right corner of `picture`, with a frame around it. Both unorm8.
 void pasteInset(Image& picture, const Image& inset);

@@ -7,7 +7,7 @@
 
 namespace cotan::figures {
 
-Figure makeTargetsFigure(Studio& studio)
+Figure makeTargetsFigure(FigureRenderer& studio)
 {
     Figure figure;
     figure.title = "Targets with y up and y down";

@@ -65,7 +65,7 @@ struct Pair {
     View whole, nozzle;
 };
 
-Pair viewsOf(const Studio& studio)
+Pair viewsOf(const FigureRenderer& studio)
 {
     Pair views{wideView(studio, wholeCamera()), wideView(studio, nozzleCamera())};
     views.nozzle.width = studio.width() * 9 / 20;
@@ -74,7 +74,7 @@ Pair viewsOf(const Studio& studio)
 }
 
 // The teapot with the nozzle in the corner.
-Image withInset(Studio& studio, const Pair& views, Frame frame)
+Image withInset(FigureRenderer& studio, const Pair& views, Frame frame)
 {
     Image picture = studio.shaded(views.whole, frame);
     pasteInset(picture, studio.shaded(views.nozzle, frame));
@@ -83,7 +83,7 @@ Image withInset(Studio& studio, const Pair& views, Frame frame)
 
 } // namespace
 
-Figure makeTeapotFigure(Studio& studio)
+Figure makeTeapotFigure(FigureRenderer& studio)
 {
     Figure figure;
     figure.title = "2.6.3: the teapot, vertex frames against per-pixel frames";

@@ -56,10 +56,10 @@ Chart sphereChart(glm::dvec2 repeat)
     };
 }
 
-Image truthNormals(const Image& uv, const Height& height, const Chart& chart, double leastTilt)
+Image truthNormals(const Image& uv, const Height& height, const Chart& chart, double minTilt)
 {
     Image truth = makeImage(uv.width, uv.height, PixelType::float32, "truth");
-    const double mostUpright = std::cos(leastTilt * kRadians);
+    const double mostUpright = std::cos(minTilt * kRadians);
     for (std::size_t i = 0; i < uv.pixelCount(); ++i) {
         const float* at = uv.floats() + 4 * i;
         const glm::dvec2 c(at[0], at[1]);
@@ -67,7 +67,7 @@ Image truthNormals(const Image& uv, const Height& height, const Chart& chart, do
         if (!surface)
             continue;
         const glm::dvec3 n = perturbed(*surface, height(c.x, c.y));
-        if (leastTilt > 0 && glm::dot(n, surface->normal) > mostUpright)
+        if (minTilt > 0 && glm::dot(n, surface->normal) > mostUpright)
             continue;
         float* out = truth.floats() + 4 * i;
         for (int k = 0; k < 3; ++k)

@@ -33,9 +33,9 @@ Chart patchChart(double stretch, double shear, bool mirrored, double repeat);
 Chart sphereChart(glm::dvec2 repeat);
 
 // The normals n - s (h_u grad u + h_v grad v), s = 1 / the longer gradient, at the texcoords of a
-// picture (Output::uv). Left out: pixels whose tilt is below `leastTilt` degrees.
+// picture (Output::uv). Left out: pixels whose tilt is below `minTilt` degrees.
 // uv, height and chart speak of the same texcoords.
-Image truthNormals(const Image& uv, const Height& height, const Chart& chart, double leastTilt = 0);
+Image truthNormals(const Image& uv, const Height& height, const Chart& chart, double minTilt = 0);
 
 // The map of a height at 16 bits, exact expansion, green against +v; 8-bit maps would add 0.17
 // degrees of their own.

@@ -38,7 +38,7 @@ Scene tutorialScene()
     return scene;
 }
 
-View tutorialView(const Studio& studio)
+View tutorialView(const FigureRenderer& studio)
 {
     Camera camera;
     camera.eye = {0.6f, 1.7f, 4.2f};
@@ -66,7 +66,7 @@ std::string levelsText(const Levels& levels)
 
 } // namespace
 
-Figure makeTutorialFigure(Studio& studio)
+Figure makeTutorialFigure(FigureRenderer& studio)
 {
     Figure figure;
     figure.title = "The tutorial scene: map, shadows, and where to light";

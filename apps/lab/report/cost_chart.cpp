@@ -15,7 +15,7 @@ namespace {
 
 // In units of the picture.
 constexpr double kWidth = 860, kHeight = 496, kLeft = 64, kRight = 620, kTop = 76, kBottom = 400;
-constexpr double kFewest = 0.5, kMost = 1024; // pixels a triangle
+constexpr double kMin = 0.5, kMax = 1024; // pixels a triangle
 constexpr double kLabelHeight = 17, kStripTop = 446, kStripHeight = 22;
 constexpr int kSteps = 220; // of a curve
 
@@ -29,16 +29,13 @@ struct Chart {
     std::vector<Curve> curves;
     double low, high; // of the ratios that are shown
 
-    double x(double pixels) const
-    {
-        return kLeft + (kRight - kLeft) * std::log(pixels / kFewest) / std::log(kMost / kFewest);
-    }
+    double x(double pixels) const { return kLeft + (kRight - kLeft) * std::log(pixels / kMin) / std::log(kMax / kMin); }
     double y(double ratio) const { return kBottom - (kBottom - kTop) * std::log(ratio / low) / std::log(high / low); }
     double ratio(std::size_t curve, double pixels) const
     {
         return curves[curve].price.of(pixels) / curves[0].price.of(pixels);
     }
-    static double pixelsAt(int step) { return kFewest * std::pow(kMost / kFewest, double(step) / kSteps); }
+    static double pixelsAt(int step) { return kMin * std::pow(kMax / kMin, double(step) / kSteps); }
 };
 
 std::optional<Chart> chartOf(const DeviceCode& d)
@@ -67,7 +64,7 @@ std::string text(double x, double y, std::string_view kind, std::string_view wor
 std::string axes(const Chart& c)
 {
     std::string svg;
-    for (double pixels = kFewest; pixels <= kMost; pixels *= 2) {
+    for (double pixels = kMin; pixels <= kMax; pixels *= 2) {
         const double x = c.x(pixels);
         svg += fmt::format("<path class=\"grid\" d=\"M{:.1f} {}V{}\"/>\n", x, kTop, kBottom);
         svg += text(x, kBottom + 18, "tick middle", fmt::format("{:g}", pixels));
@@ -104,7 +101,7 @@ std::string names(const Chart& c)
     std::vector<std::size_t> order;
     for (std::size_t i = 0; i < c.curves.size(); ++i)
         order.push_back(i);
-    const auto end = [&](std::size_t i) { return c.y(c.ratio(i, kMost)); };
+    const auto end = [&](std::size_t i) { return c.y(c.ratio(i, kMax)); };
     std::ranges::sort(order, {}, end);
     std::vector<double> places;
     for (const std::size_t i : order)
@@ -129,7 +126,7 @@ std::string crossings(const Chart& c)
     for (std::size_t i = 1; i < c.curves.size(); ++i) {
         const PixelRange r = cheaperRange(c.curves[i].price, c.curves[0].price);
         const double pixels = std::isinf(r.below) ? r.above : r.below;
-        if (pixels > kFewest && pixels < kMost)
+        if (pixels > kMin && pixels < kMax)
             found.emplace_back(pixels, i);
     }
     std::ranges::sort(found);

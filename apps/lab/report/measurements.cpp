@@ -9,7 +9,7 @@
 #include <fmt/format.h>
 
 #include "core/parse_number.hpp"
-#include "files/account.hpp"
+#include "files/file_registry.hpp"
 
 namespace cotan {
 

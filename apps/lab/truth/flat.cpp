@@ -63,13 +63,13 @@ struct PatchRows {
         }
     }
 
-    // Pixels whose true normal is tilted by less than `leastTilt` degrees are left out.
+    // Pixels whose true normal is tilted by less than `minTilt` degrees are left out.
     void add(const AffinePatch& patch, const VertexFrames& vertices, const Differences<double>& d, glm::dvec3 m,
-             double leastTilt)
+             double minTilt)
     {
         const glm::dvec3 truths[] = {truthS(patch, m), truthE(patch, m)};
         for (int k = 0; k < 2; ++k) {
-            if (degreesBetween(truths[k], patch.normal) < leastTilt)
+            if (degreesBetween(truths[k], patch.normal) < minTilt)
                 continue;
             for (FrameRows::Row& row : (k == 0 ? s : e).rows) {
                 const glm::dvec3 n = readsVertices(row.frame) ? shadeVertexFrame(row.single, row.frame, vertices, m)

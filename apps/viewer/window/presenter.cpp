@@ -252,11 +252,12 @@ bool Presenter::show(const Shown& shown, ImDrawData* interface, int width, int h
     if (interface)
         nameImGuiTexture(*interface);
     record(index, shown, interface);
-    const VkPipelineStageFlags stage = VK_PIPELINE_STAGE_TRANSFER_BIT | VK_PIPELINE_STAGE_COLOR_ATTACHMENT_OUTPUT_BIT;
+    const VkPipelineStageFlags cachedScene =
+        VK_PIPELINE_STAGE_TRANSFER_BIT | VK_PIPELINE_STAGE_COLOR_ATTACHMENT_OUTPUT_BIT;
     auto submit = made<VkSubmitInfo>(VK_STRUCTURE_TYPE_SUBMIT_INFO);
     submit.waitSemaphoreCount = 1;
     submit.pWaitSemaphores = &acquired_;
-    submit.pWaitDstStageMask = &stage;
+    submit.pWaitDstStageMask = &cachedScene;
     submit.commandBufferCount = 1;
     submit.pCommandBuffers = &commands_;
     submit.signalSemaphoreCount = 1;

@@ -3,7 +3,7 @@ import { CotanError, usage } from './errors.js';
 import { bytesOf, checkedPicture } from './picture.js';
 import { through } from './streams.js';
 
-const kMostPixels = 2 ** 26;
+const kMaxPixels = 2 ** 26;
 const kSignature = [137, 80, 78, 71, 13, 10, 26, 10];
 const bad = (message) => new CotanError('input', `PNG: ${message}`);
 
@@ -69,7 +69,7 @@ export async function decodePng(file) {
   if (!channels || ![1, 2, 4, 8, 16].includes(depth) || (depth < 8 && channels > 1) || (type === 3 && depth > 8))
     throw bad(`expected a known kind of pixel, found type ${type} of ${depth} bits`);
   if (type === 3 && !palette) throw bad('expected a palette');
-  if (width < 1 || height < 1 || width > 65536 || height > 65536 || width * height > kMostPixels)
+  if (width < 1 || height < 1 || width > 65536 || height > 65536 || width * height > kMaxPixels)
     throw bad(`expected 1 to 65536 pixels a side and 67 million in all, found ${width} x ${height}`);
 
   const passes = (interlaced ? kPasses : [[0, 0, 1, 1]]).map(([x, y, dx, dy]) => ({
@@ -126,7 +126,7 @@ export async function decodePng(file) {
 /** A PNG file of a picture of 8 or 16 bits; RGB where its alpha is all there. */
 export async function encodePng(picture) {
   const { width, height, bits, data } = checkedPicture(picture, 'picture', [8, 16]);
-  if (width * height > kMostPixels) throw usage(`picture: expected 67 million pixels at most, found ${width} x ${height}`);
+  if (width * height > kMaxPixels) throw usage(`picture: expected 67 million pixels at most, found ${width} x ${height}`);
   const most = bits === 16 ? 65535 : 255;
   let channels = 3;
   for (let i = 3; i < data.length && channels === 3; i += 4) if (data[i] !== most) channels = 4;

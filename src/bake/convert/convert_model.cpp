@@ -15,8 +15,8 @@ namespace cotan {
 
 namespace {
 
-constexpr double kSeen = 0.5;     // degrees on average over a map: below, nobody sees a difference
-constexpr double kMostRows = 4e7; // of texels under all triangles together
+constexpr double kSeen = 0.5;    // degrees on average over a map: below, nobody sees a difference
+constexpr double kMaxRows = 4e7; // of texels under all triangles together
 
 class ModelConverter {
 public:
@@ -62,7 +62,7 @@ public:
             report_.maps.push_back(std::move(*map));
         }
         for (const MapJob& job : *jobs)
-            for (const MapPlace& place : options_.keepMaps ? std::vector<MapPlace>{} : job.places)
+            for (const MapSlot& place : options_.keepMaps ? std::vector<MapSlot>{} : job.places)
                 nameFrame(document_, place.material, options_.frames.to);
         if (Status settled = settleTangents(); !settled)
             return settled;
@@ -103,9 +103,9 @@ private:
     Expansions expansionsOf(const MapJob& job) const
     {
         const bool ofCoat =
-            std::ranges::any_of(job.places, [](const MapPlace& place) { return place.slot == NormalSlot::coat; });
+            std::ranges::any_of(job.places, [](const MapSlot& place) { return place.slot == NormalSlot::coat; });
         const Expansion written = ofCoat ? Expansion::exact : options_.expansion;
-        const bool said = std::ranges::any_of(job.places, [&](const MapPlace& place) {
+        const bool said = std::ranges::any_of(job.places, [&](const MapSlot& place) {
             return gltf::expansionOf(rootOf(document_)["materials"][place.material]) == Expansion::biased;
         });
         return {said ? Expansion::biased : written, written};
@@ -114,7 +114,7 @@ private:
     // What readers of a new map must know.
     void sayExpansion(const MapJob& job, Expansion expansion)
     {
-        for (const MapPlace& place : job.places)
+        for (const MapSlot& place : job.places)
             if (place.slot == NormalSlot::surface)
                 setExpansion(rootOf(document_)["materials"][place.material], expansion);
     }
@@ -155,11 +155,11 @@ private:
                                                 job.name, name(options_.frames.to), done.figures.unconverted.mean));
         if (done.kept)
             return done;
-        if (const double rows = rowsOf(*uses, map->height); !(rows <= kMostRows))
+        if (const double rows = rowsOf(*uses, map->height); !(rows <= kMaxRows))
             return inputError(
                 fmt::format("{}: its triangles are in {:.3g} rows of its texels, each in its own; expected at "
                             "most {:.3g}: fewer triangles that repeat the map, or a smaller map",
-                            field, rows, kMostRows));
+                            field, rows, kMaxRows));
         done.bits = options_.bits != 0 ? options_.bits : map->type == PixelType::unorm8 ? 8 : 16;
         CountedSteps rows(share, std::size_t(map->height));
         Reencoded r = reencode(*map, *uses, options_.frames, done.bits, options_.threads, &rows, expansions.written);
@@ -169,7 +169,7 @@ private:
         auto file = encoded(r.image, *bytes);
         if (!file)
             return file.error();
-        const Spread unconverted = done.figures.unconverted;
+        const ValueSummary unconverted = done.figures.unconverted;
         done.figures = r;
         if (file->format != "PNG") {
             const auto stored = decodeImage(file->bytes, field, options_.limits);
@@ -178,7 +178,7 @@ private:
             std::vector<const MapUse*> all;
             for (const MapUse& use : *uses)
                 all.push_back(&use);
-            const Spread lossy = mapError(*map, *stored, all, options_.frames, expansions.written);
+            const ValueSummary lossy = mapError(*map, *stored, all, options_.frames, expansions.written);
             if (lossy.mean <= std::max(kSeen, 0.5 * unconverted.mean)) {
                 done.figures.error = lossy;
             } else { // else converting would be for nothing
@@ -220,7 +220,7 @@ private:
     }
 
     // How far the old map is off when it is read with the new frame.
-    Spread errorAsItIs(const Image& map, const std::vector<MapUse>& uses) const
+    ValueSummary errorAsItIs(const Image& map, const std::vector<MapUse>& uses) const
     {
         std::vector<const MapUse*> all;
         for (const MapUse& use : uses)

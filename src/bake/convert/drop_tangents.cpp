@@ -16,8 +16,8 @@ using Json = nlohmann::ordered_json;
 namespace {
 
 // How far the direction of a primitive's highlights turns with its worst placing.
-Result<Spread> turnOf(const GltfDocument& document, std::size_t m, std::size_t p, const std::vector<glm::dmat3>& placed,
-                      const FramePair& frames)
+Result<ValueSummary> turnOf(const GltfDocument& document, std::size_t m, std::size_t p,
+                            const std::vector<glm::dmat3>& placed, const FramePair& frames)
 {
     auto geometry = gltfGeometry(document, m, p);
     if (!geometry)
@@ -25,9 +25,9 @@ Result<Spread> turnOf(const GltfDocument& document, std::size_t m, std::size_t p
     const auto mesh = std::make_shared<const Mesh>(gltfMesh(std::move(*geometry)));
     const MappedSurface surface =
         makeSurface(mesh, Texture{}, glm::dmat3(1), framesRead(frames, !mesh->tangents.empty()));
-    Spread worst;
+    ValueSummary worst;
     for (const glm::dmat3& linear : placed) {
-        const Spread turn = directionTurn(placedBy(surface, linear), frames);
+        const ValueSummary turn = directionTurn(placedBy(surface, linear), frames);
         if (turn.count == 0)
             return turn;
         if (worst.count == 0 || turn.percentile95 > worst.percentile95)
@@ -51,7 +51,7 @@ Result<TangentBytes> dropTangents(GltfDocument& document, const FramePair& frame
 {
     TangentBytes dropped;
     std::set<std::size_t> seen, told;
-    const std::vector<MapPlace> foreign = foreignNormalMaps(document);
+    const std::vector<MapSlot> foreign = foreignNormalMaps(document);
     const auto placed = gltfPlacings(rootOf(document));
     const Status status = forEachPrimitive(rootOf(document), [&](std::size_t m, std::size_t p) -> Status {
         const Json& root = rootOf(document);
@@ -65,7 +65,7 @@ Result<TangentBytes> dropTangents(GltfDocument& document, const FramePair& frame
                 notes.push_back(fmt::format("materials[{}]: {}; TANGENT stays", material, reason));
         };
         for (const std::size_t material : materialsOf(root, primitive)) {
-            for (const MapPlace& place : foreign)
+            for (const MapSlot& place : foreign)
                 if (place.material == material)
                     keepFor(material, "its normal map, in a format that is not read here, is not converted");
             if (gltf::tangentReader(root["materials"][material]).empty())

@@ -84,7 +84,7 @@ const char* whatOf(NormalSlot slot) { return slot == NormalSlot::coat ? "its coa
 
 // The primitive's mesh with the uv of its own normal map as set 0 and those of a coat's, where asked for, as set 1.
 // Without triangles or the uv of the map: no mesh, and `why`.
-Result<Mesh> meshFor(const GltfDocument& document, std::size_t m, std::size_t p, MapPlace place, std::string& why)
+Result<Mesh> meshFor(const GltfDocument& document, std::size_t m, std::size_t p, MapSlot place, std::string& why)
 {
     const NormalSlot slot = place.slot;
     auto geometry = gltfGeometry(document, m, p, NormalSlot::surface, place.material);
@@ -114,7 +114,7 @@ MappedSurface surfaceFor(const std::shared_ptr<const Mesh>& mesh, NormalSlot slo
 }
 
 // One primitive with one of its materials, added to the job of a normal map of that material.
-Status addUse(const GltfDocument& document, std::size_t m, std::size_t p, MapPlace place, bool foreign,
+Status addUse(const GltfDocument& document, std::size_t m, std::size_t p, MapSlot place, bool foreign,
               const std::vector<glm::dmat3>& placed, std::map<std::size_t, MapJob>& jobs,
               std::vector<std::string>& notes)
 {
@@ -160,11 +160,11 @@ Status addUse(const GltfDocument& document, std::size_t m, std::size_t p, MapPla
 
 } // namespace
 
-std::vector<MapPlace> foreignNormalMaps(const GltfDocument& document)
+std::vector<MapSlot> foreignNormalMaps(const GltfDocument& document)
 {
     const Json& root = rootOf(document);
     std::map<int, bool> images = {{-1, true}};
-    std::vector<MapPlace> foreign;
+    std::vector<MapSlot> foreign;
     for (std::size_t m = 0; m < countOf(root, "materials"); ++m)
         for (const NormalSlot slot : kNormalSlots) {
             const gltf::TextureUse map = normalMapOf(root, m, slot);
@@ -203,7 +203,7 @@ std::vector<UnreadMap> unreadNormalMaps(const GltfDocument& document)
 {
     const Json& root = rootOf(document);
     std::set<int> images;
-    for (const MapPlace& place : foreignNormalMaps(document))
+    for (const MapSlot& place : foreignNormalMaps(document))
         images.insert(anyImage(root, normalMapOf(root, place.material, place.slot).texture));
     std::vector<UnreadMap> unread;
     for (const int image : images)
@@ -225,12 +225,12 @@ Result<std::vector<MapJob>> mapJobs(const GltfDocument& document, std::vector<st
 {
     const Json& root = rootOf(document);
     const auto placed = gltfPlacings(root);
-    const std::vector<MapPlace> foreign = foreignNormalMaps(document);
+    const std::vector<MapSlot> foreign = foreignNormalMaps(document);
     std::map<std::size_t, MapJob> jobs;
     const Status status = forEachPrimitive(root, [&](std::size_t m, std::size_t p) -> Status {
         for (const std::size_t material : materialsOf(root, root["meshes"][m]["primitives"][p])) {
             for (const NormalSlot slot : kNormalSlots) {
-                const MapPlace place{material, slot};
+                const MapSlot place{material, slot};
                 const bool unread = std::binary_search(foreign.begin(), foreign.end(), place);
                 if (Status added = addUse(document, m, p, place, unread, placed[m], jobs, notes); !added)
                     return added;
@@ -308,7 +308,7 @@ void replaceMap(GltfDocument& document, const MapJob& job, std::vector<std::byte
     }
     const std::size_t image = addGltfImage(document, std::move(bytes), mime, job.name);
     std::map<std::size_t, std::size_t> copies;
-    for (const MapPlace place : job.places) {
+    for (const MapSlot place : job.places) {
         Json& index = normalSlotOf(rootOf(document), place.material, place.slot)["index"];
         const std::size_t texture = index.get<std::size_t>();
         if (!copies.contains(texture))

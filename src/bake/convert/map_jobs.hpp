@@ -14,17 +14,17 @@
 namespace cotan {
 
 // A normal map's place in a material.
-struct MapPlace {
+struct MapSlot {
     std::size_t material = 0;
     NormalSlot slot = NormalSlot::surface;
 
-    auto operator<=>(const MapPlace&) const = default;
+    auto operator<=>(const MapSlot&) const = default;
 };
 
 // A primitive that reads a map, with one of its materials.
 struct MapReader {
     std::size_t mesh = 0, primitive = 0;
-    MapPlace place;
+    MapSlot place;
     double strength = 1; // the material's factor on the slopes
     Wrap wrapU = Wrap::repeat, wrapV = Wrap::repeat;
     std::vector<glm::dmat3> placed; // each is a surface
@@ -37,7 +37,7 @@ struct MapJob {
     std::size_t image = 0; // index into the file's images
     std::string name;
     std::vector<MapReader> readers;
-    std::vector<MapPlace> places;      // where it is read so
+    std::vector<MapSlot> places;       // where it is read so
     std::vector<std::size_t> textures; // of the file, that show the image
     bool alsoElsewhere = false;        // another slot of a material reads it too: it has to stay as it is
 };
@@ -65,7 +65,7 @@ void replaceMap(GltfDocument& document, const MapJob& job, std::vector<std::byte
 
 // The places of normal maps in a format that is not read here, named by an extension or, against the specification, by
 // the texture itself.
-std::vector<MapPlace> foreignNormalMaps(const GltfDocument& document);
+std::vector<MapSlot> foreignNormalMaps(const GltfDocument& document);
 
 // In the order of the file's images.
 std::vector<UnreadMap> unreadNormalMaps(const GltfDocument& document);

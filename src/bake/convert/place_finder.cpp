@@ -8,7 +8,7 @@ namespace cotan::convert {
 
 namespace {
 
-constexpr std::size_t kLeastPlaces = 4; // of a texel, however large the map
+constexpr std::size_t kMinPlaces = 4; // of a texel, however large the map
 
 int foldOf(Wrap wrap) { return wrap == Wrap::mirror ? 2 : 1; }
 
@@ -16,7 +16,7 @@ int foldOf(Wrap wrap) { return wrap == Wrap::mirror ? 2 : 1; }
 
 PlaceFinder::PlaceFinder(std::span<const MapUse> uses, int width, int height)
     : uses_(uses), width_(width), height_(height),
-      most_(std::clamp(kMostAllPlaces / (std::size_t(width) * std::size_t(height)), kLeastPlaces, kMostPlaces))
+      most_(std::clamp(kMaxAllPlaces / (std::size_t(width) * std::size_t(height)), kMinPlaces, kMaxPlaces))
 {
     std::map<std::pair<Wrap, Wrap>, std::vector<std::uint32_t>> byWrap;
     for (std::uint32_t i = 0; i < uses.size(); ++i)
@@ -57,7 +57,7 @@ void PlaceFinder::findRow(const Layer& layer, int y, std::vector<std::vector<Fou
     };
     UvFew few{.most = most_};
     if (layer.wrapU == Wrap::clamp || layer.wrapV == Wrap::clamp)
-        few.counts = [&](const UvPlace& p) {
+        few.counts = [&](const UvSample& p) {
             const auto at = [&](int k) {
                 return glm::dvec2(layer.texcoords[layer.indices[3 * std::size_t(p.triangle) + std::size_t(k)]]);
             };
@@ -72,7 +72,7 @@ void PlaceFinder::findRow(const Layer& layer, int y, std::vector<std::vector<Fou
         for (int x = 0; x < width_ * foldU; ++x) {
             auto& texel = texels[std::size_t(x < width_ ? x : 2 * width_ - 1 - x)];
             for (std::uint32_t i = row.first[std::size_t(x)]; i < row.first[std::size_t(x) + 1]; ++i) {
-                const UvPlace& p = row.places[i];
+                const UvSample& p = row.places[i];
                 const Part& part = partOf(p.triangle);
                 const Place place{part.uses.front(),
                                   std::uint32_t(p.triangle - part.firstTriangle),

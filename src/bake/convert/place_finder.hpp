@@ -26,7 +26,7 @@ public:
     PlaceFinder(std::span<const MapUse> uses, int width, int height);
 
     // The places of row y for each of its texels, in the order of the uses and triangles: those that cover the centre,
-    // or else those that only touch the texel; no more than kMostPlaces (kMostAllPlaces), spread over all. From several
+    // or else those that only touch the texel; no more than kMaxPlaces (kMaxAllPlaces), spread over all. From several
     // threads.
     void row(int y, std::vector<std::vector<Place>>& texels) const;
 

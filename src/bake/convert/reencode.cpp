@@ -8,8 +8,8 @@
 #include <glm/trigonometric.hpp>
 
 #include "bake/convert/solve_texel.hpp"
-#include "bake/lint/spread.hpp"
 #include "bake/lint/texel.hpp"
+#include "bake/lint/value_summary.hpp"
 #include "bake/surface/nearest_texels.hpp"
 #include "core/loops.hpp"
 #include "place_finder.hpp"
@@ -82,8 +82,8 @@ public:
             result_.disagreeing += r.disagreeing;
             result_.belowHorizon += r.belowHorizon;
         }
-        result_.moved = spreadOf(std::move(moved_));
-        result_.disagreement = spreadOf(std::move(disagreement_));
+        result_.moved = summaryOf(std::move(moved_));
+        result_.disagreement = summaryOf(std::move(disagreement_));
         std::vector<const MapUse*> shown;
         for (const MapUse& use : uses_)
             shown.push_back(&use);

@@ -11,8 +11,8 @@
 
 namespace cotan {
 
-inline constexpr std::size_t kMostPlaces = 16; // of one texel; of more, some that are spread over all count
-inline constexpr std::size_t kMostAllPlaces = std::size_t(1)
+inline constexpr std::size_t kMaxPlaces = 16; // of one texel; of more, some that are spread over all count
+inline constexpr std::size_t kMaxAllPlaces = std::size_t(1)
     << 24; // of a map; larger ones have fewer of a texel, 4 at least
 
 struct Reencoded : ReencodeFigures {

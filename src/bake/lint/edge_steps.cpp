@@ -7,7 +7,7 @@
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 
-#include "bake/lint/spread.hpp"
+#include "bake/lint/value_summary.hpp"
 #include "cotan/tangents.hpp"
 #include "cotan/vector.hpp"
 #include "lint_parts.hpp"
@@ -148,7 +148,7 @@ void addSteps(const f64::cotan_frame& a, const f64::cotan_frame& b, double weigh
 
 double degreesBetween(glm::dvec3 a, glm::dvec3 b) { return glm::degrees(angleBetween(a, b)); }
 
-EdgeSteps edgeSteps(const MappedSurface& s, std::size_t mostEdges)
+EdgeSteps edgeSteps(const MappedSurface& s, std::size_t maxEdges)
 {
     EdgeSteps result;
     if (!s.hasUv())
@@ -157,7 +157,7 @@ EdgeSteps edgeSteps(const MappedSurface& s, std::size_t mostEdges)
     for (std::size_t i = 0; i < orientations.size(); ++i)
         orientations[i] = std::int8_t(orientationOf(s, i));
     const std::size_t edges = s.triangleCount() * 3 / 2; // of a closed mesh; others have fewer pairs
-    const std::size_t every = std::max<std::size_t>((edges + mostEdges - 1) / mostEdges, 1);
+    const std::size_t every = std::max<std::size_t>((edges + maxEdges - 1) / maxEdges, 1);
     ValueStatistics cotangent, orthonormal;
     SidesByVertex(s).eachPair([&](const Side& a, const Side& b) {
         const int orientation = orientations[a.triangle()];
@@ -170,8 +170,8 @@ EdgeSteps edgeSteps(const MappedSurface& s, std::size_t mostEdges)
         addSteps(frameOf(atA, Frame::cotangent), frameOf(atB, Frame::cotangent), weight, cotangent);
         addSteps(frameOf(atA, Frame::orthonormal), frameOf(atB, Frame::orthonormal), weight, orthonormal);
     });
-    result.cotangent = spreadOf(std::move(cotangent));
-    result.orthonormal = spreadOf(std::move(orthonormal));
+    result.cotangent = summaryOf(std::move(cotangent));
+    result.orthonormal = summaryOf(std::move(orthonormal));
     return result;
 }
 

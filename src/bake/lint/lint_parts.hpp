@@ -15,23 +15,23 @@ UvQuality uvQuality(const MappedSurface& surface);
 void countOverlaps(const std::vector<const MappedSurface*>& surfaces, const std::vector<UvQuality*>& qualities,
                    int side = 512);
 
-// mostEdges: of more, evenly chosen ones are measured.
-EdgeSteps edgeSteps(const MappedSurface& surface, std::size_t mostEdges = kMostEdges);
+// maxEdges: of more, evenly chosen ones are measured.
+EdgeSteps edgeSteps(const MappedSurface& surface, std::size_t maxEdges = kMaxEdges);
 
 StoredTangents storedTangents(const MappedSurface& surface);
 
 // Of how many of 14 directions the surface, alone, shows each point; where it shows none of them, all alike.
-// bothSides: whether back faces are drawn. mostPixels: that all triangles may be drawn to in all directions together;
+// bothSides: whether back faces are drawn. maxPixels: that all triangles may be drawn to in all directions together;
 // where there are more, pictures are smaller. Takes 28 MiB, whatever the surface.
-inline constexpr double kMostPixels = 2e8; // 0.3 s
+inline constexpr double kMaxPixels = 2e8; // 0.3 s
 std::vector<double> seen(const MappedSurface& surface, const std::vector<MeshPoint>& points, bool bothSides,
-                         double mostPixels = kMostPixels);
+                         double maxPixels = kMaxPixels);
 
 // The map decoded at the points (pointsOver) and read with each frame, weighted by what is seen of them (`seen`).
 // Angles to the frame that it was made for, with generated tangents; of a map for MikkTSpace to what the tangents of
 // the file show where they point along u, with the sign of the uv. Of "stored" to generated MikkTSpace.
 std::vector<Reading> readings(const MappedSurface& surface, const std::vector<MeshPoint>& points, Frame madeFor,
-                              const Material& material, const Image& map, double mostPixels = kMostPixels);
+                              const Material& material, const Image& map, double maxPixels = kMaxPixels);
 
 // Whether the stored tangents contradict the uv and the maps do not make up for it; from primitives and maps.
 bool distrustStored(const LintReport& report);

@@ -67,7 +67,7 @@ std::string whyNotJudged(const PrimitiveLint& p, const Image& map)
     return p.readings.front().error.count == 0 ? "no triangle has area, also in uv" : "";
 }
 
-template<class Make> void eachAdvised(FrameSpreads& spreads, const Make& make)
+template<class Make> void eachAdvised(FrameSummaries& spreads, const Make& make)
 {
     spreads.orthonormal = make(Frame::orthonormal);
     spreads.cotangent = make(Frame::cotangent);
@@ -85,7 +85,7 @@ FrameSet framesOfLint(const Material& material)
 }
 
 // Tells how much is done, in triangles, and remembers a wish to stop.
-struct Told {
+struct TriangleProgress {
     const Progress& progress;
     double all = 1, done = 0;
     bool stopped = false;
@@ -111,13 +111,13 @@ struct LookLimits {
 
 LookLimits limitsOfEach(std::size_t surfaces)
 {
-    constexpr double kOfAll = 10 * lint::kMostPixels;
-    return {pointsOfEach(surfaces), std::min(lint::kMostPixels, kOfAll / double(std::max<std::size_t>(surfaces, 1)))};
+    constexpr double kOfAll = 10 * lint::kMaxPixels;
+    return {pointsOfEach(surfaces), std::min(lint::kMaxPixels, kOfAll / double(std::max<std::size_t>(surfaces, 1)))};
 }
 
-// Not whole where `told` has said to stop; tells three looks of that many triangles.
+// Not whole where `counted` has said to stop; tells three looks of that many triangles.
 PrimitiveLint lintPrimitive(const Scene& scene, const Mesh& mesh, const MappedSurface& surface, double distance,
-                            LookLimits limits, Told& told, double triangles)
+                            LookLimits limits, TriangleProgress& counted, double triangles)
 {
     const Material& material = scene.materials[std::size_t(mesh.material)];
     PrimitiveLint p;
@@ -138,11 +138,11 @@ PrimitiveLint lintPrimitive(const Scene& scene, const Mesh& mesh, const MappedSu
     p.triangles = mesh.triangleCount();
     p.hasUv = surface.hasUv();
     p.uv = lint::uvQuality(surface);
-    if (!told.add(kOfLook * triangles))
+    if (!counted.add(kOfLook * triangles))
         return p;
     p.steps = lint::edgeSteps(surface);
     p.stored = lint::storedTangents(surface);
-    if (!told.add(kOfLook * triangles))
+    if (!counted.add(kOfLook * triangles))
         return p;
     if (material.greenReversed) // w of the file, not of the scene
         p.stored.reversedW = 1 - p.stored.reversedW;
@@ -156,7 +156,7 @@ PrimitiveLint lintPrimitive(const Scene& scene, const Mesh& mesh, const MappedSu
         p.unread = !hasPixels(scene.images[std::size_t(image)]);
         p.notJudged = whyNotJudged(p, scene.images[std::size_t(image)]);
     }
-    told.add(kOfLook * triangles);
+    counted.add(kOfLook * triangles);
     return p;
 }
 
@@ -235,13 +235,13 @@ void addFits(LintReport& report, const Scene& scene, const std::vector<MapUse>& 
                      [](const MapUse* u) { return u->surface.hasUv(); });
         if (hasPixels(map)) {
             std::vector<FramePair> pairs;
-            FrameSpreads order; // of the frames, as eachAdvised has it
+            FrameSummaries order; // of the frames, as eachAdvised has it
             const Frame made = frames.at(image);
             eachAdvised(order, [&](Frame frame) {
                 pairs.push_back({made, frame, from, TangentOrigin::generated});
-                return Spread{};
+                return ValueSummary{};
             });
-            const std::vector<Spread> errors = mapErrors(map, map, shown, pairs, {}, pointsOfEach(uses.size()));
+            const std::vector<ValueSummary> errors = mapErrors(map, map, shown, pairs, {}, pointsOfEach(uses.size()));
             std::size_t next = 0;
             eachAdvised(fit, [&](Frame) { return errors[next++]; });
         }
@@ -285,10 +285,10 @@ Result<LintReport> lintScene(const Scene& scene, const LintOptions& options, con
     std::size_t triangles = 0;
     for (const Mesh& mesh : scene.meshes)
         triangles += mesh.triangleCount();
-    Told told{progress, double(std::max<std::size_t>(triangles, 1))};
+    TriangleProgress counted{progress, double(std::max<std::size_t>(triangles, 1))};
     std::size_t surfaces = 0;
     for (const auto& ways : placed)
-        surfaces += std::min(ways.size(), kMostPlacings);
+        surfaces += std::min(ways.size(), kMaxPlacings);
     const LookLimits limits = limitsOfEach(surfaces);
     for (std::size_t i = 0; i < scene.meshes.size(); ++i) {
         const Mesh& mesh = scene.meshes[i];
@@ -301,15 +301,15 @@ Result<LintReport> lintScene(const Scene& scene, const LintOptions& options, con
         if (material.coat.normalMap.present())
             ofCoat =
                 makeCoatSurface(held, material.normalMap, material.coat.normalMap, asItStands, framesOfLint(material));
-        const std::size_t count = std::min(placed[i].size(), kMostPlacings);
+        const std::size_t count = std::min(placed[i].size(), kMaxPlacings);
         const double share = double(mesh.triangleCount()) / double(std::max<std::size_t>(count, 1));
-        if (!told.add(kOfSurface * double(mesh.triangleCount())))
+        if (!counted.add(kOfSurface * double(mesh.triangleCount())))
             return stoppedError();
         for (std::size_t k = 0; k < count; ++k) {
             uses.push_back({placedBy(own, placed[i][k]), material.normalFormat, double(material.normalScale),
                             sampler.wrapU, sampler.wrapV});
-            PrimitiveLint p = lintPrimitive(scene, mesh, uses.back().surface, report.distance, limits, told, share);
-            if (told.stopped)
+            PrimitiveLint p = lintPrimitive(scene, mesh, uses.back().surface, report.distance, limits, counted, share);
+            if (counted.stopped)
                 return stoppedError();
             p.placing = k;
             p.placings = placed[i].size();
@@ -321,14 +321,14 @@ Result<LintReport> lintScene(const Scene& scene, const LintOptions& options, con
         }
     }
     addOverlaps(report, uses);
-    if (!told.add(kOfWhole * told.all))
+    if (!counted.add(kOfWhole * counted.all))
         return stoppedError();
     addMaps(report, scene);
-    if (!told.add(kOfWhole * told.all))
+    if (!counted.add(kOfWhole * counted.all))
         return stoppedError();
     addFits(report, scene, uses, coats);
-    told.done = told.all; // also where there are no triangles
-    if (!told.add(0))
+    counted.done = counted.all; // also where there are no triangles
+    if (!counted.add(0))
         return stoppedError();
     if (const auto named = namedFrame(scene))
         report.named = named->frame;

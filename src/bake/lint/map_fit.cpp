@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "bake/lint/spread.hpp"
 #include "bake/lint/texel.hpp"
+#include "bake/lint/value_summary.hpp"
 #include "lint_parts.hpp"
 #include "scene/normal_format.hpp"
 
@@ -12,9 +12,9 @@ namespace cotan {
 
 namespace {
 
-constexpr std::size_t kMostPoints = 65536; // over all uses of a map, while each has kLeast
+constexpr std::size_t kMaxPoints = 65536; // over all uses of a map, while each has kLeast
 constexpr std::size_t kLeast = 64;
-constexpr std::size_t kMostUses = kMostPoints / kLeast; // of more, evenly chosen ones are measured
+constexpr std::size_t kMaxUses = kMaxPoints / kLeast; // of more, evenly chosen ones are measured
 
 // The normal that a frame makes of a map at a place.
 glm::dvec3 normalOf(const Image& map, const MapUse& use, const Convention& stored, Frame frame, TangentOrigin tangents,
@@ -72,14 +72,14 @@ std::vector<MeshPoint> pointsOver(const MappedSurface& s, std::size_t count, dou
     return points;
 }
 
-std::vector<Spread> mapErrors(const Image& before, const Image& after, const std::vector<const MapUse*>& uses,
-                              std::span<const FramePair> frames, std::optional<Expansion> expansionAfter,
-                              std::size_t most)
+std::vector<ValueSummary> mapErrors(const Image& before, const Image& after, const std::vector<const MapUse*>& uses,
+                                    std::span<const FramePair> frames, std::optional<Expansion> expansionAfter,
+                                    std::size_t most)
 {
-    const std::size_t each = std::clamp(kMostPoints / std::max<std::size_t>(uses.size(), 1), kLeast, kPointsOfSurface);
+    const std::size_t each = std::clamp(kMaxPoints / std::max<std::size_t>(uses.size(), 1), kLeast, kPointsOfSurface);
     const std::size_t count = std::min(each, most);
     std::vector<ValueStatistics> errors(frames.size());
-    const std::size_t step = (uses.size() + kMostUses - 1) / kMostUses;
+    const std::size_t step = (uses.size() + kMaxUses - 1) / kMaxUses;
     for (std::size_t k = 0; k < uses.size(); k += step) {
         const MapUse* const use = uses[k];
         if (!(std::abs(use->strength) > kFlattened))
@@ -95,9 +95,9 @@ std::vector<Spread> mapErrors(const Image& before, const Image& after, const std
                                          normalOf(after, *use, stored, frames[i].to, frames[i].toTangents, p)),
                     area / double(count));
     }
-    std::vector<Spread> spreads;
+    std::vector<ValueSummary> spreads;
     for (auto& of : errors)
-        spreads.push_back(spreadOf(std::move(of)));
+        spreads.push_back(summaryOf(std::move(of)));
     return spreads;
 }
 
@@ -107,13 +107,13 @@ std::size_t pointsOfEach(std::size_t surfaces)
     return std::clamp(kAll / std::max<std::size_t>(surfaces, 1), kFewest, kPointsOfSurface);
 }
 
-Spread mapError(const Image& before, const Image& after, const std::vector<const MapUse*>& uses,
-                const FramePair& frames, std::optional<Expansion> expansionAfter)
+ValueSummary mapError(const Image& before, const Image& after, const std::vector<const MapUse*>& uses,
+                      const FramePair& frames, std::optional<Expansion> expansionAfter)
 {
     return mapErrors(before, after, uses, {&frames, 1}, expansionAfter).front();
 }
 
-Spread directionTurn(const MappedSurface& surface, const std::vector<MeshPoint>& points, const FramePair& frames)
+ValueSummary directionTurn(const MappedSurface& surface, const std::vector<MeshPoint>& points, const FramePair& frames)
 {
     ValueStatistics turns;
     for (const MeshPoint& p : points) {
@@ -127,10 +127,10 @@ Spread directionTurn(const MappedSurface& surface, const std::vector<MeshPoint>&
             return {};
         turns.add(lint::degreesBetween(from, glm::dot(from, to) < 0 ? -to : to));
     }
-    return spreadOf(std::move(turns));
+    return summaryOf(std::move(turns));
 }
 
-Spread directionTurn(const MappedSurface& surface, const FramePair& frames)
+ValueSummary directionTurn(const MappedSurface& surface, const FramePair& frames)
 {
     return directionTurn(surface, pointsOver(surface, kPointsOfSurface), frames);
 }
@@ -143,8 +143,8 @@ FrameSet framesRead(const FramePair& frames, bool stored)
     return set;
 }
 
-bool directionStays(const Spread& turn) { return turn.percentile95 <= kTurnedDirection; }
+bool directionStays(const ValueSummary& turn) { return turn.percentile95 <= kTurnedDirection; }
 
-bool fitsAsItIs(const Spread& off) { return !(off.percentile95 > kAsRounding); }
+bool fitsAsItIs(const ValueSummary& off) { return !(off.percentile95 > kAsRounding); }
 
 } // namespace cotan

@@ -39,16 +39,16 @@ std::vector<MeshPoint> pointsOver(const MappedSurface& surface, std::size_t coun
 // points spread over the surfaces, weighted by area. Nearest texel of the finest level. Both images: with all
 // their data, of any sizes; `after` is stored with the expansion given, or as `before`. Empty (count 0) where no use
 // shows anything: no triangle with area in space and uv.
-Spread mapError(const Image& before, const Image& after, const std::vector<const MapUse*>& uses,
-                const FramePair& frames, std::optional<Expansion> expansionAfter = {});
+ValueSummary mapError(const Image& before, const Image& after, const std::vector<const MapUse*>& uses,
+                      const FramePair& frames, std::optional<Expansion> expansionAfter = {});
 
 // The points of one surface by which single figures of a primitive are measured.
 inline constexpr std::size_t kPointsOfSurface = 4096;
 
 // The same for several pairs of frames, at the same points. points: of a surface at most; fewer of many surfaces.
-std::vector<Spread> mapErrors(const Image& before, const Image& after, const std::vector<const MapUse*>& uses,
-                              std::span<const FramePair> frames, std::optional<Expansion> expansionAfter = {},
-                              std::size_t points = kPointsOfSurface);
+std::vector<ValueSummary> mapErrors(const Image& before, const Image& after, const std::vector<const MapUse*>& uses,
+                                    std::span<const FramePair> frames, std::optional<Expansion> expansionAfter = {},
+                                    std::size_t points = kPointsOfSurface);
 
 // How many points each of so many surfaces has: together no more than 128 have at kPointsOfSurface, while each has 16.
 std::size_t pointsOfEach(std::size_t surfaces);
@@ -56,9 +56,9 @@ std::size_t pointsOfEach(std::size_t surfaces);
 // Degrees between the ways in which frames.from and frames.to stretch highlights (KHR_materials_anisotropy), as lines,
 // at points spread over the surface, weighted by area. Empty where no triangle has area in space and uv, or a frame
 // no direction.
-Spread directionTurn(const MappedSurface& surface, const FramePair& frames);
+ValueSummary directionTurn(const MappedSurface& surface, const FramePair& frames);
 // The same where the points are known: pointsOver(surface, kPointsOfSurface).
-Spread directionTurn(const MappedSurface& surface, const std::vector<MeshPoint>& points, const FramePair& frames);
+ValueSummary directionTurn(const MappedSurface& surface, const std::vector<MeshPoint>& points, const FramePair& frames);
 
 // What of a surface has to be derived for mapError and directionTurn with frames.from and frames.to. stored: whether
 // the surface has tangents of its file.
@@ -68,13 +68,13 @@ FrameSet framesRead(const FramePair& frames, bool stored);
 inline constexpr double kTurnedDirection = 5;
 
 // Whether highlights stay stretched as they are, being turned by so much.
-bool directionStays(const Spread& turn);
+bool directionStays(const ValueSummary& turn);
 
 // Degrees, of 95 % of the area: what writing a map anew in 8 bits costs by itself.
 inline constexpr double kAsRounding = 0.3;
 
 // Whether a map stays as it is, being off by so much when it is read with the new frame: where a new one, rounded,
 // would be no better, and where nothing shows it.
-bool fitsAsItIs(const Spread& off);
+bool fitsAsItIs(const ValueSummary& off);
 
 } // namespace cotan

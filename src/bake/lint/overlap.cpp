@@ -11,7 +11,7 @@ namespace cotan::lint {
 
 namespace {
 
-constexpr double kMostRows = 1e7; // of texels under all triangles; where there are more the raster is coarser
+constexpr double kMaxRows = 1e7; // of texels under all triangles; where there are more the raster is coarser
 constexpr int kCoarsest = 16;
 
 // For each texel, whether its centre is covered more than once, and whether by both orientations; as sums along each
@@ -91,9 +91,9 @@ void countOverlaps(const std::vector<const MappedSurface*>& surfaces, const std:
             rows += rowsUnder(*s, height);
         return rows;
     };
-    while (side > kCoarsest && rowsAt(side) > kMostRows)
+    while (side > kCoarsest && rowsAt(side) > kMaxRows)
         side /= 2;
-    if (rowsAt(side) > kMostRows) {
+    if (rowsAt(side) > kMaxRows) {
         for (UvQuality* q : qualities)
             q->overlapping = 1;
         return;

@@ -1,8 +1,8 @@
 #include <glm/geometric.hpp>
 
 #include "bake/lint/map_fit.hpp"
-#include "bake/lint/spread.hpp"
 #include "bake/lint/texel.hpp"
+#include "bake/lint/value_summary.hpp"
 #include "lint_parts.hpp"
 
 namespace cotan::lint {
@@ -33,7 +33,7 @@ f64::cotan_frame meantFrame(const MappedSurface& s, const MeshPoint& p)
 } // namespace
 
 std::vector<Reading> readings(const MappedSurface& s, const std::vector<MeshPoint>& points, Frame madeFor,
-                              const Material& material, const Image& map, double mostPixels)
+                              const Material& material, const Image& map, double maxPixels)
 {
     struct Reader {
         std::string name;
@@ -48,7 +48,7 @@ std::vector<Reading> readings(const MappedSurface& s, const std::vector<MeshPoin
         readers.push_back({"stored", Frame::mikktspace, TangentOrigin::stored, {}});
 
     const f64::cotan_normal_format format = formatOf(material, map.type);
-    const std::vector<double> weights = seen(s, points, material.doubleSided, mostPixels);
+    const std::vector<double> weights = seen(s, points, material.doubleSided, maxPixels);
     for (std::size_t k = 0; k < points.size(); ++k) {
         const MeshPoint& p = points[k];
         const glm::dvec3 m = decodedAt(map, material.normalMap, format, uvAt(s, p.triangle, p.barycentric));
@@ -64,7 +64,7 @@ std::vector<Reading> readings(const MappedSurface& s, const std::vector<MeshPoin
     }
     std::vector<Reading> result;
     for (Reader& r : readers)
-        result.push_back({r.name, spreadOf(std::move(r.errors))});
+        result.push_back({r.name, summaryOf(std::move(r.errors))});
     return result;
 }
 

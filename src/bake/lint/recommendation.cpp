@@ -30,12 +30,12 @@ constexpr double kWrongMean = 5;
 constexpr double kConvertedStaysOff = 1;
 // Steps at edges over this, and a map for `cotangent` shows creases there.
 constexpr double kCreases95 = 2;
-constexpr std::size_t kMostNames = 3; // in one sentence
+constexpr std::size_t kMaxNames = 3; // in one sentence
 
 // Over all primitives that were judged, weighted by area; of the 95 % too it is the mean.
 struct Whole {
     double area = 0, mean = 0, percentile95 = 0;
-    void add(double a, const Spread& s)
+    void add(double a, const ValueSummary& s)
     {
         if (s.count == 0)
             return;
@@ -106,9 +106,9 @@ Stored storedShares(const LintReport& report)
 std::string listed(const std::vector<std::string>& names)
 {
     std::string text;
-    for (std::size_t i = 0; i < std::min(names.size(), kMostNames); ++i)
+    for (std::size_t i = 0; i < std::min(names.size(), kMaxNames); ++i)
         text += (i > 0 ? ", " : "") + names[i];
-    return names.size() > kMostNames ? text + fmt::format(" and {} more", names.size() - kMostNames) : text;
+    return names.size() > kMaxNames ? text + fmt::format(" and {} more", names.size() - kMaxNames) : text;
 }
 
 void addOnce(std::vector<std::string>& names, const std::string& name)
@@ -189,7 +189,7 @@ std::string defects(const LintReport& report)
     return broken.empty() || rest.empty() ? broken + rest : broken + " " + rest;
 }
 
-const Spread& of(const FrameSpreads& spreads, Advice advice)
+const ValueSummary& of(const FrameSummaries& spreads, Advice advice)
 {
     return advice == Advice::convertToCotangent ? spreads.cotangent
         : advice == Advice::convertToSmooth     ? spreads.smooth

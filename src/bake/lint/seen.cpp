@@ -13,8 +13,8 @@ namespace cotan::lint {
 
 namespace {
 
-constexpr std::size_t kWays = 14, kMostSide = 512, kLeastSide = 16; // depth pictures, and their pixels
-constexpr double kLeastCosine = 0.05;                               // flatter faces show next to nothing
+constexpr std::size_t kWays = 14, kMaxSide = 512, kMinSide = 16; // depth pictures, and their pixels
+constexpr double kMinCosine = 0.05;                              // flatter faces show next to nothing
 
 struct DepthPicture {
     glm::dvec3 across, up, toEye; // unit, at right angles
@@ -109,13 +109,13 @@ void draw(const std::array<glm::dvec3, 3>& corners, DepthPicture& picture)
 }
 
 // Eight pixels for a point along each axis; fewer where triangles lie on one another by the hundred, so that drawing
-// them stays within mostPixels. area: of all triangles.
-std::size_t sideFor(std::size_t points, double area, double radius, double mostPixels)
+// them stays within maxPixels. area: of all triangles.
+std::size_t sideFor(std::size_t points, double area, double radius, double maxPixels)
 {
     const double wanted = 8 * std::sqrt(double(points));
     const double drawn = 2 * double(kWays) * area / (4 * radius * radius); // pixels of their boxes at side 1
-    const double side = std::min(wanted, std::sqrt(mostPixels / drawn));
-    return std::size_t(std::clamp(side, double(kLeastSide), double(kMostSide)));
+    const double side = std::min(wanted, std::sqrt(maxPixels / drawn));
+    return std::size_t(std::clamp(side, double(kMinSide), double(kMaxSide)));
 }
 
 // A face that leans meets several depths in a pixel.
@@ -128,8 +128,7 @@ bool shows(const DepthPicture& picture, glm::dvec3 position, double cosine)
 
 } // namespace
 
-std::vector<double> seen(const MappedSurface& s, const std::vector<MeshPoint>& points, bool bothSides,
-                         double mostPixels)
+std::vector<double> seen(const MappedSurface& s, const std::vector<MeshPoint>& points, bool bothSides, double maxPixels)
 {
     std::vector<double> weights(points.size(), 0);
     glm::dvec3 low(std::numeric_limits<double>::infinity()), high = -low;
@@ -145,7 +144,7 @@ std::vector<double> seen(const MappedSurface& s, const std::vector<MeshPoint>& p
     if (!(radius > 0) || !std::isfinite(radius))
         return std::vector<double>(points.size(), 1);
     std::vector<DepthPicture> pictures =
-        picturesAround((low + high) / 2.0, radius, sideFor(points.size(), area, radius, mostPixels));
+        picturesAround((low + high) / 2.0, radius, sideFor(points.size(), area, radius, maxPixels));
     const auto cosineOf = [&](glm::dvec3 face, const DepthPicture& picture) {
         const double cosine = glm::dot(face, picture.toEye);
         return bothSides ? std::abs(cosine) : cosine;
@@ -161,7 +160,7 @@ std::vector<double> seen(const MappedSurface& s, const std::vector<MeshPoint>& p
         const MeshPoint& point = points[k];
         const glm::dvec3 face = outwards(s, point.triangle), position = positionAt(s, point);
         for (const DepthPicture& picture : pictures)
-            if (const double cosine = cosineOf(face, picture); cosine > kLeastCosine)
+            if (const double cosine = cosineOf(face, picture); cosine > kMinCosine)
                 weights[k] += shows(picture, position, cosine) ? 1 : 0;
     }
     if (std::all_of(weights.begin(), weights.end(), [](double w) { return w == 0; }))

@@ -3,8 +3,8 @@
 
 #include <glm/geometric.hpp>
 
-#include "bake/lint/spread.hpp"
 #include "bake/lint/stored_corner.hpp"
+#include "bake/lint/value_summary.hpp"
 #include "lint_parts.hpp"
 
 namespace cotan {
@@ -58,7 +58,7 @@ StoredTangents storedTangents(const MappedSurface& s)
     }
     result.reversedW /= compared; // of nothing: NaN
     result.turned /= compared;
-    result.angle = spreadOf(std::move(angles));
+    result.angle = summaryOf(std::move(angles));
     return result;
 }
 

@@ -6,8 +6,8 @@
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 
-#include "bake/lint/spread.hpp"
 #include "bake/lint/triangle_uv.hpp"
+#include "bake/lint/value_summary.hpp"
 #include "cotan/vector.hpp"
 #include "lint_parts.hpp"
 
@@ -114,8 +114,8 @@ UvQuality uvQuality(const MappedSurface& s)
     q.mirrored /= whole;
     q.stretched /= whole;
     q.sheared /= whole;
-    q.stretch = spreadOf(std::move(stretch));
-    q.shear = spreadOf(std::move(shear));
+    q.stretch = summaryOf(std::move(stretch));
+    q.shear = summaryOf(std::move(shear));
     q.gradient = gradient.count() > 0 ? gradient.percentile(0.5) : 0;
     return q;
 }

@@ -39,12 +39,12 @@ glm::dvec3 movedCovector(const LinearMap<double>& m, glm::vec3 c)
 }
 
 // The values of corners, once for the corners of a vertex that have the same bits, as far as these are among the first
-// kMostCompared of the vertex. Further values of a vertex come after the first values of all vertices.
+// kMaxCompared of the vertex. Further values of a vertex come after the first values of all vertices.
 CornerTangents gathered(std::size_t vertices, const std::vector<std::uint32_t>& indices,
                         const std::vector<glm::vec4>& corners)
 {
     constexpr std::uint32_t kNone = 0xffffffffu;
-    constexpr int kMostCompared = 64; // a vertex of thousands of corners may have a value for each
+    constexpr int kMaxCompared = 64; // a vertex of thousands of corners may have a value for each
     CornerTangents result;
     if (corners.size() != indices.size() || corners.empty())
         return result;
@@ -63,7 +63,7 @@ CornerTangents gathered(std::size_t vertices, const std::vector<std::uint32_t>& 
         for (int compared = 1; !same(values[place], corners[c]); ++compared) {
             if (next.empty())
                 next.assign(vertices, kNone);
-            if (compared > kMostCompared) {
+            if (compared > kMaxCompared) {
                 place = std::uint32_t(values.size());
                 values.push_back(corners[c]);
                 next.push_back(kNone);

@@ -16,7 +16,7 @@ namespace {
 constexpr double kFarthest = 1e6;     // uv beyond have no texel of their own in float
 constexpr double kReach = 0.70710678; // half the diagonal of a texel
 constexpr int kTile = 4;              // side of the squares in which first places come
-constexpr int kMostCopies = 64;       // of one narrow triangle that wraps: per axis
+constexpr int kMaxCopies = 64;        // of one narrow triangle that wraps: per axis
 constexpr int kSpread = 4;            // copies per axis of one that has room for as many whole ones
 
 double cross(glm::dvec2 a, glm::dvec2 b) { return a.x * b.y - a.y * b.x; }
@@ -77,7 +77,7 @@ Copies copiesOf(const glm::dvec2 (&uv)[3], double area)
     }
     copies.from = glm::ivec2(glm::floor(glm::min(uv[0], glm::min(uv[1], uv[2]))));
     const glm::dvec2 high = glm::max(uv[0], glm::max(uv[1], uv[2]));
-    copies.count = glm::clamp(glm::ivec2(glm::ceil(high)) - copies.from, 1, kMostCopies);
+    copies.count = glm::clamp(glm::ivec2(glm::ceil(high)) - copies.from, 1, kMaxCopies);
     return copies;
 }
 
@@ -124,7 +124,7 @@ struct UvRaster::Weights {
     {
     }
 
-    UvPlace at(const Shown& t, glm::dvec2 p, bool covers) const
+    UvSample at(const Shown& t, glm::dvec2 p, bool covers) const
     {
         double b1 = cross(p - t.corner[0], edge2) * perArea, b2 = cross(edge1, p - t.corner[0]) * perArea;
         if (t.mirrored)
@@ -299,7 +299,7 @@ void UvRaster::row(int y, UvReach reach, UvRow& result, const UvFew& few) const
     std::vector<std::uint8_t>& full = result.scratch.taken;
     full.assign(std::size_t(width_), 0);
     std::uint32_t order = 0;
-    const auto emit = [&](int x, const UvPlace& place) {
+    const auto emit = [&](int x, const UvSample& place) {
         if (few.counts && !few.counts(place))
             return;
         found.push_back({x, place});
@@ -346,7 +346,7 @@ void UvRaster::firsts(int block, UvFirsts& result) const
 {
     const int top = block * kBlockRows, bottom = std::min(top + kBlockRows, height_) - 1;
     const int across = (width_ + kTile - 1) / kTile; // tiles
-    std::vector<std::pair<glm::ivec2, UvPlace>>& found = result.scratch.found;
+    std::vector<std::pair<glm::ivec2, UvSample>>& found = result.scratch.found;
     std::vector<std::uint8_t>& taken = result.scratch.taken;
     std::vector<std::uint32_t>& next = result.scratch.next; // of each tile
     taken.assign(std::size_t(bottom - top + 1) * std::size_t(width_), 0);
@@ -363,7 +363,7 @@ void UvRaster::firsts(int block, UvFirsts& result) const
                 scan(t, y, &taken[std::size_t(y - top) * std::size_t(width_)]);
         }
     };
-    const auto take = [&](glm::ivec2 texel, const UvPlace& place, std::uint8_t* row) {
+    const auto take = [&](glm::ivec2 texel, const UvSample& place, std::uint8_t* row) {
         row[texel.x] = 1;
         found.push_back({texel, place});
         ++next[tileOf(texel) + 1];
@@ -372,7 +372,7 @@ void UvRaster::firsts(int block, UvFirsts& result) const
     twice.assign(taken.size(), 0);
     eachRow([&](const Shown& t, int y, std::uint8_t* row) {
         std::uint8_t* const second = twice.data() + (row - taken.data());
-        scanCentres(t, y, second, [&](int x, const UvPlace& place) {
+        scanCentres(t, y, second, [&](int x, const UvSample& place) {
             if (!row[x])
                 return take({x, y}, place, row);
             second[x] = 1;
@@ -380,7 +380,7 @@ void UvRaster::firsts(int block, UvFirsts& result) const
         });
     });
     eachRow([&](const Shown& t, int y, std::uint8_t* row) {
-        scanTouching(t, y, row, [&](int x, const UvPlace& place) { take({x, y}, place, row); });
+        scanTouching(t, y, row, [&](int x, const UvSample& place) { take({x, y}, place, row); });
     });
     std::partial_sum(next.begin(), next.end(), next.begin());
     result.texels.resize(found.size());

@@ -21,7 +21,7 @@ struct UvTriangles {
 };
 
 // A point of a triangle: corner 0 + (corner 1 - corner 0) * b1 + (corner 2 - corner 0) * b2.
-struct UvPlace {
+struct UvSample {
     std::uint32_t triangle = 0;
     float b1 = 0, b2 = 0;
     bool covers = false; // the triangle covers the texel's centre; otherwise it only touches the texel, and
@@ -31,17 +31,17 @@ struct UvPlace {
 
 // What the raster works with. It stays with the result, so that a result that is used again takes no new memory.
 template<class Texel> struct UvScratch {
-    std::vector<std::pair<Texel, UvPlace>> found; // in the order in which they were found
-    std::vector<std::uint8_t> taken, twice;       // texels that have their place, and those that have two
-    std::vector<std::uint32_t> next;              // where in the result the next of a group goes
-    std::vector<std::uint32_t> orders, sorted;    // number of the triangle, beside `found` and beside the result
+    std::vector<std::pair<Texel, UvSample>> found; // in the order in which they were found
+    std::vector<std::uint8_t> taken, twice;        // texels that have their place, and those that have two
+    std::vector<std::uint32_t> next;               // where in the result the next of a group goes
+    std::vector<std::uint32_t> orders, sorted;     // number of the triangle, beside `found` and beside the result
 };
 
 // The places of one row of texels: those of texel x are places[first[x]] to places[first[x + 1] - 1],
 // in the order of the triangles. Triangles that share an edge never both cover a centre on it.
 struct UvRow {
     std::vector<std::uint32_t> first; // width + 1
-    std::vector<UvPlace> places;
+    std::vector<UvSample> places;
     UvScratch<int> scratch; // no part of the result
 };
 
@@ -57,7 +57,7 @@ enum class UvReach {
 struct UvFew {
     std::size_t most = SIZE_MAX; // of each texel, at least 1; of more, some that are spread over the list of triangles;
                                  // of 1 the first
-    std::function<bool(const UvPlace&)> counts{}; // others are left out; may be empty: all count
+    std::function<bool(const UvSample&)> counts{}; // others are left out; may be empty: all count
 };
 
 // Texels of a row whose centres a triangle covers, `last` included.
@@ -71,7 +71,7 @@ struct UvSpan {
 // of 4 x 4, so that sixteen in a row are close to one another, and in a square triangle by triangle.
 struct UvFirsts {
     std::vector<glm::ivec2> texels; // beside places
-    std::vector<UvPlace> places;
+    std::vector<UvSample> places;
     std::vector<glm::ivec2> again; // texels whose centre another triangle covers too, once
     UvScratch<glm::ivec2> scratch; // no part of the result
 };

@@ -13,8 +13,8 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "files/account.hpp"
 #include "files/extension.hpp"
+#include "files/file_registry.hpp"
 #include "files/sandbox/spawn.hpp"
 
 namespace cotan {

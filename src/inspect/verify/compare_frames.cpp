@@ -12,11 +12,11 @@ namespace cotan {
 
 namespace {
 
-Result<Image> drawn(Painter& painter, View view, Frame frame, Output output)
+Result<Image> drawn(Renderer& renderer, View view, Frame frame, Output output)
 {
     view.frame = frame;
     view.output = output;
-    return painter.draw(view);
+    return renderer.draw(view);
 }
 
 std::string verdictOf(double tOpposed, double bOpposed)
@@ -35,7 +35,7 @@ std::string verdictOf(double tOpposed, double bOpposed)
 
 bool showsNormalMaps(const Scene& scene, const View& view) { return drawsNormalMaps(scene) && view.normalMaps; }
 
-Result<ComparedFrames> compareFrames(Painter& painter, const Scene& scene, View view, std::array<Frame, 2> frames)
+Result<ComparedFrames> compareFrames(Renderer& renderer, const Scene& scene, View view, std::array<Frame, 2> frames)
 {
     std::array<Image, 2> shaded, normal, tangent, bitangent;
     for (std::size_t k = 0; k < 2; ++k)
@@ -43,7 +43,7 @@ Result<ComparedFrames> compareFrames(Painter& painter, const Scene& scene, View 
                                       {Output::normal, &normal},
                                       {Output::tangent, &tangent},
                                       {Output::bitangent, &bitangent}}) {
-            auto picture = drawn(painter, view, frames[k], output);
+            auto picture = drawn(renderer, view, frames[k], output);
             if (!picture)
                 return picture.error();
             (*images)[k] = std::move(*picture);
@@ -65,12 +65,12 @@ std::string toText(const ComparedFrames& c)
     return c.mapped ? toText(c.normals) : fmt::format("nothing was compared: {}", kNoNormalMap);
 }
 
-Result<FrameError> errorAgainstExact(Painter& painter, const Scene& scene, View view)
+Result<FrameError> errorAgainstExact(Renderer& renderer, const Scene& scene, View view)
 {
-    const auto normals = drawn(painter, view, view.frame, Output::normal);
+    const auto normals = drawn(renderer, view, view.frame, Output::normal);
     if (!normals)
         return normals.error();
-    const auto exact = drawn(painter, view, Frame::exact, Output::normal);
+    const auto exact = drawn(renderer, view, Frame::exact, Output::normal);
     if (!exact)
         return exact.error();
     const auto degrees = mappedAngles(anglesBetween(*normals, *exact), showsNormalMaps(scene, view));

@@ -1,4 +1,4 @@
-// What both ways to verify share: a painter that looks at a scene, the view that is drawn, and the comparison.
+// What both ways to verify share: a renderer that looks at a scene, the view that is drawn, and the comparison.
 #pragma once
 
 #include "bake/bake_surfaces.hpp"
@@ -9,18 +9,18 @@
 
 namespace cotan {
 
-// Lets the painter look at a scene while it lives.
+// Lets the renderer look at a scene while it lives.
 class ShownScene {
 public:
-    ShownScene(Painter& painter, const Scene& scene) : painter_(painter), status_(painter.load(scene)) {}
-    ~ShownScene() { painter_.forget(); }
+    ShownScene(Renderer& renderer, const Scene& scene) : renderer_(renderer), status_(renderer.load(scene)) {}
+    ~ShownScene() { renderer_.forget(); }
     ShownScene(const ShownScene&) = delete;
     ShownScene& operator=(const ShownScene&) = delete;
 
     const Status& status() const { return status_; }
 
 private:
-    Painter& painter_;
+    Renderer& renderer_;
     Status status_;
 };
 

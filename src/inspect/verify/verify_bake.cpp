@@ -15,18 +15,18 @@ namespace {
 
 constexpr double kQuarter = 1.5707963; // radians
 
-constexpr double kMostOthers = 0.01; // of a view's pixels
+constexpr double kMaxOthers = 0.01; // of a view's pixels
 
 } // namespace
 
 bool showsHighSurface(const ComparedViews& compared)
 {
     return std::none_of(compared.views.begin(), compared.views.end(), [](const ComparedView& view) {
-        return double(view.others) > kMostOthers * double(view.pixels);
+        return double(view.others) > kMaxOthers * double(view.pixels);
     });
 }
 
-Result<ComparedViews> verifyBake(Painter& painter, const BakeToVerify& bake, int side)
+Result<ComparedViews> verifyBake(Renderer& renderer, const BakeToVerify& bake, int side)
 {
     if (bake.material < -1 || bake.material >= int(bake.scene.materials.size()))
         return usageError(fmt::format("verify: expected a material from -1 to {}; found {}",
@@ -34,14 +34,14 @@ Result<ComparedViews> verifyBake(Painter& painter, const BakeToVerify& bake, int
     Scene scene = bake.scene;
     putNormalMap(scene, bake.map, bake.format, bake.material);
     deriveVertexFrames(scene, bake.options.frame, bake.tangents);
-    const ShownScene shown(painter, scene);
+    const ShownScene shown(renderer, scene);
     if (!shown.status())
         return shown.status().error();
     const Camera front = fitCamera(bounds(scene), side, side);
     ViewComparison comparison(/*mapped*/ true);
     for (int k = 0; k < kBakeViews; ++k) {
         const View view = normalView(turnedAbout(front, k * kQuarter), bake.options.frame, side);
-        const auto drawn = painter.draw(view);
+        const auto drawn = renderer.draw(view);
         if (!drawn)
             return drawn.error();
         const auto seen = seeHigh(bake.low, bake.high, bake.options, view);

@@ -31,9 +31,9 @@ bool showsHighSurface(const ComparedViews& compared);
 
 // Draws kBakeViews of the scene with the map and compares. In the result `drawn` is the scene with the map, `expected`
 // the high surface itself, as rays from the eye meet it; the degrees compare the pixels of the low surface with those
-// normals of the high one that belong there (seeHigh). side: of a picture, in pixels. The painter has no scene
-// afterwards. Errors: those of Painter::load, Painter::draw and seeHigh; ErrorKind::usage for a material that the scene
-// does not have.
-Result<ComparedViews> verifyBake(Painter& painter, const BakeToVerify& bake, int side = kBakeSide);
+// normals of the high one that belong there (seeHigh). side: of a picture, in pixels. The renderer has no scene
+// afterwards. Errors: those of Renderer::load, Renderer::draw and seeHigh; ErrorKind::usage for a material that the
+// scene does not have.
+Result<ComparedViews> verifyBake(Renderer& renderer, const BakeToVerify& bake, int side = kBakeSide);
 
 } // namespace cotan

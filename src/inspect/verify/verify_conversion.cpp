@@ -28,17 +28,17 @@ std::vector<Camera> camerasAround(const Scene& scene, int side)
 
 } // namespace
 
-Result<DrawnSides> drawSides(Painter& painter, ModelInFrame model, std::vector<Camera> cameras, int side)
+Result<DrawnSides> drawSides(Renderer& renderer, ModelInFrame model, std::vector<Camera> cameras, int side)
 {
     DrawnSides sides;
     sides.mapped = drawsNormalMaps(model.scene);
     sides.cameras = cameras.empty() ? camerasAround(model.scene, side) : std::move(cameras);
     deriveVertexFrames(model.scene, model.frame, model.tangents);
-    const ShownScene shown(painter, model.scene);
+    const ShownScene shown(renderer, model.scene);
     if (!shown.status())
         return shown.status().error();
     for (const Camera& camera : sides.cameras) {
-        auto image = painter.draw(normalView(camera, model.frame, side));
+        auto image = renderer.draw(normalView(camera, model.frame, side));
         if (!image)
             return image.error();
         sides.normals.push_back(std::move(*image));
@@ -62,12 +62,12 @@ Result<ComparedViews> compareSides(const DrawnSides& before, const DrawnSides& a
     return comparison.finish();
 }
 
-Result<ComparedViews> verifyConversion(Painter& painter, ModelInFrame before, ModelInFrame after, int side)
+Result<ComparedViews> verifyConversion(Renderer& renderer, ModelInFrame before, ModelInFrame after, int side)
 {
-    const auto first = drawSides(painter, std::move(before), {}, side);
+    const auto first = drawSides(renderer, std::move(before), {}, side);
     if (!first)
         return first.error();
-    const auto second = drawSides(painter, std::move(after), first->cameras, side);
+    const auto second = drawSides(renderer, std::move(after), first->cameras, side);
     if (!second)
         return second.error();
     return compareSides(*first, *second);

@@ -25,7 +25,7 @@ struct FacetPoint {
     std::uint32_t seed = 0;     // of the random numbers
 };
 
-// Linear radiance towards the eye of what lights and, where the view has them, the surroundings give, by one of
+// Linear radiance towards the eye of what lights and, where the view has one, the environment give, by one of
 // View::normalMapping's ways but `shading`: the mean of 64 walks. Emission is not in it.
 // A direction to the eye below the surface counts as one along it.
 glm::vec3 radianceByRays(const FacetPoint& point, const View& view, const std::vector<ArrivingLight>& lights);

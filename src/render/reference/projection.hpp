@@ -9,7 +9,7 @@
 namespace cotan::reference {
 
 // toRaster takes a position relative to the origin (world axes) to (x*w, y*w, z*w, w), where x and
-// y are pixels from the first raster row's first corner and z is nearness: 1 at the near plane,
+// y are pixels from the first raster row's first corner and z is reversed depth: 1 at the near plane,
 // falling with distance, linear over the picture.
 //   perspective   w is the distance along the view axis, z = near/w
 //   orthographic  w = 1, z = 1 - distance/far

@@ -27,7 +27,7 @@ struct Plane {
 struct RasterTriangle {
     std::array<glm::ivec2, 3> corner; // 1/256 pixel; clockwise in a raster whose y points down
     std::array<Plane, 3> weight;      // weight of each vertex, times 1/w
-    Plane z;                          // nearness
+    Plane z;                          // reversed depth
     std::uint32_t draw = 0;           // what it belongs to: an index of the caller's
     std::array<std::uint32_t, 3> vertex{};
     bool front = true; // the side that faces the camera

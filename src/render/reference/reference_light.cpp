@@ -49,7 +49,7 @@ glm::vec3 reflected(const f32::cotan_surface& surface, const Layers& layers, glm
     return layers.sheen ? f32::cotan_reflect_sheen(*layers.sheen, surface.n, surface.v, toLight, light) : light;
 }
 
-glm::vec3 surroundings(const f32::cotan_surface& surface, const Layers& layers, const View& view)
+glm::vec3 environmentLight(const f32::cotan_surface& surface, const Layers& layers, const View& view)
 {
     const f32::cotan_gloss gloss = layers.gloss.value_or(f32::cotan_plain_gloss());
     const glm::vec3 light = view.environmentMap ? reflectedGlossy(*view.environmentMap, surface, gloss)
@@ -145,8 +145,8 @@ glm::vec3 radianceOf(const f32::cotan_surface& surface, const Layers& layers, co
             arrivals);
     if (view.environment) {
         if (!rays)
-            radiance +=
-                meanOfTaps(surface, point, [&](const f32::cotan_surface& s) { return surroundings(s, layers, view); });
+            radiance += meanOfTaps(surface, point,
+                                   [&](const f32::cotan_surface& s) { return environmentLight(s, layers, view); });
         if (layers.coat)
             fromCoat += surface.occlusion
                 * (view.environmentMap ? reflectedOfCoat(*view.environmentMap, *layers.coat, surface.v)

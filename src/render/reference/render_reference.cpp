@@ -98,7 +98,7 @@ void drawQuad(const Scene& scene, const PixelInputs& all, const Frozen& f, const
 }
 
 // Samples that are lit one by one are drawn as pictures of one sample.
-bool oneByOne(const View& view) { return view.output == Output::shaded && view.samples > kMostSharedSamples; }
+bool oneByOne(const View& view) { return view.output == Output::shaded && view.samples > kMaxSharedSamples; }
 
 // Calls store(x, y, value) for the pixels of a tile, x and y in the upright picture.
 template<class Store>
@@ -183,7 +183,7 @@ Result<Image> renderReference(const Scene& scene, const View& view, int threads,
     try {
         return withThreads(threads, [&] { return draw(scene, view, progress); });
     } catch (const TooManyLayers&) {
-        return unavailableError("reference renderer: more than " + std::to_string(kMostLayers)
+        return unavailableError("reference renderer: more than " + std::to_string(kMaxLayers)
                                 + " translucent fragments in a tile of 32x32 pixels");
     } catch (const std::bad_alloc&) {
         return unavailableError("reference renderer: not enough memory for this scene and size");

@@ -59,7 +59,7 @@ void ShadowPass::drawQuad(const RasterTriangle& triangle, const Quad& quad) cons
             continue;
         int x = quad.x + (lane & 1), y = quad.y + (lane >> 1);
         float z = float(triangle.z.at(x + 0.5, y + 0.5));
-        float& stored = map.nearness[std::size_t(y) * std::size_t(map.size) + std::size_t(x)];
+        float& stored = map.reversedDepth[std::size_t(y) * std::size_t(map.size) + std::size_t(x)];
         if (!(z > stored))
             continue;
         const auto alpha = [&] { return baseColorOf({&view, &draw, &material, &maps, &triangle}, points, lane).w; };
@@ -87,7 +87,7 @@ void ShadowPass::drawBlock(const TiledTriangles& tiled, std::span<const std::uin
             order.emplace_back(nearestIn(tiled.triangles[index].z, block), index);
     std::sort(order.begin(), order.end(), std::greater<>());
     const auto farthest = [&] {
-        float least = map.nearness[std::size_t(block.y0) * std::size_t(map.size) + std::size_t(block.x0)];
+        float least = map.reversedDepth[std::size_t(block.y0) * std::size_t(map.size) + std::size_t(block.x0)];
         for (int y = block.y0; y < block.y1; ++y)
             for (int x = block.x0; x < block.x1; ++x)
                 least = std::min(least, map.at(x, y));
@@ -135,7 +135,7 @@ ShadowMap makeShadowMap(const Scene& scene, const View& view, const std::vector<
     ShadowMap map;
     map.size = kShadowTexels;
     map.projection = shadowProjection(glm::dvec3(direction), ball, origin, map.size);
-    map.nearness.assign(std::size_t(map.size) * std::size_t(map.size), 0.0f);
+    map.reversedDepth.assign(std::size_t(map.size) * std::size_t(map.size), 0.0f);
     map.texel = float(2 * ball.radius / (map.size - 2));
     map.depthUnit = float(0.5 / (ball.radius * 1.01));
     TiledTriangles tiled = setUpTriangles(scene, draws, map.projection, Cull::nothing);
@@ -186,7 +186,7 @@ float softLightReaching(const ShadowMap& map, glm::vec3 position, glm::vec3 n, g
     const float edge = float(map.size);
     if (!(p.x > 0 && p.y > 0 && p.x < edge && p.y < edge))
         return 1;
-    // All in texels. How nearness on the plane through the point changes from texel to texel.
+    // All in texels. How reversed depth on the plane through the point changes from texel to texel.
     const float nearer = map.texel * map.depthUnit / std::max(cosine, 0.2f);
     const glm::vec2 slope =
         glm::vec2(glm::dot(n, glm::vec3(map.projection.right)), -glm::dot(n, glm::vec3(map.projection.up))) * -nearer;
@@ -209,9 +209,9 @@ float softLightReaching(const ShadowMap& map, glm::vec3 position, glm::vec3 n, g
     const float reach = f32::cotan_penumbra(1 - float(p.z), widening, 2, most);
     for (int i = 0; i < COTAN_SHADOW_SEARCH; ++i) {
         const glm::vec2 offset = direction * (reach * f32::cotan_tap_radius(i, COTAN_SHADOW_SEARCH));
-        visit(middle + offset, [&](float nearness, float) {
-            if (nearness > receiver + glm::dot(slope, offset))
-                sum += nearness, ++count;
+        visit(middle + offset, [&](float reversedDepth, float) {
+            if (reversedDepth > receiver + glm::dot(slope, offset))
+                sum += reversedDepth, ++count;
         });
         direction = f32::cotan_next_tap(direction);
     }
@@ -221,8 +221,8 @@ float softLightReaching(const ShadowMap& map, glm::vec3 position, glm::vec3 n, g
     float arriving = 0;
     for (int i = 0; i < COTAN_SHADOW_TAPS; ++i) {
         const glm::vec2 offset = direction * (radius * f32::cotan_tap_radius(i, COTAN_SHADOW_TAPS));
-        visit(middle + offset, [&](float nearness, float weight) {
-            arriving += nearness > receiver + glm::dot(slope, offset) ? 0 : weight;
+        visit(middle + offset, [&](float reversedDepth, float weight) {
+            arriving += reversedDepth > receiver + glm::dot(slope, offset) ? 0 : weight;
         });
         direction = f32::cotan_next_tap(direction);
     }

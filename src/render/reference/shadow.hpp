@@ -11,12 +11,12 @@ namespace cotan::reference {
 
 struct ShadowMap {
     Projection projection;
-    int size = 0;                // texels a side; 0: no map, everything is lit
-    std::vector<float> nearness; // of what the light meets first; rows first
-    float texel = 0;             // world units a texel
-    float depthUnit = 0;         // nearness of one world unit along the light
+    int size = 0;                     // texels a side; 0: no map, everything is lit
+    std::vector<float> reversedDepth; // of what the light meets first; rows first
+    float texel = 0;                  // world units a texel
+    float depthUnit = 0;              // reversed depth of one world unit along the light
 
-    float at(int x, int y) const { return nearness[std::size_t(y) * std::size_t(size) + std::size_t(x)]; }
+    float at(int x, int y) const { return reversedDepth[std::size_t(y) * std::size_t(size) + std::size_t(x)]; }
 };
 
 // Draws the scene as the light sees it, 2048 texels a side, fitted to the ball. Masked materials

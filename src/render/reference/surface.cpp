@@ -207,7 +207,7 @@ void addTurn(SurfaceNormal& result, const SurfaceInputs& in, const QuadPoints& q
 }
 
 // What a texel of a normal map adds: mips keep the length of their means in the fourth channel.
-float spreadOf(const View& view, glm::vec4 texel)
+float summaryOf(const View& view, glm::vec4 texel)
 {
     return view.specularAntialiasing ? f32::cotan_spread_of_length(texel.w) : 0;
 }
@@ -265,7 +265,7 @@ SurfaceNormal normalOf(const SurfaceInputs& in, const QuadPoints& quad, int lane
     if (result.mapped) {
         glm::vec4 texel = sample(*in.maps->normal, material.normalMap.sampler, uv, view.pointSampled);
         const glm::vec3 m = f32::cotan_decode(glm::vec3(texel), formatOf(in));
-        result.spread += spreadOf(view, texel);
+        result.spread += summaryOf(view, texel);
         // `mikktspace` hands back its interpolated normal where the texel is empty: not unit.
         result.finished = f32::cotan_normalize_or(f32::cotan_apply(frame, m), n);
         result.texel = f32::cotan_normalize_or(m, glm::vec3(0, 0, 1));
@@ -296,7 +296,7 @@ std::vector<LitTap> tapsOf(const SurfaceInputs& in, const QuadPoints& quad, int 
         glm::vec3 n = f32::cotan_normalize_or(f32::cotan_apply(normal.frame, m), normal.interpolated);
         n = f32::cotan_normalize_or(n + normal.turnX * at.x + normal.turnY * at.y, n);
         taps[std::size_t(i)] = {in.triangle->front ? n : -n,
-                                f32::cotan_roughness_of_spread(roughness, turn + spreadOf(*in.view, texel))};
+                                f32::cotan_roughness_of_spread(roughness, turn + summaryOf(*in.view, texel))};
     }
     return taps;
 }
@@ -320,7 +320,7 @@ CoatNormal coatNormalOf(const SurfaceInputs& in, const QuadPoints& quad, int lan
         const auto format = toFormat<f32::cotan_normal_format>(in.material->coat.normalFormat, chain->image->type,
                                                                double(in.material->coat.normalScale));
         coat.n = f32::cotan_normalize_or(f32::cotan_apply(frame, f32::cotan_decode(glm::vec3(texel), format)), coat.n);
-        coat.spread += spreadOf(*in.view, texel);
+        coat.spread += summaryOf(*in.view, texel);
     }
     if (!in.triangle->front)
         coat.n = -coat.n;

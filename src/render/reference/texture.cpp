@@ -115,7 +115,7 @@ TextureLibrary makeTextures(const Scene& scene, const View& view)
 {
     TextureLibrary library;
     bool levels = !view.pointSampled, shaded = view.output == Output::shaded;
-    const float apart = shaded && view.samples > kMostSharedSamples ? kPlacesApart : 1;
+    const float apart = shaded && view.samples > kMaxSharedSamples ? kPlacesApart : 1;
     for (const Material& m : scene.materials) {
         auto get = [&](const Texture& texture, Content content, Convention format = {}) {
             return chainOf(library, scene, texture, content, format, levels, apart);

@@ -11,7 +11,7 @@ namespace {
 
 // Nearness at a sample. Rounded to float as a depth buffer is, so that equal surfaces tie and the
 // first one drawn stays.
-float nearnessAt(const Plane& z, int x, int y, glm::ivec2 offset)
+float reversedDepthAt(const Plane& z, int x, int y, glm::ivec2 offset)
 {
     return float(z.at(x + offset.x / double(kSubPixels), y + offset.y / double(kSubPixels)));
 }
@@ -22,7 +22,7 @@ Tile::Tile(Rectangle area, int samples) : area_(area), samples_(samples)
 {
     std::size_t count = std::size_t(area.x1 - area.x0) * std::size_t(area.y1 - area.y0) * std::size_t(samples);
     value_.assign(count, glm::vec4(0));
-    nearness_.assign(count, -1.0f);
+    reversedDepth_.assign(count, -1.0f);
 }
 
 std::size_t Tile::at(int x, int y) const
@@ -35,7 +35,7 @@ unsigned Tile::nearer(int x, int y, unsigned covered, const Plane& z, const Samp
 {
     unsigned passed = 0;
     for (std::size_t s = 0; s < std::size_t(samples_); ++s)
-        if ((covered >> s & 1) && nearnessAt(z, x, y, pattern.offset[s]) > nearness_[at(x, y) + s])
+        if ((covered >> s & 1) && reversedDepthAt(z, x, y, pattern.offset[s]) > reversedDepth_[at(x, y) + s])
             passed |= 1u << s;
     return passed;
 }
@@ -46,14 +46,14 @@ void Tile::write(int x, int y, unsigned samples, glm::vec4 value, const Plane& z
         if (!(samples >> s & 1))
             continue;
         value_[at(x, y) + s] = value;
-        nearness_[at(x, y) + s] = nearnessAt(z, x, y, pattern.offset[s]);
+        reversedDepth_[at(x, y) + s] = reversedDepthAt(z, x, y, pattern.offset[s]);
     }
 }
 
 void Tile::blend(int x, int y, unsigned samples, glm::vec4 value, glm::vec3 through, const Plane& z,
                  const SamplePattern& pattern)
 {
-    if (layers_.size() == kMostLayers)
+    if (layers_.size() == kMaxLayers)
         throw TooManyLayers{};
     const auto samplesOfPixel = std::size_t(samples_);
     if (newest_.empty())
@@ -61,7 +61,7 @@ void Tile::blend(int x, int y, unsigned samples, glm::vec4 value, glm::vec3 thro
     std::uint32_t& newest = newest_[at(x, y) / samplesOfPixel];
     Layer layer{glm::vec3(value) * value.w, through, {}, samples, newest};
     for (std::size_t s = 0; s < samplesOfPixel; ++s)
-        layer.nearness[s] = nearnessAt(z, x, y, pattern.offset[s]);
+        layer.reversedDepth[s] = reversedDepthAt(z, x, y, pattern.offset[s]);
     newest = std::uint32_t(layers_.size());
     layers_.push_back(layer);
 }
@@ -87,7 +87,7 @@ glm::vec4 Tile::resolve(int x, int y) const
     for (std::size_t s = 0; s < std::size_t(samples_); ++s) {
         // Their addresses are in the order in which they were added.
         std::sort(layers.begin(), layers.end(), [&](const Layer* a, const Layer* b) {
-            return a->nearness[s] != b->nearness[s] ? a->nearness[s] < b->nearness[s] : a < b;
+            return a->reversedDepth[s] != b->reversedDepth[s] ? a->reversedDepth[s] < b->reversedDepth[s] : a < b;
         });
         glm::vec3 light(value_[at(x, y) + s]), through(1);
         for (const Layer* layer : layers) // farthest first

@@ -13,11 +13,11 @@
 namespace cotan::reference {
 
 // Of a tile: 1024 for each pixel, 48 MiB.
-inline constexpr std::size_t kMostLayers = std::size_t(1) << 20;
+inline constexpr std::size_t kMaxLayers = std::size_t(1) << 20;
 
 struct TooManyLayers {};
 
-// Colour and nearness of every sample of an area. Values are linear; alpha is coverage, and
+// Colour and reversed depth of every sample of an area. Values are linear; alpha is coverage, and
 // colours are premultiplied by it, as they are in a render target after blending.
 class Tile {
 public:
@@ -26,13 +26,13 @@ public:
     // The samples of `covered` for which z passes: nearer than what is there.
     unsigned nearer(int x, int y, unsigned covered, const Plane& z, const SamplePattern& pattern) const;
 
-    // Replaces the samples and their nearness.
+    // Replaces the samples and their reversed depth.
     void write(int x, int y, unsigned samples, glm::vec4 value, const Plane& z, const SamplePattern& pattern);
 
     // Adds a translucent layer to the samples: nothing that is written later may be behind it. Layers are
-    // composed in `resolve`, by nearness; of equally near ones the later is in front.
+    // composed in `resolve`, by reversed depth; of equally near ones the later is in front.
     // through: factors of what is behind, by colour.
-    // Throws TooManyLayers over kMostLayers.
+    // Throws TooManyLayers over kMaxLayers.
     void blend(int x, int y, unsigned samples, glm::vec4 value, glm::vec3 through, const Plane& z,
                const SamplePattern& pattern);
 
@@ -46,7 +46,7 @@ private:
     struct Layer {
         glm::vec3 light{0}; // times what it covers
         glm::vec3 through{0};
-        std::array<float, 4> nearness{}; // of each sample
+        std::array<float, 4> reversedDepth{}; // of each sample
         unsigned samples = 0;
         std::uint32_t before = 0; // the pixel's layer that was added before, kNone if none
     };
@@ -58,7 +58,7 @@ private:
     Rectangle area_;
     int samples_;
     std::vector<glm::vec4> value_;
-    std::vector<float> nearness_;
+    std::vector<float> reversedDepth_;
     std::vector<Layer> layers_;
     std::vector<std::uint32_t> newest_; // of each pixel; empty before the first layer
 };

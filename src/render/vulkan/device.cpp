@@ -236,7 +236,7 @@ std::string reason(const std::exception& e)
     return text;
 }
 
-Result<std::unique_ptr<Device>> openDevice(const RendererOptions& options)
+Result<std::unique_ptr<Device>> openDevice(const VulkanRendererOptions& options)
 {
     try {
         auto d = std::make_unique<Device>();

@@ -35,7 +35,7 @@ struct Device {
     bool filterable32 = false;      // 32-bit float textures can be filtered
 };
 
-Result<std::unique_ptr<Device>> openDevice(const RendererOptions& options);
+Result<std::unique_ptr<Device>> openDevice(const VulkanRendererOptions& options);
 
 // One line for what went wrong, from any exception of the Vulkan bindings.
 std::string reason(const std::exception& e);

@@ -23,7 +23,7 @@ vk::Rect2D rectangle(const PixelArea& a)
 }
 
 // What of the picture the lists may cover.
-void Drawer::setAreas(DrawLists& lists, const View& view, const gpu::CotanView& constants) const
+void CommandRecorder::setAreas(DrawLists& lists, const View& view, const gpu::CotanView& constants) const
 {
     const auto areaOfItems = [&](const std::vector<Item>& items) {
         PixelArea all;
@@ -35,7 +35,7 @@ void Drawer::setAreas(DrawLists& lists, const View& view, const gpu::CotanView& 
     lists.area = around(around(areaOfItems(lists.opaque), areaOfItems(lists.mask)), lists.translucentArea);
 }
 
-PipelineKey Drawer::backgroundKey(const View& view) const
+PipelineKey CommandRecorder::backgroundKey(const View& view) const
 {
     const PipelineKey picture = forwardKey(view, *targets_);
     PipelineKey key;
@@ -49,7 +49,7 @@ PipelineKey Drawer::backgroundKey(const View& view) const
     return key;
 }
 
-PipelineKey Drawer::surroundKey(const View& view) const
+PipelineKey CommandRecorder::surroundKey(const View& view) const
 {
     PipelineKey key = backgroundKey(view);
     key.pass = Pass::surround;
@@ -60,7 +60,7 @@ PipelineKey Drawer::surroundKey(const View& view) const
 }
 
 // The background around an area, straight into the resolved picture: there all samples of a pixel are the same.
-void Drawer::recordSurround(const vk::raii::CommandBuffer& commands, const View& view, const PixelArea& inside)
+void CommandRecorder::recordSurround(const vk::raii::CommandBuffer& commands, const View& view, const PixelArea& inside)
 {
     targets_->beginSurround(commands);
     if (view.background || view.ground) {

@@ -1,4 +1,4 @@
-// Pictures of light on the device: the surroundings, the ground.
+// Pictures of light on the device: the environment, the ground.
 #include <array>
 #include <span>
 #include <utility>

@@ -6,7 +6,7 @@
 
 namespace cotan {
 
-void Drawer::prepareLayers()
+void CommandRecorder::prepareLayers()
 {
     const std::uint32_t width = targets_->kind().width;
     if (layers_ && layers_->width() == width)
@@ -15,7 +15,7 @@ void Drawer::prepareLayers()
     layers_ = std::make_unique<LayerLists>(*device_, width);
 }
 
-PipelineKey Drawer::layersKey(const View& view) const
+PipelineKey CommandRecorder::layersKey(const View& view) const
 {
     PipelineKey key = forwardKey(view, *targets_);
     key.pass = Pass::layers;
@@ -23,7 +23,7 @@ PipelineKey Drawer::layersKey(const View& view) const
     return key;
 }
 
-PipelineKey Drawer::composeKey() const
+PipelineKey CommandRecorder::composeKey() const
 {
     PipelineKey key;
     key.pass = Pass::compose;
@@ -33,8 +33,8 @@ PipelineKey Drawer::composeKey() const
 }
 
 // Draws the translucent fragments of a band into their lists; returns how many there are.
-std::uint32_t Drawer::keepLayers(const GpuScene& scene, const DrawLists& lists, const View& view,
-                                 const vk::Rect2D& band)
+std::uint32_t CommandRecorder::keepLayers(const GpuScene& scene, const DrawLists& lists, const View& view,
+                                          const vk::Rect2D& band)
 {
     const vk::raii::CommandBuffer& commands = begin();
     layers_->clear(commands, static_cast<std::uint32_t>(band.offset.y), band.extent.height);
@@ -48,7 +48,7 @@ std::uint32_t Drawer::keepLayers(const GpuScene& scene, const DrawLists& lists, 
 
 // Lays the lists of a band over the picture, one sample after the other: so they need no device that
 // shades each sample.
-void Drawer::composeLayers(const vk::Rect2D& band)
+void CommandRecorder::composeLayers(const vk::Rect2D& band)
 {
     const PipelineKey key = composeKey();
     const vk::raii::CommandBuffer& commands = begin();
@@ -63,11 +63,11 @@ void Drawer::composeLayers(const vk::Rect2D& band)
 }
 
 // The picture in bands of rows that are low enough for their layers to find room.
-Status Drawer::drawLayers(const GpuScene& scene, const DrawLists& lists, const View& view)
+Status CommandRecorder::drawLayers(const GpuScene& scene, const DrawLists& lists, const View& view)
 {
     const PixelArea& area = lists.translucentArea;
     const auto width = static_cast<std::uint32_t>(area.x1 - area.x0), end = static_cast<std::uint32_t>(area.y1);
-    std::uint32_t rows = layers_->mostRows();
+    std::uint32_t rows = layers_->maxRows();
     for (auto top = static_cast<std::uint32_t>(area.y0); top < end && width > 0;) {
         const std::uint32_t height = std::min(rows, end - top);
         const vk::Rect2D band({area.x0, std::int32_t(top)}, {width, height});

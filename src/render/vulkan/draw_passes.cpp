@@ -70,7 +70,7 @@ PipelineKey forwardKey(const View& view, const Targets& targets)
         key.environmentMap = view.environment && view.environmentMap;
         key.shadows = castsShadow(view);
         key.specularAntialiasing = view.specularAntialiasing;
-        key.separateSamples = view.samples > kMostSharedSamples;
+        key.separateSamples = view.samples > kMaxSharedSamples;
         key.softShadows = key.shadows && view.shadowSoftness > 0;
         key.toneMap = !view.linearOutput;
         key.tone = view.linearOutput ? key.tone : view.toneMapping;
@@ -78,7 +78,7 @@ PipelineKey forwardKey(const View& view, const Targets& targets)
     return key;
 }
 
-Drawer::Drawer(const Device& device, const Layouts& layouts)
+CommandRecorder::CommandRecorder(const Device& device, const Layouts& layouts)
     : device_(&device), layouts_(&layouts), pipelines_(device, layouts), commands_(device), memory_(device)
 {
     viewBuffer_ = makeHostBuffer(device, memory_, sizeof(gpu::CotanView), vk::BufferUsageFlagBits::eUniformBuffer);
@@ -103,7 +103,8 @@ Drawer::Drawer(const Device& device, const Layouts& layouts)
     composeSet_ = allocateSet(device, pool_, layouts.picture);
 }
 
-Drawer::DrawLists Drawer::makeLists(const GpuScene& scene, const View& view, const CameraAxes& axes) const
+CommandRecorder::DrawLists CommandRecorder::makeLists(const GpuScene& scene, const View& view,
+                                                      const CameraAxes& axes) const
 {
     DrawLists lists;
     for (const GpuInstance& instance : scene.instances) {
@@ -133,7 +134,7 @@ Drawer::DrawLists Drawer::makeLists(const GpuScene& scene, const View& view, con
     return lists;
 }
 
-void Drawer::prepare(const View& view, const CameraAxes& axes, const gpu::CotanView& constants, bool layered)
+void CommandRecorder::prepare(const View& view, const CameraAxes& axes, const gpu::CotanView& constants, bool layered)
 {
     std::memcpy(viewBuffer_.mapped, &constants, sizeof constants);
     const std::vector<gpu::CotanLight> lights = lightConstants(view, axes);
@@ -156,7 +157,7 @@ void Drawer::prepare(const View& view, const CameraAxes& axes, const gpu::CotanV
 
 // Every descriptor names something, also where the picture has no layers and no shader looks: Mesa's CPU
 // driver (22.3) does.
-void Drawer::writePictureSet(bool layered)
+void CommandRecorder::writePictureSet(bool layered)
 {
     const vk::DescriptorBufferInfo view(*viewBuffer_.buffer, 0, VK_WHOLE_SIZE);
     const vk::DescriptorBufferInfo lights(*lightBuffer_.buffer, 0, VK_WHOLE_SIZE);
@@ -192,7 +193,7 @@ void Drawer::writePictureSet(bool layered)
           targets_->resolves() ? samples : environment);
 }
 
-void Drawer::drawItem(const vk::raii::CommandBuffer& commands, const GpuScene& scene, const Item& item) const
+void CommandRecorder::drawItem(const vk::raii::CommandBuffer& commands, const GpuScene& scene, const Item& item) const
 {
     const GpuMesh& mesh = *item.mesh;
     commands.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, layouts_->pipelineOf(item.material->extended()), 1,
@@ -208,7 +209,7 @@ void Drawer::drawItem(const vk::raii::CommandBuffer& commands, const GpuScene& s
 }
 
 // What draws that one in the pass of the key.
-PipelineKey Drawer::keyOf(PipelineKey key, const Item& item)
+PipelineKey CommandRecorder::keyOf(PipelineKey key, const Item& item)
 {
     key.extended = key.pass != Pass::shadow && item.material->extended();
     if (key.pass != Pass::shadow)
@@ -219,7 +220,7 @@ PipelineKey Drawer::keyOf(PipelineKey key, const Item& item)
 }
 
 // All that the picture will be drawn with, so that none waits for another.
-void Drawer::beginPipelines(const DrawLists& lists, const View& view, bool layered)
+void CommandRecorder::beginPipelines(const DrawLists& lists, const View& view, bool layered)
 {
     std::vector<PipelineKey> keys;
     const auto add = [&](const std::vector<Item>& items, PipelineKey key) {
@@ -249,8 +250,8 @@ void Drawer::beginPipelines(const DrawLists& lists, const View& view, bool layer
     pipelines_.begin(keys);
 }
 
-void Drawer::drawItems(const vk::raii::CommandBuffer& commands, const GpuScene& scene, const std::vector<Item>& items,
-                       PipelineKey key)
+void CommandRecorder::drawItems(const vk::raii::CommandBuffer& commands, const GpuScene& scene,
+                                const std::vector<Item>& items, PipelineKey key)
 {
     std::optional<PipelineKey> bound;
     for (const Item& item : items) {
@@ -266,7 +267,7 @@ void Drawer::drawItems(const vk::raii::CommandBuffer& commands, const GpuScene& 
 }
 
 // Draws the triangle that covers the picture.
-void Drawer::drawOver(const vk::raii::CommandBuffer& commands, const PipelineKey& key)
+void CommandRecorder::drawOver(const vk::raii::CommandBuffer& commands, const PipelineKey& key)
 {
     commands.bindPipeline(vk::PipelineBindPoint::eGraphics, pipelines_.get(key));
     commands.setCullMode(vk::CullModeFlagBits::eNone);
@@ -275,8 +276,8 @@ void Drawer::drawOver(const vk::raii::CommandBuffer& commands, const PipelineKey
 }
 
 // Everything that writes depth, and the background.
-void Drawer::recordPicture(const vk::raii::CommandBuffer& commands, const GpuScene& scene, const DrawLists& lists,
-                           const View& view)
+void CommandRecorder::recordPicture(const vk::raii::CommandBuffer& commands, const GpuScene& scene,
+                                    const DrawLists& lists, const View& view)
 {
     const PipelineKey key = forwardKey(view, *targets_);
     const bool shaded = view.output == Output::shaded;
@@ -288,7 +289,7 @@ void Drawer::recordPicture(const vk::raii::CommandBuffer& commands, const GpuSce
         drawItems(commands, scene, lists.translucent, key);
 }
 
-const vk::raii::CommandBuffer& Drawer::begin()
+const vk::raii::CommandBuffer& CommandRecorder::begin()
 {
     const vk::raii::CommandBuffer& commands = commands_.begin();
     commands.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, *layouts_->pipeline, 0, pictureSet_, {});

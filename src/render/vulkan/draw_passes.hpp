@@ -29,7 +29,7 @@ struct HeldPicture {
 };
 
 // What pictures share: constants, shadow map, targets; kept from one picture to the next.
-class Drawer {
+class CommandRecorder {
     // What a shadow map depends on, besides the scene.
     struct ShadowView {
         gpu::vec4 x, y, z;
@@ -38,7 +38,7 @@ class Drawer {
     };
 
 public:
-    Drawer(const Device& device, const Layouts& layouts);
+    CommandRecorder(const Device& device, const Layouts& layouts);
 
     Result<Image> draw(GpuScene& scene, const View& view, RenderTimings& timings);
     // What is kept of the scene before is of no use for the next one.

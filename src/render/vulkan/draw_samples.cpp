@@ -70,7 +70,7 @@ Image meanOf(const Image& sum, const View& view)
 
 } // namespace
 
-PipelineKey Drawer::resolveKey() const
+PipelineKey CommandRecorder::resolveKey() const
 {
     PipelineKey key;
     key.pass = Pass::resolve;
@@ -81,7 +81,7 @@ PipelineKey Drawer::resolveKey() const
 }
 
 // Resolves what was drawn in the area, and copies the picture.
-void Drawer::finish(const vk::raii::CommandBuffer& commands, const PixelArea& area)
+void CommandRecorder::finish(const vk::raii::CommandBuffer& commands, const PixelArea& area)
 {
     if (targets_->resolves()) {
         commands.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, *layouts_->pipeline, 0, composeSet_, {});
@@ -92,7 +92,8 @@ void Drawer::finish(const vk::raii::CommandBuffer& commands, const PixelArea& ar
     targets_->copy(commands);
 }
 
-Result<Image> Drawer::drawOnce(GpuScene& scene, const View& view, std::optional<int> sample, RenderTimings& timings)
+Result<Image> CommandRecorder::drawOnce(GpuScene& scene, const View& view, std::optional<int> sample,
+                                        RenderTimings& timings)
 {
     const CameraAxes axes = cameraAxes(view.camera);
     scene.setPointSampled(view.pointSampled);
@@ -132,7 +133,7 @@ Result<Image> Drawer::drawOnce(GpuScene& scene, const View& view, std::optional<
     return image;
 }
 
-Result<Image> Drawer::draw(GpuScene& scene, const View& view, RenderTimings& timings)
+Result<Image> CommandRecorder::draw(GpuScene& scene, const View& view, RenderTimings& timings)
 {
     if (const Status ok = checkLimits(*device_, view); !ok)
         return ok.error();
@@ -144,7 +145,7 @@ Result<Image> Drawer::draw(GpuScene& scene, const View& view, RenderTimings& tim
         targets_ = std::make_unique<Targets>(*device_, kind);
     }
     timings.draw = timings.readBack = 0;
-    if (view.output != Output::shaded || view.samples <= kMostSharedSamples)
+    if (view.output != Output::shaded || view.samples <= kMaxSharedSamples)
         return drawOnce(scene, view, std::nullopt, timings);
     Image sum = makeImage(view.width, view.height, PixelType::float32, "render");
     for (int sample = 0; sample < kPlaces; ++sample) {

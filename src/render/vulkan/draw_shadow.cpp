@@ -11,7 +11,7 @@ using Access = vk::AccessFlagBits2;
 } // namespace
 
 // A single texel where no shadow is wanted: the descriptor must exist all the same.
-void Drawer::prepareShadowMap(bool needed)
+void CommandRecorder::prepareShadowMap(bool needed)
 {
     const std::uint32_t side = needed ? kShadowSize : 1;
     if (shadowMap_.extent.width >= side)
@@ -28,8 +28,8 @@ void Drawer::prepareShadowMap(bool needed)
 }
 
 // Kept from one picture to the next, as long as it shows the same.
-void Drawer::recordShadow(const vk::raii::CommandBuffer& commands, const GpuScene& scene, const DrawLists& lists,
-                          const ShadowView& shown)
+void CommandRecorder::recordShadow(const vk::raii::CommandBuffer& commands, const GpuScene& scene,
+                                   const DrawLists& lists, const ShadowView& shown)
 {
     if (shadowDrawn_ == shown)
         return;

@@ -34,7 +34,7 @@ LayerLists::LayerLists(const Device& device, std::uint32_t width) : memory_(devi
     count_ = makeHostBuffer(device, memory_, sizeof(std::uint32_t), Usage::eTransferDst, /*readBack*/ true);
 }
 
-std::uint32_t LayerLists::mostRows() const
+std::uint32_t LayerLists::maxRows() const
 {
     const vk::DeviceSize pixels = (kListBytes - sizeof(gpu::CotanLayerLists)) / sizeof(std::uint32_t);
     return static_cast<std::uint32_t>(std::max<vk::DeviceSize>(pixels / width_, 1));

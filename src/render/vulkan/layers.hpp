@@ -12,7 +12,7 @@ public:
 
     std::uint32_t width() const { return width_; }
     // Rows that a band may have, at least 1.
-    std::uint32_t mostRows() const;
+    std::uint32_t maxRows() const;
     std::uint32_t capacity() const; // in layers
 
     const Buffer& lists() const { return lists_; }

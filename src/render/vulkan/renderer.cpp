@@ -8,10 +8,10 @@
 namespace cotan {
 
 // In the order of dependence: what is below is destroyed first.
-struct Renderer::State {
+struct VulkanRenderer::State {
     std::unique_ptr<Device> device;
     std::unique_ptr<Layouts> layouts;
-    std::unique_ptr<Drawer> drawer;
+    std::unique_ptr<CommandRecorder> drawer;
     std::unique_ptr<GpuScene> scene;
     RenderTimings timings;
 };
@@ -37,26 +37,26 @@ double secondsSince(std::chrono::steady_clock::time_point start)
 
 } // namespace
 
-Result<Renderer> Renderer::create(const RendererOptions& options)
+Result<VulkanRenderer> VulkanRenderer::create(const VulkanRendererOptions& options)
 {
-    return guarded<Renderer>("opening the device", [&]() -> Result<Renderer> {
+    return guarded<VulkanRenderer>("opening the device", [&]() -> Result<VulkanRenderer> {
         Result<std::unique_ptr<Device>> device = openDevice(options);
         if (!device)
             return device.error();
         auto state = std::make_unique<State>();
         state->device = std::move(*device);
         state->layouts = std::make_unique<Layouts>(*state->device);
-        state->drawer = std::make_unique<Drawer>(*state->device, *state->layouts);
-        return Renderer(std::move(state));
+        state->drawer = std::make_unique<CommandRecorder>(*state->device, *state->layouts);
+        return VulkanRenderer(std::move(state));
     });
 }
 
-Renderer::Renderer(std::unique_ptr<State> state) : state_(std::move(state)) {}
-Renderer::Renderer(Renderer&&) noexcept = default;
-Renderer& Renderer::operator=(Renderer&&) noexcept = default;
-Renderer::~Renderer() = default;
+VulkanRenderer::VulkanRenderer(std::unique_ptr<State> state) : state_(std::move(state)) {}
+VulkanRenderer::VulkanRenderer(VulkanRenderer&&) noexcept = default;
+VulkanRenderer& VulkanRenderer::operator=(VulkanRenderer&&) noexcept = default;
+VulkanRenderer::~VulkanRenderer() = default;
 
-Status Renderer::load(const Scene& scene, bool sameImages)
+Status VulkanRenderer::load(const Scene& scene, bool sameImages)
 {
     return guarded<Done>("uploading the scene", [&]() -> Status {
         if (const Status ok = checkTrianglesDrawn(scene); !ok)
@@ -71,7 +71,7 @@ Status Renderer::load(const Scene& scene, bool sameImages)
     });
 }
 
-Result<Image> Renderer::render(const View& view)
+Result<Image> VulkanRenderer::render(const View& view)
 {
     if (!state_->scene)
         if (const Status loaded = load(Scene{}); !loaded)
@@ -79,9 +79,9 @@ Result<Image> Renderer::render(const View& view)
     return guarded<Image>("drawing", [&] { return state_->drawer->draw(*state_->scene, view, state_->timings); });
 }
 
-const std::string& Renderer::deviceName() const { return state_->device->name; }
-const std::string& Renderer::driver() const { return state_->device->driver; }
-const RenderTimings& Renderer::timings() const { return state_->timings; }
-const std::vector<std::string>& Renderer::messages() const { return *state_->device->messages; }
+const std::string& VulkanRenderer::deviceName() const { return state_->device->name; }
+const std::string& VulkanRenderer::driver() const { return state_->device->driver; }
+const RenderTimings& VulkanRenderer::timings() const { return state_->timings; }
+const std::vector<std::string>& VulkanRenderer::messages() const { return *state_->device->messages; }
 
 } // namespace cotan

@@ -329,13 +329,13 @@ void GpuScene::loadMaterials(const Scene& scene, const Layouts& layouts, Uploade
 // does everything and asks at run time; those with extensions one of their own.
 void GpuScene::limitPipelines()
 {
-    constexpr std::size_t kMost = 4;
+    constexpr std::size_t kMax = 4;
     std::vector<std::uint32_t> sets;
     for (const GpuMesh& mesh : meshes)
         sets.push_back(materials[std::size_t(mesh.material)].maps);
     std::sort(sets.begin(), sets.end());
     sets.erase(std::unique(sets.begin(), sets.end()), sets.end());
-    if (sets.size() <= kMost)
+    if (sets.size() <= kMax)
         return;
     std::uint32_t all = COTAN_MAP_BASE_COLOR | COTAN_MAP_METALLIC_ROUGHNESS | COTAN_MAP_NORMAL | COTAN_MAP_OCCLUSION
         | COTAN_MAP_EMISSIVE;

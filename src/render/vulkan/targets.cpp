@@ -178,10 +178,10 @@ Targets::Kind targetKind(const Device& device, const View& view)
     kind.width = static_cast<std::uint32_t>(view.width);
     kind.height = static_cast<std::uint32_t>(view.height);
     const bool shaded = view.output == Output::shaded;
-    const bool levels = shaded && !view.linearOutput && view.samples <= kMostSharedSamples;
+    const bool levels = shaded && !view.linearOutput && view.samples <= kMaxSharedSamples;
     kind.format = levels ? vk::Format::eR16G16B16A16Sfloat : vk::Format::eR32G32B32A32Sfloat;
     kind.shown = levels ? vk::Format::eR8G8B8A8Unorm : kind.format;
-    if (shaded && view.samples > 1 && view.samples <= kMostSharedSamples) {
+    if (shaded && view.samples > 1 && view.samples <= kMaxSharedSamples) {
         const vk::SampleCountFlags can =
             device.physical
                 .getImageFormatProperties(kind.format, vk::ImageType::e2D, vk::ImageTiling::eOptimal,

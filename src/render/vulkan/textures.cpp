@@ -16,7 +16,7 @@ namespace {
 constexpr std::size_t kBatchBytes = std::size_t(256) << 20;
 
 // Normal maps that take no more are kept in 16 bits where 8 would be filtered too roughly.
-constexpr std::size_t kMostWidened = std::size_t(128) << 20;
+constexpr std::size_t kMaxWidened = std::size_t(128) << 20;
 
 vk::Format formatOf(TexelFormat format)
 {
@@ -149,7 +149,7 @@ void Textures::request(const Scene& scene, const MapUse& use, std::vector<MipReq
     r.format = texelFormat(image.type, use.kind, device_->filterable16, device_->filterable32);
     // Mesa's CPU driver rounds what it filters from 8 bits to 8 bits: 0.2 degrees of a normal. With 16 bits a map of
     // 8192 x 8192 would take 1.7 GiB.
-    if (use.kind == TextureKind::normal && image.data.size() <= kMostWidened && r.format == TexelFormat::unorm8
+    if (use.kind == TextureKind::normal && image.data.size() <= kMaxWidened && r.format == TexelFormat::unorm8
         && device_->cpu && device_->filterable16)
         r.format = TexelFormat::unorm16;
     r.largest = int(device_->limits.maxImageDimension2D);

@@ -125,7 +125,7 @@ Result<EnvironmentMap> environmentOfPicture(const Image& picture, const Environm
                                       picture.name, bitsPerComponent(picture.type)));
     if (!hasPixels(picture) || picture.width != 2 * picture.height)
         return inputError(
-            fmt::format("{}: expected surroundings in equirectangular projection, twice as wide as high; found {}x{}",
+            fmt::format("{}: expected an environment in equirectangular projection, twice as wide as high; found {}x{}",
                         picture.name, picture.width, picture.height));
     const int width = picture.width, height = picture.height;
     const auto at = [&](int x, int y) {

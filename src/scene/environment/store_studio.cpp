@@ -1,4 +1,4 @@
-// Part of the build: writes the studio's atlas into the file that surroundings.cpp takes in.
+// Part of the build: writes the studio's atlas into the file that environment.cpp takes in.
 #include <cstdio>
 #include <fstream>
 #include <vector>
@@ -10,7 +10,7 @@
 int main(int argc, char** argv)
 {
     using namespace cotan;
-    using namespace cotan::surroundings;
+    using namespace cotan::environment;
     if (argc != 2) {
         std::fputs("usage: cotan_store_studio FILE\n", stderr);
         return 1;

@@ -1,4 +1,4 @@
-// The built-in surroundings.
+// The built-in environment.
 #include <algorithm>
 #include <cmath>
 

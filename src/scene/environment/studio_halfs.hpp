@@ -7,7 +7,7 @@
 #include "cotan/view.hpp"
 #include "scene/environment_map.hpp"
 
-namespace cotan::surroundings {
+namespace cotan::environment {
 
 inline constexpr int kChannels = 3;
 inline constexpr std::size_t kStudioHalfs =
@@ -20,4 +20,4 @@ inline EnvironmentMap makeBuiltin(const std::string& name, const Radiance& radia
     return map;
 }
 
-} // namespace cotan::surroundings
+} // namespace cotan::environment

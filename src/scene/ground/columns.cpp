@@ -109,8 +109,8 @@ void Filling::fillTriangle(const Mesh& mesh, const std::array<std::uint32_t, 3>&
     const float area = ab.x * ac.y - ab.y * ac.x;
     // What a column's square touches counts, so that nothing is too thin: weights may be negative by so much.
     const float per = std::abs(area) > 1e-9f ? -0.5f / std::abs(area) : -1e9f;
-    const float leastU = per * (std::abs(bc.x) + std::abs(bc.y)), leastV = per * (std::abs(ac.x) + std::abs(ac.y));
-    const float leastW = per * (std::abs(ab.x) + std::abs(ab.y));
+    const float minU = per * (std::abs(bc.x) + std::abs(bc.y)), minV = per * (std::abs(ac.x) + std::abs(ac.y));
+    const float minW = per * (std::abs(ab.x) + std::abs(ab.y));
     const float inverse = std::abs(area) > 1e-9f ? 1 / area : 0;
     const int x0 = std::max(int(std::ceil(low.x - 0.5f)), 0),
               x1 = std::min(int(std::floor(high.x - 0.5f)), columns_.side - 1);
@@ -120,7 +120,7 @@ void Filling::fillTriangle(const Mesh& mesh, const std::array<std::uint32_t, 3>&
         for (int x = x0; x <= x1; ++x) {
             const glm::vec2 p = glm::vec2(float(x) + 0.5f, float(z) + 0.5f) - a.place;
             const float v = (p.x * ac.y - p.y * ac.x) * inverse, w = (ab.x * p.y - ab.y * p.x) * inverse, u = 1 - v - w;
-            if (u < leastU || v < leastV || w < leastW)
+            if (u < minU || v < minV || w < minW)
                 continue;
             const auto inside = [](glm::vec3 weights) {
                 weights = glm::max(weights, 0.0f);

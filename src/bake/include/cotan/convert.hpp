@@ -71,10 +71,10 @@ struct ReencodeFigures {
     std::size_t several = 0;      // covered by more than one place
     std::size_t disagreeing = 0;  // ... and off by over kDisagree in one of them, before rounding
     std::size_t belowHorizon = 0; // texels with z <= 0
-    Spread moved;                 // degrees between old and new decoded texel, covered ones
-    Spread disagreement;          // degrees of the worst place, before rounding, of the disagreeing
-    Spread unconverted;           // mapError of the old map: off by so much if it were read with the new frame
-    Spread error;                 // mapError of the new one, after rounding
+    ValueSummary moved;           // degrees between old and new decoded texel, covered ones
+    ValueSummary disagreement;    // degrees of the worst place, before rounding, of the disagreeing
+    ValueSummary unconverted;     // mapError of the old map: off by so much if it were read with the new frame
+    ValueSummary error;           // mapError of the new one, after rounding
 };
 
 // What became of one normal map.
@@ -96,8 +96,8 @@ struct ConvertedMap {
 // How far highlights that are stretched along tangents (KHR_materials_anisotropy) turn when the new frame says where.
 struct TurnedDirection {
     std::size_t mesh = 0, primitive = 0, material = 0;
-    Spread degrees;     // directionTurn; empty where the new frame has no direction: no uv
-    bool stays = false; // TANGENT, for it: turned by over kTurnedDirection, or nothing else has the direction
+    ValueSummary degrees; // directionTurn; empty where the new frame has no direction: no uv
+    bool stays = false;   // TANGENT, for it: turned by over kTurnedDirection, or nothing else has the direction
 };
 
 struct TangentBytes {

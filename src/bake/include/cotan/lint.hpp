@@ -31,7 +31,7 @@ namespace cotan {
 // A weighted set of numbers, in short.
 
 // Of an empty set, or one without weight, the count is 0 and the rest NaN: no comparison with a limit holds.
-struct Spread {
+struct ValueSummary {
     std::size_t count = 0; // of the values that count
     double mean = std::numeric_limits<double>::quiet_NaN();
     double percentile95 =
@@ -47,8 +47,8 @@ struct Spread {
 inline constexpr double kStretched = 1.2; // the longer gradient over the shorter: an orthonormal frame is 2 degrees off
 inline constexpr double kSheared = 10;    // degrees between the gradients of u and v and a right angle
 inline constexpr double kTurned = 45;     // degrees between a stored tangent and dP/du
-inline constexpr std::size_t kMostPlacings = 8; // of one mesh
-inline constexpr double kTestTilt = 35;         // degrees: the texel whose step across edges is measured
+inline constexpr std::size_t kMaxPlacings = 8; // of one mesh
+inline constexpr double kTestTilt = 35;        // degrees: the texel whose step across edges is measured
 
 // Shares are NaN where there is no area to take them of.
 struct UvQuality {
@@ -59,49 +59,48 @@ struct UvQuality {
     double overlappingMirrored = 0; // of those: texels that are used in both orientations
     double stretched = 0;           // over kStretched
     double sheared = 0;             // over kSheared
-    Spread stretch;                 // ratio, at least 1; degenerate triangles left out
-    Spread shear;                   // degrees
+    ValueSummary stretch;           // ratio, at least 1; degenerate triangles left out
+    ValueSummary shear;             // degrees
     double gradient = 0;            // the longer uv gradient per unit of length, median; 0: there is none
     double largestUv = 0;           // magnitude
 };
 
-inline constexpr std::size_t kMostEdges = 1 << 20; // whose steps are measured
+inline constexpr std::size_t kMaxEdges = 1 << 20; // whose steps are measured
 
-// Of more than kMostEdges, every second, third and so on is measured; `edges` counts all.
+// Of more than kMaxEdges, every second, third and so on is measured; `edges` counts all.
 struct EdgeSteps {
-    std::size_t edges = 0; // interior: position, normal and uv agree on both sides, and the orientation
-    Spread cotangent;      // of a texel tilted by kTestTilt, over eight directions, weighted by area
-    Spread orthonormal;
+    std::size_t edges = 0;  // interior: position, normal and uv agree on both sides, and the orientation
+    ValueSummary cotangent; // of a texel tilted by kTestTilt, over eight directions, weighted by area
+    ValueSummary orthonormal;
 };
 
 struct StoredTangents {
     bool present = false;
     double reversedW = 0; // share of area where the bitangent points against the uv
     double turned = 0;    // share of area where the tangent is over kTurned from dP/du
-    Spread
-        angle; // degrees from dP/du in the plane of the normal; empty: nothing was compared, and the shares say nothing
+    ValueSummary angle;   // degrees from dP/du in the plane of the normal; of nothing, the shares say nothing
 };
 
 // How another frame reads the map, which was made for PrimitiveLint::madeFor.
 struct Reading {
     std::string name; // of the frame; "stored" for mikktspace with the tangents of the file
-    Spread error;
+    ValueSummary error;
 };
 
 // For each of the frames that may be advised.
-struct FrameSpreads {
-    Spread orthonormal, cotangent, smooth;
+struct FrameSummaries {
+    ValueSummary orthonormal, cotangent, smooth;
 };
 
 struct PrimitiveLint {
     std::string mesh, material;
     // Instances of one mesh that stretch it differently are reported apart: this is number `placing`, from
-    // 0, of `placings`; of those only the first kMostPlacings.
+    // 0, of `placings`; of those only the first kMaxPlacings.
     std::size_t placing = 0, placings = 1;
     // An extension of the material that reads tangents without a map of its own that could be converted; and how far
     // what it reads turns with the frames that may be advised (directionTurn), empty where that is not known.
     std::string tangentsFor;
-    FrameSpreads turned;
+    FrameSummaries turned;
     int image = -1;        // of the normal map; -1: none
     bool unread = false;   // there is one, in a format that is not read: nothing is known of its pixels
     std::string notJudged; // why a normal map that there is was not judged; empty if it was
@@ -132,7 +131,7 @@ struct GreenEvidence {
 
 // One normal map read as it is with the frames that may be advised, against MikkTSpace with the stored tangents,
 // where these are to be trusted: what `convert` decides by (mapError, fitsAsItIs).
-struct MapFit : FrameSpreads { // empty where nothing was judged: no pixels, or nothing shows the map
+struct MapFit : FrameSummaries { // empty where nothing was judged: no pixels, or nothing shows the map
     int image = -1;
     std::string name;
 };

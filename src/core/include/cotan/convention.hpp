@@ -1,6 +1,6 @@
 // How a normal map is stored, as a value that is passed along and printed in reports.
 //
-//     cotan::Convention unreal = *cotan::conventionFromWords("unreal");
+//     cotan::Convention unreal = *cotan::parseConvention("unreal");
 //     cotan::Convention mine;
 //     mine.greenUp = false;
 #pragma once
@@ -103,7 +103,7 @@ template<class Format> Format toFormat(const Convention& c, double strength = 1,
 
 // A convention in words separated by commas: a preset's name, then what differs from it, such as "unity,xy" or
 // "opengl,biased". Errors (ErrorKind::usage): a word that is not known, or none.
-Result<Convention> conventionFromWords(std::string_view text);
+Result<Convention> parseConvention(std::string_view text);
 
 // What went wrong with the stored values of a map, and is undone when it is read.
 struct Damage {
@@ -131,16 +131,16 @@ struct StatedConvention {
     StatedConvention(const Convention& c, bool said = false) : convention(c), channels(said) {}
 };
 
-// As conventionFromWords, with whether a word for the channels (xyz, xy and so on, or object) was among them. Takes the
+// As parseConvention, with whether a word for the channels (xyz, xy and so on, or object) was among them. Takes the
 // words of damageWords, too, which others refuse: nothing is to be written so.
-Result<StatedConvention> statedFromWords(std::string_view text);
+Result<StatedConvention> parseStatedConvention(std::string_view text);
 
 // The words for Damage, for help and completion: srgb, linearised, bgr, grb.
 std::vector<std::string> damageWords();
 
-// As conventionFromWords, for a shader: a preset without a word for its channels means what its engine samples
+// As parseConvention, for a shader: a preset without a word for its channels means what its engine samples
 // (onCard).
-Result<Convention> sampledFromWords(std::string_view text);
+Result<Convention> parseSampledConvention(std::string_view text);
 
 // All words that it knows, for help texts.
 std::string conventionWords();

@@ -1,7 +1,7 @@
 // The core: frames, normal-map conventions, tangents. Needs GLM and nothing else.
 //
 //     using namespace cotan;
-//     const Convention convention = *conventionFromWords("gltf");
+//     const Convention convention = *parseConvention("gltf");
 //     const auto format = toFormat<f32::cotan_normal_format>(convention);
 //     const f32::cotan_vec3 texel = f32::cotan_decode({0.5f, 0.5f, 1}, format);
 //     const Covector3<float> n(0, 0, 1);

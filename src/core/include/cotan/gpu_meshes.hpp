@@ -82,10 +82,10 @@ struct RingMeshlets {
 
 // Cuts the triangles in their order: reorder them for the vertex cache first. What Adjacency says of poses, sides and
 // triangles without area holds here, too: split vertices that mirrored and unmirrored triangles share (splitMirrored).
-//   mostVertices   of a meshlet, 3 to 256
-//   mostTriangles  of a meshlet, at least 1
+//   maxVertices   of a meshlet, 3 to 256
+//   maxTriangles  of a meshlet, at least 1
 // Linear in time and memory. Arrays of other sizes, an index or a limit out of range give an empty result.
-RingMeshlets ringMeshlets(const MeshView& mesh, std::uint32_t mostVertices = 64, std::uint32_t mostTriangles = 124);
+RingMeshlets ringMeshlets(const MeshView& mesh, std::uint32_t maxVertices = 64, std::uint32_t maxTriangles = 124);
 
 // ---- provoking vertices --------------------------------------------------------------------
 

@@ -1,8 +1,8 @@
 // Looks closely at a model: compares how two frames or two models draw, and says what is at a pixel.
 //
-//     auto painter = cotan::openPainter();
-//     auto loaded = (*painter)->load(scene);
-//     auto compared = cotan::compareFrames(**painter, scene, view, {cotan::Frame::orthonormal, cotan::Frame::exact});
+//     auto renderer = cotan::openRenderer();
+//     auto loaded = (*renderer)->load(scene);
+//     auto compared = cotan::compareFrames(**renderer, scene, view, {cotan::Frame::orthonormal, cotan::Frame::exact});
 //     if (!compared)
 //         return fail(compared.error().message);
 //     std::printf("%s\n", toText(*compared).c_str());
@@ -212,16 +212,16 @@ struct DrawnSides {
 };
 
 // Draws both models with the cameras of the first and compares. side: of a picture, in pixels.
-// The painter has no scene afterwards. It reports each picture to painter.progress: kConversionViews of the
+// The renderer has no scene afterwards. It reports each picture to renderer.progress: kConversionViews of the
 // one model, then as many of the other.
-// Errors: those of Painter::load and Painter::draw.
-Result<ComparedViews> verifyConversion(Painter& painter, ModelInFrame before, ModelInFrame after,
+// Errors: those of Renderer::load and Renderer::draw.
+Result<ComparedViews> verifyConversion(Renderer& renderer, ModelInFrame before, ModelInFrame after,
                                        int side = kConversionSide);
 
 // The two steps of it, for callers who do not want to hold both models at once.
 //
 // Draws a model's normals. cameras: empty for kConversionViews around the model. Errors: as above.
-Result<DrawnSides> drawSides(Painter& painter, ModelInFrame model, std::vector<Camera> cameras = {},
+Result<DrawnSides> drawSides(Renderer& renderer, ModelInFrame model, std::vector<Camera> cameras = {},
                              int side = kConversionSide);
 // Compares what drawSides has drawn with the same cameras; `after` counts as drawn, `before` as expected.
 // Errors: ErrorKind::usage for pictures of another number or size.
@@ -243,10 +243,10 @@ struct ComparedFrames {
     std::string verdict; // what tells an inverted or turned tangent from a small difference
 };
 
-inline constexpr int kComparedFramesPictures = 8; // that compareFrames draws, each told to painter.progress
+inline constexpr int kComparedFramesPictures = 8; // that compareFrames draws, each told to renderer.progress
 
-// Draws what is loaded, `scene`, with both. Errors: those of Painter::draw.
-Result<ComparedFrames> compareFrames(Painter& painter, const Scene& scene, View view, std::array<Frame, 2> frames);
+// Draws what is loaded, `scene`, with both. Errors: those of Renderer::draw.
+Result<ComparedFrames> compareFrames(Renderer& renderer, const Scene& scene, View view, std::array<Frame, 2> frames);
 
 // The figures, or why there are none.
 std::string toText(const ComparedFrames& compared);
@@ -256,7 +256,7 @@ struct FrameError {
     Image difference;        // a heat map
 };
 
-// How far the view's frame is from the exact one. Draws two pictures. Errors: those of Painter::draw.
-Result<FrameError> errorAgainstExact(Painter& painter, const Scene& scene, View view);
+// How far the view's frame is from the exact one. Draws two pictures. Errors: those of Renderer::draw.
+Result<FrameError> errorAgainstExact(Renderer& renderer, const Scene& scene, View view);
 
 } // namespace cotan

@@ -4,8 +4,8 @@
 //     const cotan::maps::GreenVerdict verdict = cotan::maps::greenOf(*map);
 //     std::printf("green points %s: %s\n", name(verdict.green), verdict.reason.c_str());
 //     cotan::maps::RecodeSettings settings;
-//     settings.from = *cotan::conventionFromWords("directx");
-//     settings.to = *cotan::conventionFromWords("gltf");
+//     settings.from = *cotan::parseConvention("directx");
+//     settings.to = *cotan::parseConvention("gltf");
 //     cotan::maps::RecodeCounts counts;
 //     const cotan::Image recoded = cotan::maps::recode(*map, settings, counts);
 //
@@ -163,7 +163,7 @@ std::vector<Fault> faultsOf(const NormalStatistics& statistics, const GreenVerdi
 
 // The options of `cotan map convert` that mend them all, such as "--from directx,srgb --to gltf"; empty without faults.
 // A map whose zero is 127.5 keeps it: green that is turned about 128 would lean by 0.45 degrees.
-std::string mendingOptions(const std::vector<Fault>& faults, const NormalStatistics& statistics);
+std::string fixOptions(const std::vector<Fault>& faults, const NormalStatistics& statistics);
 
 // "NAME: FAULT; FAULT; cotan map convert OPTIONS mends it."; empty without faults.
 std::string sentenceOf(const std::string& name, const std::vector<Fault>& faults, const NormalStatistics& statistics);

@@ -7,8 +7,8 @@
 //     if (!picture)
 //         return fail(picture.error().message);
 //     picture->view.frame = picture->frames.front();
-//     auto painter = cotan::openPicturePainter(options, *picture);
-//     auto image = cotan::drawShow(**painter, picture->scene, picture->view, options.show, /*floats=*/false);
+//     auto renderer = cotan::openPictureRenderer(options, *picture);
+//     auto image = cotan::drawShow(**renderer, picture->scene, picture->view, options.show, /*floats=*/false);
 //
 // Errors name options as the command line does.
 #pragma once
@@ -105,7 +105,7 @@ struct PictureOptions {
     ToneMapping toneMapping = ToneMapping::neutral;
     std::optional<float> exposure;        // factor; none: found by metering
     bool ground = true;                   // the model stands on one, which only shows its shadow
-    std::optional<double> shadowSoftness; // degrees that the light covers; none: those of the lamp of the surroundings
+    std::optional<double> shadowSoftness; // degrees that the light covers; none: that of the environment's lamp
     bool rowsUpward = false;              // as View has it
     Derivatives derivatives = Derivatives::fine;
     int memory = kDefaultMemory;
@@ -158,7 +158,7 @@ Frame chosenFrame(const FrameChoice& choice, const PictureOptions& options, cons
 Result<std::vector<Frame>> prepareScene(const PictureOptions& options, const std::string& show,
                                         std::initializer_list<FrameChoice> frames, Scene& scene);
 
-// The view that the options name, but for surroundings, lights and ground.
+// The view that the options name, but for the environment, lights and ground.
 Result<View> viewOf(const PictureOptions& options, const Scene& scene);
 
 // Whether the exposure is to be found by meterExposure.
@@ -168,16 +168,16 @@ bool meters(const PictureOptions& options);
 struct Picture {
     Scene scene;
     View view;
-    bool meter = false;                                   // the exposure is to be found
-    std::vector<Frame> frames;                            // that were asked for, each `auto` by its name
-    std::vector<SurfaceEdge> edges;                       // to be drawn over it
-    double loadSeconds = 0;                               // for the caller to set
-    std::future<Result<std::unique_ptr<Painter>>> device; // being opened, for openPicturePainter
+    bool meter = false;                                    // the exposure is to be found
+    std::vector<Frame> frames;                             // that were asked for, each `auto` by its name
+    std::vector<SurfaceEdge> edges;                        // to be drawn over it
+    double loadSeconds = 0;                                // for the caller to set
+    std::future<Result<std::unique_ptr<Renderer>>> device; // being opened, for openPictureRenderer
 };
 
 // Loads the model (or makes the built-in scene), derives the attributes that `frames` need, and
 // sets up the view: that of `like`, but for the lights, where it is given. What is to be warned of is in the scene.
-// The device is opened beside that; threads: as for openPainter.
+// The device is opened beside that; threads: as for openRenderer.
 Result<Picture> openPicture(const PictureOptions& options, int threads, std::initializer_list<FrameChoice> frames,
                             const View* like = nullptr);
 
@@ -188,8 +188,8 @@ Status checkLighting(const PictureOptions& options, FrameChoice frame);
 std::string deviceOf(const PictureOptions& options);
 
 // The device that the options name, with the picture's scene loaded and its exposure found; its note tells of a
-// fallback. Once for a picture, which must outlive it. Errors: those of openPainter, Painter::load and draw.
-Result<std::unique_ptr<Painter>> openPicturePainter(const PictureOptions& options, Picture& picture);
+// fallback. Once for a picture, which must outlive it. Errors: those of openRenderer, Renderer::load and draw.
+Result<std::unique_ptr<Renderer>> openPictureRenderer(const PictureOptions& options, Picture& picture);
 
 // What --view can show.
 const std::vector<std::string>& showNames();
@@ -198,25 +198,25 @@ const std::vector<std::string>& showNames();
 Output outputOf(const std::string& show);
 
 // A picture of what --view names; floats: as a file that keeps them has it. `error` is told the degrees of "error".
-// Errors: those of Painter::draw.
-Result<Image> drawShow(Painter& painter, const Scene& scene, View view, const std::string& show, bool floats,
+// Errors: those of Renderer::draw.
+Result<Image> drawShow(Renderer& renderer, const Scene& scene, View view, const std::string& show, bool floats,
                        const std::function<void(const AngleStatistics&)>& error = {});
 
-// Draws the edges that the options ask for over a picture of 8 bits that the painter has drawn of the view. Nothing for
-// pictures that keep floats. Errors: those of Painter::draw.
-Status layEdges(Painter& painter, View view, const PictureOptions& options, std::span<const SurfaceEdge> edges,
+// Draws the edges that the options ask for over a picture of 8 bits that the renderer has drawn of the view. Nothing
+// for pictures that keep floats. Errors: those of Renderer::draw.
+Status layEdges(Renderer& renderer, View view, const PictureOptions& options, std::span<const SurfaceEdge> edges,
                 Image& picture);
 
 // ---- light ---------------------------------------------------------------------------------
 
-// The light of a picture: surroundings, lamps, what is behind the model and beneath it.
+// The light of a picture: the environment, lamps, what is behind the model and beneath it.
 
-// The surroundings that the options name; null for none. Errors: those of readImage and environmentOfPicture;
+// The environment that the options name; null for none. Errors: those of readImage and environmentOfPicture;
 // ErrorKind::usage for a name that is none.
-Result<std::shared_ptr<const EnvironmentMap>> openSurroundings(const PictureOptions& options);
+Result<std::shared_ptr<const EnvironmentMap>> openEnvironmentMap(const PictureOptions& options);
 
 // Sets what else the view has of light, by the options; all but the lights and the ground, which the scene has a part
-// in. Errors: ErrorKind::usage for options that need surroundings where there are none.
+// in. Errors: ErrorKind::usage for options that need an environment where there is none.
 Status lightPicture(const PictureOptions& options, View& view);
 
 // The lights of the scene, or those that the options give it.

@@ -6,9 +6,9 @@
 //
 // Several images of one scene, or a device by its name:
 //
-//     auto painter = cotan::openPainter("reference");
-//     cotan::Status loaded = (*painter)->load(scene);
-//     auto normals = (*painter)->draw(view);
+//     auto renderer = cotan::openRenderer("reference");
+//     cotan::Status loaded = (*renderer)->load(scene);
+//     auto normals = (*renderer)->draw(view);
 //
 // The reference renderer is always there. What is said of Vulkan needs a library that was built with it.
 #pragma once
@@ -27,26 +27,26 @@ namespace cotan {
 
 // One picture of a scene, in one call.
 
-// Draws the view of the scene on the device of that name, as openPainter takes it.
+// Draws the view of the scene on the device of that name, as openRenderer takes it.
 // Tangents or cotangents that view.frame reads at the vertices are made where the scene has none; pass a
 // scene that is no longer needed by std::move. The picture is as view.output says, in View's size.
 // threads: of the reference renderer; 0 means all cores. For several pictures, or to know which device
-// "auto" has found, open a Painter.
-// Errors: those of openPainter, Painter::load and Painter::draw.
+// "auto" has found, open a Renderer.
+// Errors: those of openRenderer, Renderer::load and Renderer::draw.
 Result<Image> drawView(Scene scene, const View& view, const std::string& device = "auto", int threads = 0);
 
 // ---- several images ------------------------------------------------------------------------
 
 // Something that draws: a Vulkan device or the reference renderer.
 
-// A device that is open. Made by openPainter; for one picture there is drawView.
+// A device that is open. Made by openRenderer; for one picture there is drawView.
 // One thread at a time.
-class Painter {
+class Renderer {
 public:
-    virtual ~Painter() = default;
+    virtual ~Renderer() = default;
 
     // Takes a scene in the place of the one before. It must live until the next load, forget or the
-    // painter's end. Frames from vertices read what deriveVertexFrames (cotan/view.hpp)
+    // renderer's end. Frames from vertices read what deriveVertexFrames (cotan/view.hpp)
     // has put into it; without that draw() refuses them.
     // Errors: ErrorKind::input for a scene that does not hold together (checkScene), and over 100 million
     // drawn triangles of a Vulkan device; the reference renderer says that in draw. ErrorKind::unavailable
@@ -55,19 +55,20 @@ public:
     // animation, say); what was made of them is kept. Where that load failed, everything is made again.
     Status load(const Scene& scene, bool sameImages = false);
 
-    // The painter has no scene from here on.
+    // The renderer has no scene from here on.
     void forget() { loaded_ = false; }
 
     // A picture of the loaded scene. Errors: ErrorKind::usage without a scene, for a size that cannot be
     // drawn (the reference renderer: 1 to 16384 pixels a side), an unknown frame, or one that reads what the scene
-    // lacks at its vertices; ErrorKind::unavailable without the memory; those of Renderer::render and renderReference.
+    // lacks at its vertices; ErrorKind::unavailable without the memory; those of VulkanRenderer::render and
+    // renderReference.
     Result<Image> draw(const View& view);
 
     // "reference", or the Vulkan device's name.
     virtual std::string device() const = 0;
     // What the last load took to copy to the device, in seconds; 0 for the reference renderer.
     virtual double uploadSeconds() const { return 0; }
-    // What Vulkan's validation layer has said so far, where openPainter was asked for it.
+    // What Vulkan's validation layer has said so far, where openRenderer was asked for it.
     virtual std::vector<std::string> messages() const { return {}; }
 
     // Gets 0 before each picture and then, from the reference renderer, the share of it that is drawn, up to
@@ -89,20 +90,20 @@ private:
 // threads: of the reference renderer; 0 means all cores. No picture depends on it. validation: ask for Vulkan's
 // validation layer; that it is not installed is the first of the messages then.
 // Errors: ErrorKind::unavailable, never for "auto" and "reference".
-Result<std::unique_ptr<Painter>> openPainter(const std::string& device = "auto", int threads = 0,
-                                             bool validation = false);
+Result<std::unique_ptr<Renderer>> openRenderer(const std::string& device = "auto", int threads = 0,
+                                               bool validation = false);
 
 // ---- exposure ------------------------------------------------------------------------------
 
 // Exposure by the picture itself.
 
-// The exposure for a view of the painter's scene, by what a small picture of it shows without what is behind: the
+// The exposure for a view of the renderer's scene, by what a small picture of it shows without what is behind: the
 // logarithms' mean of the brightness of the scene's pixels goes part of the way to a middle grey, so that white stays
 // bright and black dark, and the brightest fiftieth stays below what tone curves burn out. Rounded to 1/32 of a stop,
 // so that renderers that differ by a rounding agree. 1 where nothing is seen. view.exposure, ground and background are
 // not read; drawn with the same curve of tones, so that a device needs no other shaders. Errors: those of
-// Painter::draw.
-Result<float> meterExposure(Painter& painter, View view);
+// Renderer::draw.
+Result<float> meterExposure(Renderer& renderer, View view);
 
 // ---- cameras as text -----------------------------------------------------------------------
 
@@ -118,10 +119,10 @@ Result<float> meterExposure(Painter& painter, View view);
 // orthographic camera that is so many world units high; three more are the direction up.
 // width, height: of the picture, pixels.
 // Errors: ErrorKind::usage, with what was expected and found.
-Result<Camera> cameraFromWords(const std::string& text, const Scene& scene, int width, int height);
+Result<Camera> parseCamera(const std::string& text, const Scene& scene, int width, int height);
 
-// The words of a camera: cameraFromWords makes the same camera of them, to the bit, but for its name.
-std::string cameraWords(const Camera& camera);
+// The words of a camera: parseCamera makes the same camera of them, to the bit, but for its name.
+std::string formatCamera(const Camera& camera);
 
 // ---- the reference renderer ----------------------------------------------------------------
 
@@ -142,7 +143,7 @@ Result<Image> renderReference(const Scene& scene, const View& view, int threads 
 
 // The Vulkan renderer. Needs the Vulkan loader and GLM, nothing else at run time.
 
-struct RendererOptions {
+struct VulkanRendererOptions {
     std::string device;      // part of the device's name, any case; empty: the fastest kind found
     bool validation = false; // ask for the validation layer; its messages land in messages()
 };
@@ -157,15 +158,15 @@ struct RenderTimings { // seconds
 // Errors: ErrorKind::unavailable says why there is none.
 Result<std::vector<std::string>> renderDevices();
 
-class Renderer {
+class VulkanRenderer {
 public:
     // Opens a device. Errors: ErrorKind::unavailable, with the reason (no loader, no driver, no
     // device of that name, a missing feature).
-    static Result<Renderer> create(const RendererOptions& options = {});
+    static Result<VulkanRenderer> create(const VulkanRendererOptions& options = {});
 
-    Renderer(Renderer&&) noexcept;
-    Renderer& operator=(Renderer&&) noexcept;
-    ~Renderer();
+    VulkanRenderer(VulkanRenderer&&) noexcept;
+    VulkanRenderer& operator=(VulkanRenderer&&) noexcept;
+    ~VulkanRenderer();
 
     // Uploads a scene; it replaces the one before. Errors: ErrorKind::unavailable when the device
     // has not enough memory; ErrorKind::input over 100 million triangles, instances counted.
@@ -186,7 +187,7 @@ public:
 
 private:
     struct State;
-    explicit Renderer(std::unique_ptr<State> state);
+    explicit VulkanRenderer(std::unique_ptr<State> state);
     std::unique_ptr<State> state_;
 };
 

@@ -61,7 +61,7 @@ enum class Lighting {
 // a pixel, with a material that keeps all white light; they leave out sheen and stretched highlights. Reference
 // renderer only; with Blinn-Phong and in tangent space all are the first.
 enum class NormalMapping {
-    shading,     // lights and surroundings meet the turned normal
+    shading,     // lights and the environment meet the perturbed normal
     rays,        // the same, but light from below the surface is lost, as path tracers have it
     shadowed,    // less of what grazes, too, so that no edge shows (Conty Estevez, Lecocq, Stein 2019)
     facets,      // a second facet of the same material makes up for the turned one (Schuessler and others 2017)
@@ -157,14 +157,14 @@ std::vector<Light> defaultLights();
 
 // ---- environments --------------------------------------------------------------------------
 
-// Surroundings as light: from a picture, or by a formula.
+// Environment as light: from a picture, or by a formula.
 
 // Linear radiance from a unit direction, world, y up. Called from several threads. Values that are not finite or
 // negative count as 0, larger ones than 65504 as that.
 using Radiance = std::function<glm::vec3(glm::vec3 direction)>;
 
 struct EnvironmentOptions {
-    float rotation = 0;  // radians around y: the surroundings turn counter-clockwise, seen from above
+    float rotation = 0;  // radians around y: the environment turns counter-clockwise, seen from above
     float intensity = 1; // factor on all radiance
 };
 
@@ -183,7 +183,7 @@ const std::vector<std::string>& environmentNames();
 // Nothing for a name that is not among them.
 std::optional<Radiance> builtinRadiance(const std::string& name);
 
-// The built-in surroundings, ready to light a scene.
+// The built-in environment, ready to light a scene.
 
 // The atlas of a built-in one, see environmentNames; nothing for another name. The studio as it is, not turned and not
 // dimmed, was made while Cotan was built and is only read: to the byte what makeEnvironment makes of it, without the

@@ -70,7 +70,7 @@ enum class Set {
 };
 inline constexpr Set kSets[] = {Set::gradient, Set::blend, Set::light, Set::environment, Set::tone, Set::shadow};
 std::string_view name(Set set);
-// Whether the language has the set. Godot does its surroundings, tone and shadows itself.
+// Whether the language has the set. Godot does its environment, tone and shadows itself.
 bool hasSet(Language language, Set set);
 
 struct Choice {

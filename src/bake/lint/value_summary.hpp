@@ -7,7 +7,7 @@
 namespace cotan {
 
 // Takes it by value, because a percentile sorts.
-inline Spread spreadOf(ValueStatistics values)
+inline ValueSummary summaryOf(ValueStatistics values)
 {
     return {values.count(), values.mean(), values.percentile(0.95), values.maximum()};
 }

@@ -1,4 +1,4 @@
-#include "studio.hpp"
+#include "scene_cache.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -70,32 +70,32 @@ View smaller(View view)
 
 } // namespace
 
-void Studio::open(const PictureOptions& o)
+void SceneCache::open(const PictureOptions& o)
 {
-    if (auto painter = app::openDevice(deviceOf(o), common_, validation_))
-        stages_[0].painter = std::move(*painter);
-    if (auto opened = openSurroundings(o))
-        surroundings_ = {lightKey(o), *opened};
+    if (auto renderer = app::openDevice(deviceOf(o), common_, validation_))
+        cachedScenes_[0].renderer = std::move(*renderer);
+    if (auto opened = openEnvironmentMap(o))
+        environment_ = {lightKey(o), *opened};
 }
 
-Drawn Studio::draw(const Order& order)
+Drawn SceneCache::draw(const Order& order)
 {
     Drawn drawn;
     drawn.number = order.number;
     app::Stopwatch watch;
     const Status done = drawInto(order, drawn, false);
     if (!done)
-        drawn.problem = app::inWords(done.error()).message;
+        drawn.problem = app::withOptionNames(done.error()).message;
     drawn.seconds = watch.lap();
     if (!drawn.draft)
         seconds_ = drawn.seconds;
     return drawn;
 }
 
-Status Studio::drawFigures(const Order& order, Drawn& drawn)
+Status SceneCache::drawFigures(const Order& order, Drawn& drawn)
 {
     const bool two = order.compare != Compare::off;
-    auto first = stage(0, order, false, true);
+    auto first = cachedScene(0, order, false, true);
     if (!first)
         return first.error();
     auto view = viewFor(order, **first, false, drawn.exposure);
@@ -111,7 +111,7 @@ Status Studio::drawFigures(const Order& order, Drawn& drawn)
     return Done{};
 }
 
-Result<Image> Studio::drawForFile(const Order& order, bool floats)
+Result<Image> SceneCache::drawForFile(const Order& order, bool floats)
 {
     Drawn drawn;
     if (Status done = drawInto(order, drawn, floats); !done)
@@ -119,23 +119,23 @@ Result<Image> Studio::drawForFile(const Order& order, bool floats)
     return *drawn.picture;
 }
 
-std::vector<std::string> Studio::messages() const
+std::vector<std::string> SceneCache::messages() const
 {
     std::vector<std::string> all;
-    for (const Stage& stage : stages_)
-        if (stage.painter)
-            for (std::string& message : stage.painter->messages())
+    for (const CachedScene& cachedScene : cachedScenes_)
+        if (cachedScene.renderer)
+            for (std::string& message : cachedScene.renderer->messages())
                 all.push_back(std::move(message));
     return all;
 }
 
-Status Studio::drawInto(const Order& order, Drawn& drawn, bool floats)
+Status SceneCache::drawInto(const Order& order, Drawn& drawn, bool floats)
 {
     const bool second = order.compare == Compare::flip && order.flipped;
-    auto first = stage(second ? 1 : 0, order, second, order.compare == Compare::angle);
+    auto first = cachedScene(second ? 1 : 0, order, second, order.compare == Compare::angle);
     if (!first)
         return first.error();
-    drawn.device = (*first)->painter->device();
+    drawn.device = (*first)->renderer->device();
     auto view = viewFor(order, **first, second, order.exposure);
     if (!view)
         return view.error();
@@ -157,7 +157,7 @@ Status Studio::drawInto(const Order& order, Drawn& drawn, bool floats)
     drawn.picture = std::make_shared<Image>(std::move(*image));
     if (order.compare != Compare::divider)
         return Done{};
-    auto other = stage(1, order, true);
+    auto other = cachedScene(1, order, true);
     if (!other)
         return other.error();
     auto otherView = viewFor(order, **other, true, drawn.exposure);
@@ -172,36 +172,38 @@ Status Studio::drawInto(const Order& order, Drawn& drawn, bool floats)
     return Done{};
 }
 
-Result<Image> Studio::drawSide(const Order& order, Stage& s, const View& view, const PictureOptions& o, bool floats)
+Result<Image> SceneCache::drawSide(const Order& order, CachedScene& s, const View& view, const PictureOptions& o,
+                                   bool floats)
 {
-    auto image = drawShow(*s.painter, *s.scene, view, order.show, floats);
+    auto image = drawShow(*s.renderer, *s.scene, view, order.show, floats);
     if (image)
         if (Status laid = layEdgesOn(order, s, view, o, *image); !laid)
             return laid.error();
     return image;
 }
 
-Status Studio::layEdgesOn(const Order& order, Stage& s, const View& view, const PictureOptions& o, Image& picture)
+Status SceneCache::layEdgesOn(const Order& order, CachedScene& s, const View& view, const PictureOptions& o,
+                              Image& picture)
 {
     if (o.edges == Edges::none)
         return Done{};
     const std::string key = fmt::format("{}", order.model->number);
     if (edges_.key != key || !edges_.value)
         edges_ = {key, surfaceEdges(order.model->scene)};
-    return layEdges(*s.painter, view, o, *edges_.value, picture);
+    return layEdges(*s.renderer, view, o, *edges_.value, picture);
 }
 
-Result<std::vector<float>> Studio::degreesOf(const Order& order, Stage& first, const View& view,
-                                             const PictureOptions& second, bool two)
+Result<std::vector<float>> SceneCache::degreesOf(const Order& order, CachedScene& first, const View& view,
+                                                 const PictureOptions& second, bool two)
 {
     View normals = view;
     normals.output = Output::normal;
-    auto a = first.painter->draw(normals);
+    auto a = first.renderer->draw(normals);
     if (!a)
         return a.error();
-    Stage* other = &first;
+    CachedScene* other = &first;
     if (two) {
-        auto staged = stage(1, order, true, true);
+        auto staged = cachedScene(1, order, true, true);
         if (!staged)
             return staged.error();
         other = *staged;
@@ -210,7 +212,7 @@ Result<std::vector<float>> Studio::degreesOf(const Order& order, Stage& first, c
     } else {
         normals.frame = Frame::exact;
     }
-    auto b = other->painter->draw(normals);
+    auto b = other->renderer->draw(normals);
     if (!b)
         return b.error();
     if (!two && !showsNormalMaps(*first.scene, view))
@@ -218,7 +220,7 @@ Result<std::vector<float>> Studio::degreesOf(const Order& order, Stage& first, c
     return anglesBetween(*a, *b);
 }
 
-Result<Stage*> Studio::stage(std::size_t index, const Order& order, bool second, bool normals)
+Result<CachedScene*> SceneCache::cachedScene(std::size_t index, const Order& order, bool second, bool normals)
 {
     const PictureOptions& o = second ? order.second : order.first;
     const Side& side = second ? order.b : order.a;
@@ -229,18 +231,18 @@ Result<Stage*> Studio::stage(std::size_t index, const Order& order, bool second,
     const Frame frame =
         chosenFrame(*choice, o, order.model->scene); // of the model's own maps: others are not on it yet
     const std::string key = sceneKey(*order.model, o, frame, inspection);
-    for (Stage& known : stages_)
-        if (known.key == key && known.painter)
+    for (CachedScene& known : cachedScenes_)
+        if (known.key == key && known.renderer)
             return &known;
-    Stage& s = stages_[index];
+    CachedScene& s = cachedScenes_[index];
     const bool loaded = !std::exchange(s.key, {}).empty();
-    if (!s.painter) {
-        auto painter = app::openDevice(deviceOf(o), common_, validation_);
-        if (!painter)
-            return painter.error();
-        s.painter = std::move(*painter);
+    if (!s.renderer) {
+        auto renderer = app::openDevice(deviceOf(o), common_, validation_);
+        if (!renderer)
+            return renderer.error();
+        s.renderer = std::move(*renderer);
     }
-    s.painter->forget();
+    s.renderer->forget();
     const auto modelBefore = std::exchange(s.model, order.model);
     const Scene ownBefore = std::exchange(s.own, {});
     const Scene* before = !loaded ? nullptr : s.scene == &s.own ? &ownBefore : s.scene;
@@ -252,13 +254,13 @@ Result<Stage*> Studio::stage(std::size_t index, const Order& order, bool second,
         s.scene = &s.own;
     }
     const bool same = before && sameImages(before->images, s.scene->images);
-    if (Status done = s.painter->load(*s.scene, same); !done)
+    if (Status done = s.renderer->load(*s.scene, same); !done)
         return done.error();
     s.key = key;
     return &s;
 }
 
-Result<View> Studio::viewFor(const Order& order, Stage& s, bool second, float exposure)
+Result<View> SceneCache::viewFor(const Order& order, CachedScene& s, bool second, float exposure)
 {
     const PictureOptions& o = second ? order.second : order.first;
     auto view = viewOf(o, *s.scene);
@@ -268,13 +270,13 @@ Result<View> Studio::viewFor(const Order& order, Stage& s, bool second, float ex
     view->output = outputOf(order.show);
     view->lights = lightsOf(o, *s.scene);
     const bool dark = o.use == PictureUse::data; // nothing is lit then
-    if (!dark && (surroundings_.key != lightKey(o) || !surroundings_.value)) {
-        auto opened = openSurroundings(o);
+    if (!dark && (environment_.key != lightKey(o) || !environment_.value)) {
+        auto opened = openEnvironmentMap(o);
         if (!opened)
             return opened.error();
-        surroundings_ = {lightKey(o), *opened};
+        environment_ = {lightKey(o), *opened};
     }
-    view->environmentMap = dark ? nullptr : *surroundings_.value;
+    view->environmentMap = dark ? nullptr : *environment_.value;
     const std::string under =
         fmt::format("{}|{}|{}|{}|{}", s.key, lightKey(o), o.ground, o.noShadows, o.shadowSoftness.value_or(-1));
     if (under != ground_.key || !ground_.value)
@@ -286,7 +288,7 @@ Result<View> Studio::viewFor(const Order& order, Stage& s, bool second, float ex
         from.camera = order.meteredFrom;
         if (const auto there = viewOf(from, *s.scene))
             looked.camera = there->camera;
-        const auto found = meterExposure(*s.painter, looked);
+        const auto found = meterExposure(*s.renderer, looked);
         if (!found)
             return found.error();
         exposure = *found;

@@ -1,4 +1,4 @@
-// Where figures are drawn: a painter, the size of the panels, and the first thing that went wrong.
+// Where figures are drawn: a renderer, the size of the panels, and the first thing that went wrong.
 #pragma once
 
 #include <optional>
@@ -9,11 +9,11 @@
 
 namespace cotan::figures {
 
-class Studio {
+class FigureRenderer {
 public:
     // width, height: of a wide panel, in pixels; square ones are height x height.
-    Studio(Painter& painter, int threads, int width, int height)
-        : painter_(painter), threads_(threads), width_(width), height_(height)
+    FigureRenderer(Renderer& renderer, int threads, int width, int height)
+        : renderer_(renderer), threads_(threads), width_(width), height_(height)
     {
     }
 
@@ -29,7 +29,7 @@ public:
     Image vectors(View view, Frame frame, Output output);
     Image normals(const View& view, Frame frame) { return vectors(view, frame, Output::normal); }
 
-    // The same from the reference renderer, whatever the painter is.
+    // The same from the reference renderer, whatever the renderer is.
     Image drawReference(const View& view);
 
     // The first error, if there was one.
@@ -38,7 +38,7 @@ public:
 private:
     Image kept(Result<Image> result, const View& view);
 
-    Painter& painter_;
+    Renderer& renderer_;
     int threads_;
     int width_;
     int height_;

@@ -19,7 +19,7 @@ namespace cotan {
 
 namespace {
 
-using namespace surroundings;
+using namespace environment;
 
 EnvironmentMap storedStudio()
 {

@@ -1,17 +1,17 @@
-#include "artist.hpp"
+#include "render_thread.hpp"
 
 #include <condition_variable>
 #include <mutex>
 #include <thread>
 
 #include "cotan/inspect.hpp"
-#include "studio.hpp"
+#include "scene_cache.hpp"
 
 namespace cotan::viewer {
 
-struct Artist::Work {
+struct RenderThread::Work {
     Work(app::CommonOptions common, PictureOptions first, bool validation, std::function<void()> tell)
-        : studio(std::move(common), validation), done(std::move(tell)),
+        : sceneCache(std::move(common), validation), done(std::move(tell)),
           thread([this, first = std::move(first)] { run(first); })
     {
     }
@@ -20,7 +20,7 @@ struct Artist::Work {
     {
         guarded(
             [&] {
-                studio.open(first);
+                sceneCache.open(first);
                 return Drawn{};
             },
             0);
@@ -40,7 +40,7 @@ struct Artist::Work {
             next.reset();
             working = true;
             lock.unlock();
-            Drawn drawn = guarded([&] { return studio.draw(order); }, order.number);
+            Drawn drawn = guarded([&] { return sceneCache.draw(order); }, order.number);
             lock.lock();
             const bool whole = order.figures && drawn.problem.empty() && !drawn.draft;
             const auto figureless = drawn;
@@ -50,8 +50,8 @@ struct Artist::Work {
                 Drawn more = figureless;
                 more = guarded(
                     [&] {
-                        if (const Status made = studio.drawFigures(order, more); !made)
-                            more.problem = app::inWords(made.error()).message;
+                        if (const Status made = sceneCache.drawFigures(order, more); !made)
+                            more.problem = app::withOptionNames(made.error()).message;
                         return more;
                     },
                     order.number);
@@ -86,7 +86,7 @@ struct Artist::Work {
             done();
     }
 
-    Studio studio;
+    SceneCache sceneCache;
     std::function<void()> done;
     std::mutex mutex;
     std::condition_variable changed;
@@ -97,14 +97,14 @@ struct Artist::Work {
     std::thread thread; // last: it uses all the others
 };
 
-Artist::Artist(app::CommonOptions common, PictureOptions first, bool validation, std::function<void()> done)
+RenderThread::RenderThread(app::CommonOptions common, PictureOptions first, bool validation, std::function<void()> done)
     : work_(std::make_unique<Work>(std::move(common), std::move(first), validation, std::move(done)))
 {
 }
 
-Artist::~Artist() { finish(); }
+RenderThread::~RenderThread() { finish(); }
 
-std::vector<std::string> Artist::finish()
+std::vector<std::string> RenderThread::finish()
 {
     {
         const std::lock_guard lock(work_->mutex);
@@ -114,10 +114,10 @@ std::vector<std::string> Artist::finish()
     work_->changed.notify_all();
     if (work_->thread.joinable())
         work_->thread.join();
-    return work_->studio.messages();
+    return work_->sceneCache.messages();
 }
 
-void Artist::ask(Order order)
+void RenderThread::ask(Order order)
 {
     {
         const std::lock_guard lock(work_->mutex);
@@ -126,19 +126,19 @@ void Artist::ask(Order order)
     work_->changed.notify_all();
 }
 
-std::optional<Drawn> Artist::take()
+std::optional<Drawn> RenderThread::take()
 {
     const std::lock_guard lock(work_->mutex);
     return std::exchange(work_->ready, std::nullopt);
 }
 
-bool Artist::busy() const
+bool RenderThread::busy() const
 {
     const std::lock_guard lock(work_->mutex);
     return work_->next || work_->working || work_->ready;
 }
 
-Result<Image> Artist::drawNow(const Order& order, bool floats)
+Result<Image> RenderThread::drawNow(const Order& order, bool floats)
 {
     Result<Image> image = unavailableError("not drawn");
     std::condition_variable finished;
@@ -146,7 +146,7 @@ Result<Image> Artist::drawNow(const Order& order, bool floats)
     const std::function<void()> task = [&] {
         Result<Image> made = unavailableError("not drawn");
         try {
-            made = work_->studio.drawForFile(order, floats);
+            made = work_->sceneCache.drawForFile(order, floats);
         } catch (const std::exception& e) {
             made = unavailableError(e.what());
         }

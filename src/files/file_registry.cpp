@@ -1,4 +1,4 @@
-#include "files/account.hpp"
+#include "files/file_registry.hpp"
 
 #include <mutex>
 #include <system_error>
@@ -57,7 +57,7 @@ struct Output {
     bool refused = false; // a reader was told so, and may have gone on without what he could not read
 };
 
-struct Account {
+struct FileRegistry {
     std::mutex mutex;
     bool on = false;
     std::vector<Input> inputs;
@@ -74,9 +74,9 @@ struct Account {
     }
 };
 
-Account& account()
+FileRegistry& registry()
 {
-    static Account one;
+    static FileRegistry one;
     return one;
 }
 
@@ -85,13 +85,13 @@ std::string nameOf(const Output& output)
     return output.option.empty() ? output.name : output.option + " " + output.name;
 }
 
-Error replaces(Account& all, const Output& output, const std::string& input)
+Error replaces(FileRegistry& all, const Output& output, const std::string& input)
 {
     return all.refuse(fmt::format("{} would replace {}, which is read", nameOf(output), input));
 }
 
 // A new output against everything that is known.
-Status add(Account& all, Output output)
+Status add(FileRegistry& all, Output output)
 {
     for (const Input& input : all.inputs)
         if (input.identity == output.identity)
@@ -107,7 +107,7 @@ Status add(Account& all, Output output)
 
 void guardInputs(bool overwrite)
 {
-    Account& all = account();
+    FileRegistry& all = registry();
     const std::lock_guard lock(all.mutex);
     all.on = !overwrite;
     all.inputs.clear();
@@ -117,19 +117,19 @@ void guardInputs(bool overwrite)
 
 Status planOutput(const std::string& option, const fs::path& file)
 {
-    Account& all = account();
+    FileRegistry& all = registry();
     const std::lock_guard lock(all.mutex);
     const auto identity = all.on ? identityOf(file) : std::nullopt;
     return identity ? add(all, {*identity, option, file.string()}) : Status(Done{});
 }
 
-void watchInputs(std::function<void(const fs::path&)> watcher) { account().watcher = std::move(watcher); }
+void watchInputs(std::function<void(const fs::path&)> watcher) { registry().watcher = std::move(watcher); }
 
-void watchOutputs(std::function<void(const fs::path&)> watcher) { account().outputWatcher = std::move(watcher); }
+void watchOutputs(std::function<void(const fs::path&)> watcher) { registry().outputWatcher = std::move(watcher); }
 
 Status noteInput(const fs::path& file)
 {
-    Account& all = account();
+    FileRegistry& all = registry();
     if (all.watcher)
         all.watcher(file);
     const std::lock_guard lock(all.mutex);
@@ -152,7 +152,7 @@ Status noteInput(const fs::path& file)
 
 Status beginOutput(const fs::path& file)
 {
-    Account& all = account();
+    FileRegistry& all = registry();
     const std::lock_guard lock(all.mutex);
     const auto identity = all.on ? identityOf(file) : std::nullopt;
     if (!identity)
@@ -169,7 +169,7 @@ Status beginOutput(const fs::path& file)
 
 void endOutput(const fs::path& file)
 {
-    Account& all = account();
+    FileRegistry& all = registry();
     if (all.outputWatcher)
         all.outputWatcher(file);
     const std::lock_guard lock(all.mutex);
@@ -185,7 +185,7 @@ void endOutput(const fs::path& file)
 
 std::optional<Error> refusal()
 {
-    Account& all = account();
+    FileRegistry& all = registry();
     const std::lock_guard lock(all.mutex);
     return all.refusal;
 }

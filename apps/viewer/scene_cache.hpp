@@ -1,4 +1,4 @@
-// Draws orders, one after another, and keeps what several of them need: devices, scenes, surroundings, the ground.
+// Draws orders, one after another, and keeps what several of them need: devices, scenes, the environment, the ground.
 #pragma once
 
 #include <array>
@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "artist.hpp"
 #include "cotan/picture.hpp"
+#include "render_thread.hpp"
 
 namespace cotan::viewer {
 
@@ -19,18 +19,18 @@ template<class T> struct Kept {
 };
 
 // A scene with the maps and the attributes of one side, on a device.
-struct Stage {
+struct CachedScene {
     std::string key;
     std::shared_ptr<const Model> model; // what `scene` points to, where nothing had to be made
     Scene own;
     const Scene* scene = nullptr;
-    std::unique_ptr<Painter> painter;
+    std::unique_ptr<Renderer> renderer;
 };
 
 // Touched by one thread alone.
-class Studio {
+class SceneCache {
 public:
-    Studio(app::CommonOptions common, bool validation) : common_(std::move(common)), validation_(validation) {}
+    SceneCache(app::CommonOptions common, bool validation) : common_(std::move(common)), validation_(validation) {}
 
     // What can be had before there is a model. What fails fails again, and is said, when it is needed.
     void open(const PictureOptions& o);
@@ -44,21 +44,21 @@ public:
 
 private:
     Status drawInto(const Order& order, Drawn& drawn, bool floats);
-    Result<Image> drawSide(const Order& order, Stage& s, const View& view, const PictureOptions& o, bool floats);
-    Status layEdgesOn(const Order& order, Stage& s, const View& view, const PictureOptions& o, Image& picture);
+    Result<Image> drawSide(const Order& order, CachedScene& s, const View& view, const PictureOptions& o, bool floats);
+    Status layEdgesOn(const Order& order, CachedScene& s, const View& view, const PictureOptions& o, Image& picture);
     // Between the normals of the first picture and those of the second, or those of the frame `exact`.
-    Result<std::vector<float>> degreesOf(const Order& order, Stage& first, const View& view,
+    Result<std::vector<float>> degreesOf(const Order& order, CachedScene& first, const View& view,
                                          const PictureOptions& second, bool two);
-    // The scene of a side on a painter; the second has a painter of its own only where its scene is another.
+    // The scene of a side on a renderer; the second has a renderer of its own only where its scene is another.
     // normals: not in the colours that are shown, but as a surface.
-    Result<Stage*> stage(std::size_t index, const Order& order, bool second, bool normals = false);
+    Result<CachedScene*> cachedScene(std::size_t index, const Order& order, bool second, bool normals = false);
     // As `cotan render` makes it. exposure: for "auto"; 0: found by metering.
-    Result<View> viewFor(const Order& order, Stage& s, bool second, float exposure);
+    Result<View> viewFor(const Order& order, CachedScene& s, bool second, float exposure);
 
     app::CommonOptions common_;
     bool validation_ = false;
-    std::array<Stage, 2> stages_;
-    Kept<std::shared_ptr<const EnvironmentMap>> surroundings_;
+    std::array<CachedScene, 2> cachedScenes_;
+    Kept<std::shared_ptr<const EnvironmentMap>> environment_;
     Kept<std::shared_ptr<const GroundMap>> ground_;
     Kept<std::vector<SurfaceEdge>> edges_;
     double seconds_ = 0; // of the last whole picture

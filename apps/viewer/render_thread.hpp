@@ -42,12 +42,12 @@ struct Drawn {
 // The order for a state; draft: while the camera moves.
 Order orderOf(const State& state);
 
-class Artist {
+class RenderThread {
 public:
-    // first: what will be asked for; its device and surroundings are opened while the model is still being read.
-    // validation: with Vulkan's validation layer. done: called on the artist's thread where something new can be taken.
-    Artist(app::CommonOptions common, PictureOptions first, bool validation, std::function<void()> done);
-    ~Artist();
+    // first: what will be asked for; its device and environment are opened while the model is still being read.
+    // validation: with Vulkan's validation layer. done: called on the render thread where something new can be taken.
+    RenderThread(app::CommonOptions common, PictureOptions first, bool validation, std::function<void()> done);
+    ~RenderThread();
 
     // Draws this next; an order that waits is dropped.
     void ask(Order order);

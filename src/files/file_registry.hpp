@@ -18,7 +18,7 @@
 
 namespace cotan {
 
-// Starts the account, empty. overwrite: everything is allowed, and the account only forgets.
+// Starts the registry, empty. overwrite: everything is allowed, and the registry only forgets.
 void guardInputs(bool overwrite);
 
 // Says what will be written. `option` names it in messages. Errors: ErrorKind::usage where it is a file that was read
@@ -29,8 +29,8 @@ Status planOutput(const std::string& option, const std::filesystem::path& file);
 // being written would replace the file. Outputs that are finished may be read again.
 Status noteInput(const std::filesystem::path& file);
 
-// Tells the watcher of every input, whether the account is on or not: how a process that reads for another one can tell
-// that one. Set it while there is one thread.
+// Tells the watcher of every input, whether the registry is on or not: how a process that reads for another one can
+// tell that one. Set it while there is one thread.
 void watchInputs(std::function<void(const std::filesystem::path&)> watcher);
 
 // The same for every output that is in its place.

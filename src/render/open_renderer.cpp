@@ -9,9 +9,9 @@ namespace cotan {
 
 namespace {
 
-class ReferencePainter final : public Painter {
+class ReferenceBackend final : public Renderer {
 public:
-    explicit ReferencePainter(int threads) : threads_(threads) {}
+    explicit ReferenceBackend(int threads) : threads_(threads) {}
 
     std::string device() const override { return "reference"; }
 
@@ -28,9 +28,9 @@ private:
 };
 
 #ifdef COTAN_WITH_VULKAN
-class VulkanPainter final : public Painter {
+class VulkanBackend final : public Renderer {
 public:
-    explicit VulkanPainter(Renderer renderer) : renderer_(std::move(renderer)) {}
+    explicit VulkanBackend(VulkanRenderer renderer) : renderer_(std::move(renderer)) {}
 
     std::string device() const override { return renderer_.deviceName(); }
     double uploadSeconds() const override { return renderer_.timings().upload; }
@@ -40,21 +40,21 @@ private:
     Status loadScene(const Scene& scene, bool sameImages) override { return renderer_.load(scene, sameImages); }
     Result<Image> drawLoaded(const View& view) override { return renderer_.render(view); }
 
-    Renderer renderer_;
+    VulkanRenderer renderer_;
 };
 
-Result<std::unique_ptr<Painter>> openVulkan(const std::string& device, bool validation)
+Result<std::unique_ptr<Renderer>> openVulkan(const std::string& device, bool validation)
 {
-    RendererOptions options;
+    VulkanRendererOptions options;
     options.validation = validation;
     options.device = device == "auto" ? "" : device;
-    auto renderer = Renderer::create(options);
+    auto renderer = VulkanRenderer::create(options);
     if (!renderer)
         return renderer.error();
-    return std::unique_ptr<Painter>(std::make_unique<VulkanPainter>(std::move(*renderer)));
+    return std::unique_ptr<Renderer>(std::make_unique<VulkanBackend>(std::move(*renderer)));
 }
 #else
-Result<std::unique_ptr<Painter>> openVulkan(const std::string&, bool)
+Result<std::unique_ptr<Renderer>> openVulkan(const std::string&, bool)
 {
     return notBuiltWith("Vulkan", "libvulkan-dev and glslang-tools");
 }
@@ -62,7 +62,7 @@ Result<std::unique_ptr<Painter>> openVulkan(const std::string&, bool)
 
 } // namespace
 
-Status Painter::load(const Scene& scene, bool sameImages)
+Status Renderer::load(const Scene& scene, bool sameImages)
 {
     Status status = checkScene(scene, "scene", {.finite = false, .pixels = false});
     if (status)
@@ -71,7 +71,7 @@ Status Painter::load(const Scene& scene, bool sameImages)
     return status;
 }
 
-Result<Image> Painter::draw(const View& view)
+Result<Image> Renderer::draw(const View& view)
 {
     if (!loaded_)
         return usageError("draw: no scene is loaded");
@@ -80,7 +80,7 @@ Result<Image> Painter::draw(const View& view)
     return drawLoaded(view);
 }
 
-Result<std::unique_ptr<Painter>> openPainter(const std::string& device, int threads, bool validation)
+Result<std::unique_ptr<Renderer>> openRenderer(const std::string& device, int threads, bool validation)
 {
     std::string note;
     if (device != "reference") {
@@ -89,9 +89,9 @@ Result<std::unique_ptr<Painter>> openPainter(const std::string& device, int thre
             return vulkan;
         note = vulkan.error().message + "; drawing with the reference renderer";
     }
-    auto painter = std::make_unique<ReferencePainter>(threads);
-    painter->note = std::move(note);
-    return std::unique_ptr<Painter>(std::move(painter));
+    auto renderer = std::make_unique<ReferenceBackend>(threads);
+    renderer->note = std::move(note);
+    return std::unique_ptr<Renderer>(std::move(renderer));
 }
 
 } // namespace cotan
