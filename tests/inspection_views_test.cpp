@@ -8,10 +8,10 @@
 #include <glm/ext/matrix_transform.hpp>
 #include <glm/geometric.hpp>
 
-#include "cotan/render.hpp"
 #include "cotan/inspect.hpp"
-#include "inspect/probe.hpp"
+#include "cotan/render.hpp"
 #include "cotan/scene.hpp"
+#include "inspect/probe.hpp"
 
 namespace cotan {
 namespace {

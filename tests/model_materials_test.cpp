@@ -6,8 +6,8 @@
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
 
-#include "scene/geometry.hpp"
 #include "model_file.hpp"
+#include "scene/geometry.hpp"
 
 namespace cotan {
 namespace {
