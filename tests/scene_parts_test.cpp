@@ -243,10 +243,10 @@ TEST(SceneParts, underVeryManyLightsAreRefused)
     Scene scene = triangleScene();
     scene.instances = {{"", 0, glm::mat4(1)}};
     View view = triangleView();
-    view.lights.resize(670);
+    view.lights.resize(390);
     EXPECT_EQ(refusalOf(scene, view), "");
-    view.lights.resize(690); // on half the picture
-    EXPECT_NE(refusalOf(scene, view).find("its lights shine on the picture 345 times over"), std::string::npos);
+    view.lights.resize(410); // on half the picture
+    EXPECT_NE(refusalOf(scene, view).find("its lights shine on the picture 205 times over"), std::string::npos);
     view.output = Output::normal; // nothing is lit
     EXPECT_EQ(refusalOf(scene, view), "");
 }
