@@ -36,6 +36,38 @@ TEST(ReferenceLayers, masksCoverTheSamplesOnTheirSide) { layers::masksCoverTheSa
 
 TEST(ReferenceLayers, castersShadowWhereTheirMaterialStands) { layers::castersShadowWhereTheirMaterialStands(draw); }
 
+// Nearest first, each sample is written once. Farthest first, most of what is drawn is hidden later: after a while it
+// is looked at what comes, and not shaded.
+TEST(ReferenceLayers, opaqueSurfacesLookTheSameInAnyOrder)
+{
+    const auto drawnBy = [](bool nearestFirst) {
+        Scene scene;
+        Mesh mesh;
+        for (int k = 0; k < 40; ++k) {
+            const int i = nearestFirst ? 39 - k : k; // the higher, the nearer
+            layers::Pane pane;
+            pane.corner = {-20.0f + 0.37f * float(i % 7), 10.0f - 0.21f * float(i % 11), 0.5f * float(i)};
+            pane.alongU = {40.0f - 0.9f * float(i), 0, 0.3f}; // leans
+            pane.alongV = {0.2f * float(i % 5), -20.0f + 0.4f * float(i), 0};
+            pane.color = layers::colorOf(i);
+            layers::append(mesh, pane);
+        }
+        layers::addMesh(scene, mesh, layers::addMaterial(scene, AlphaMode::opaque));
+        layers::Pane holes; // of a mask that is nowhere: before all, and hides nothing
+        holes.corner.z = 30;
+        holes.color.w = 0.2f;
+        layers::addPane(scene, holes, AlphaMode::mask);
+        layers::Pane glass; // behind some, before others
+        glass.corner.z = 10.2f;
+        glass.color.w = 0.5f;
+        layers::addPane(scene, glass);
+        return draw(scene, layers::flatView());
+    };
+    const Image nearestFirst = drawnBy(true), farthestFirst = drawnBy(false);
+    EXPECT_EQ(nearestFirst.data, farthestFirst.data);
+    EXPECT_NE(layers::at(nearestFirst, 32, 16), layers::at(nearestFirst, 13, 7)) << "several panes are seen";
+}
+
 TEST(ReferenceLayers, over1024LayersInAWholeTileAreRefused)
 {
     layers::Pane pane;

@@ -174,7 +174,7 @@ TEST(SceneParts, thatCoverThePictureTooOftenAreRefusedUnlessTheyAreTheSame)
     const Status refused = settleCovered(other, view);
     ASSERT_FALSE(refused);
     EXPECT_EQ(refused.error().message,
-              "model: its triangles cover the picture 501 times over, expected at most 96: look from further away, or "
+              "model: its triangles cover the picture 501 times over, expected at most 64: look from further away, or "
               "leave some out");
 }
 

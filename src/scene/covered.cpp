@@ -22,7 +22,7 @@ namespace {
 // All in times the picture. On Mesa's driver for the CPU, 1280 x 720 pixels at one of these limits take about 10 s of
 // processor.
 constexpr double kDroppedFrom = 20;  // from which on it is worth looking for triangles that repeat
-constexpr double kMaxCovered = 96;   // by what hides what is behind
+constexpr double kMaxCovered = 64;   // by what hides what is behind
 constexpr double kMaxLayers = 16;    // by what is translucent: each is shaded, and put in order
 constexpr double kPlainLayer = 0.5;  // of such a one without a coat and the like; with one of these it is 1
 constexpr double kFurtherLobe = 0.8; // for each more: coat, sheen, other highlights

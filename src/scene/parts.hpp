@@ -22,7 +22,7 @@ void dropRepeated(Scene& scene);
 double pixelsCovered(const Scene& scene, const View& view);
 
 // Makes the scene fit to be drawn so many times in this view: dropRepeated where triangles cover the pictures over 20
-// times. Errors (ErrorKind::input), all before anything is drawn: after that opaque ones cover them over 96 times, or
+// times. Errors (ErrorKind::input), all before anything is drawn: after that opaque ones cover them over 64 times, or
 // translucent ones 16 times; the edges of long triangles fill them twice, in a scene of few places; or 200 lights
 // shine on all of them.
 Status settleCovered(Scene& scene, const View& view, std::size_t pictures = 1);

@@ -5,6 +5,7 @@
 #include <memory>
 #include <new>
 #include <optional>
+#include <span>
 #include <string>
 #include <utility>
 
@@ -61,6 +62,9 @@ Frozen prepare(const Scene& scene, const View& view)
     return f;
 }
 
+// How often the pixels of a tile are written, in the mean, before it is worth looking at what comes.
+constexpr std::size_t kOftenWritten = 4;
+
 // Draws one quad of one triangle into the tile.
 void drawQuad(const Scene& scene, const PixelInputs& all, const Frozen& f, const RasterTriangle& triangle,
               const Quad& quad, const SamplePattern& pattern, Tile& tile)
@@ -97,6 +101,23 @@ void drawQuad(const Scene& scene, const PixelInputs& all, const Frozen& f, const
     }
 }
 
+// Tells the tile of the triangles that hide what is behind them, whatever is shaded there.
+void expectOpaque(const Scene& scene, const Frozen& f, std::span<const std::uint32_t> triangles, const Rectangle& area,
+                  const SamplePattern& pattern, Tile& tile)
+{
+    for (const std::uint32_t t : triangles) {
+        const RasterTriangle& triangle = f.tiled.triangles[t];
+        const Material& material = scene.materials[std::size_t(f.draws[triangle.draw].material)];
+        if (material.alphaMode != AlphaMode::opaque || material.translucent())
+            continue;
+        forEachQuad(triangle, area, pattern, [&](const Quad& quad) {
+            for (int lane = 0; lane < 4; ++lane)
+                tile.expect(quad.x + (lane & 1), quad.y + (lane >> 1), quad.covered[std::size_t(lane)], triangle.z,
+                            pattern);
+        });
+    }
+}
+
 // Samples that are lit one by one are drawn as pictures of one sample.
 bool oneByOne(const View& view) { return view.output == Output::shaded && view.samples > kMaxSharedSamples; }
 
@@ -111,8 +132,15 @@ void drawTile(const Scene& scene, const View& view, const Frozen& f, std::size_t
     for (int y = area.y0; y < area.y1; ++y)
         for (int x = area.x0; x < area.x1; ++x)
             tile.clear(x, y, background(all, x, y));
-    for (std::uint32_t t : f.tiled.tiles[index]) {
-        const RasterTriangle& triangle = f.tiled.triangles[t];
+    const std::vector<std::uint32_t>& triangles = f.tiled.tiles[index];
+    const std::size_t often = kOftenWritten * std::size_t(area.x1 - area.x0) * std::size_t(area.y1 - area.y0);
+    bool expects = false;
+    for (std::size_t i = 0; i < triangles.size(); ++i) {
+        if (!expects && tile.written() > often) { // what is hidden is shaded no more
+            expectOpaque(scene, f, std::span(triangles).subspan(i), area, pattern, tile);
+            expects = true;
+        }
+        const RasterTriangle& triangle = f.tiled.triangles[triangles[i]];
         forEachQuad(triangle, area, pattern,
                     [&](const Quad& quad) { drawQuad(scene, all, f, triangle, quad, pattern, tile); });
     }

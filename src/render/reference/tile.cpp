@@ -31,17 +31,33 @@ std::size_t Tile::at(int x, int y) const
     return pixel * std::size_t(samples_);
 }
 
+void Tile::expect(int x, int y, unsigned covered, const Plane& z, const SamplePattern& pattern)
+{
+    if (expected_.empty())
+        expected_.assign(reversedDepth_.size(), -1.0f);
+    for (std::size_t s = 0; s < std::size_t(samples_); ++s)
+        if (covered >> s & 1) {
+            float& nearest = expected_[at(x, y) + s];
+            nearest = std::max(nearest, reversedDepthAt(z, x, y, pattern.offset[s]));
+        }
+}
+
 unsigned Tile::nearer(int x, int y, unsigned covered, const Plane& z, const SamplePattern& pattern) const
 {
     unsigned passed = 0;
-    for (std::size_t s = 0; s < std::size_t(samples_); ++s)
-        if ((covered >> s & 1) && reversedDepthAt(z, x, y, pattern.offset[s]) > reversedDepth_[at(x, y) + s])
+    for (std::size_t s = 0; s < std::size_t(samples_); ++s) {
+        if (!(covered >> s & 1))
+            continue;
+        const float depth = reversedDepthAt(z, x, y, pattern.offset[s]);
+        if (depth > reversedDepth_[at(x, y) + s] && (expected_.empty() || depth >= expected_[at(x, y) + s]))
             passed |= 1u << s;
+    }
     return passed;
 }
 
 void Tile::write(int x, int y, unsigned samples, glm::vec4 value, const Plane& z, const SamplePattern& pattern)
 {
+    ++written_;
     for (std::size_t s = 0; s < std::size_t(samples_); ++s) {
         if (!(samples >> s & 1))
             continue;

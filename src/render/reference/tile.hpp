@@ -23,7 +23,10 @@ class Tile {
 public:
     Tile(Rectangle area, int samples);
 
-    // The samples of `covered` for which z passes: nearer than what is there.
+    // Says that an opaque surface will be drawn there: what lies behind it does not pass from now on.
+    void expect(int x, int y, unsigned covered, const Plane& z, const SamplePattern& pattern);
+
+    // The samples of `covered` for which z passes: nearer than what is there, and not behind what is expected.
     unsigned nearer(int x, int y, unsigned covered, const Plane& z, const SamplePattern& pattern) const;
 
     // Replaces the samples and their reversed depth.
@@ -35,6 +38,9 @@ public:
     // Throws TooManyLayers over kMaxLayers.
     void blend(int x, int y, unsigned samples, glm::vec4 value, glm::vec3 through, const Plane& z,
                const SamplePattern& pattern);
+
+    // How many pixels were written, each as often as it was.
+    std::size_t written() const { return written_; }
 
     // Fills all samples of a pixel, behind everything.
     void clear(int x, int y, glm::vec4 value);
@@ -59,6 +65,8 @@ private:
     int samples_;
     std::vector<glm::vec4> value_;
     std::vector<float> reversedDepth_;
+    std::vector<float> expected_; // reversed depth of the nearest surface that will be drawn; empty before the first
+    std::size_t written_ = 0;
     std::vector<Layer> layers_;
     std::vector<std::uint32_t> newest_; // of each pixel; empty before the first layer
 };
