@@ -3,6 +3,7 @@
 #include <numbers>
 
 #include <glm/geometric.hpp>
+#include <glm/vec3.hpp>
 #include <gtest/gtest.h>
 
 #include "scene/environment/albedo.hpp"

@@ -5,7 +5,7 @@
 
 namespace cotan::viewer {
 
-// Hands models and poses to the loader; what else is requested stays.
+// Before there is a model: hands those that are requested to the loader, and drops poses; what else is requested stays.
 void beginLoads(Parts& parts);
 
 // Does all that is requested; also opens what was chosen in the dialog, and reads again what has changed on the disk.

@@ -115,7 +115,7 @@ void addLightOptions(Arguments& a, PictureOptions& o)
          [&o](const std::string& word) -> Status {
              o.exposure.reset();
              if (word != kAutoExposure)
-                 o.exposure = std::strtof(word.c_str(), nullptr);
+                 o.exposure = std::strtof(word.c_str(), nullptr); // as above0Or has read it
              return Done{};
          },
          "factor that multiplies all light, or auto: by the brightness of the model (1 in files that keep floats)")

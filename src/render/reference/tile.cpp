@@ -44,12 +44,13 @@ void Tile::expect(int x, int y, unsigned covered, const Plane& z, const SamplePa
 
 unsigned Tile::nearer(int x, int y, unsigned covered, const Plane& z, const SamplePattern& pattern) const
 {
+    const std::size_t first = at(x, y);
     unsigned passed = 0;
     for (std::size_t s = 0; s < std::size_t(samples_); ++s) {
         if (!(covered >> s & 1))
             continue;
         const float depth = reversedDepthAt(z, x, y, pattern.offset[s]);
-        if (depth > reversedDepth_[at(x, y) + s] && (expected_.empty() || depth >= expected_[at(x, y) + s]))
+        if (depth > reversedDepth_[first + s] && (expected_.empty() || depth >= expected_[first + s]))
             passed |= 1u << s;
     }
     return passed;
