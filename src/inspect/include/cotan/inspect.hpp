@@ -7,8 +7,8 @@
 //         return fail(compared.error().message);
 //     std::printf("%s\n", toText(*compared).c_str());
 //     cotan::writeImage("difference.png", compared->difference);
-//     for (const cotan::HotSpot& spot : cotan::hotSpots(scene))
-//         std::printf("%s\n", spot.text.c_str());
+//     for (const cotan::ProblemArea& area : cotan::problemAreas(scene))
+//         std::printf("%s\n", area.text.c_str());
 #pragma once
 
 #include <array>
@@ -138,11 +138,11 @@ View inspectionView(View view);
 
 // Where on a model to look: the worst places of what lint takes shares of.
 
-struct HotSpot {
+struct ProblemArea {
     std::string text; // "sheared over 10 degrees: 12.3 % of body, here 63"
     std::size_t mesh = 0;
-    double share = 0;   // of the mesh's area, as lint has it
-    double badness = 0; // what the list is sorted by
+    double share = 0;    // of the mesh's area, as lint has it
+    double severity = 0; // what the list is sorted by
     Camera camera; // looks at the worst triangle of its kind along its normal, with an eighth of the model around it
     std::array<glm::vec3, 3> corners{}; // of that triangle, world
     std::string_view view;              // the view of `cotan view` and `render` that shows what is wrong
@@ -153,14 +153,14 @@ struct HotSpot {
 // without area, stretched over kStretched, sheared over kSheared; w of stored tangents against the uv, stored tangents
 // turned over kTurned. The worst first; at most `most`. Where something stands between the camera and its triangle, the
 // camera is nearer, if the triangle fits into the picture from there.
-std::vector<HotSpot> hotSpots(const Scene& scene, std::size_t most = 50);
+std::vector<ProblemArea> problemAreas(const Scene& scene, std::size_t most = 50);
 
 // ---- faults of maps ------------------------------------------------------------------------
 
 // What is wrong with the normal maps of a scene as files.
 
 // A sentence for each normal map that was saved as a colour, has channels exchanged or is broken otherwise, by name,
-// with the command that mends it; green that points down where it is declared up counts, too. Empty where all are good.
+// with the command that fixes it; green that points down where it is declared up counts, too. Empty where all are good.
 // Each map is looked at once: a second for 4096 x 4096 texels.
 std::vector<std::string> mapFaults(const Scene& scene);
 
