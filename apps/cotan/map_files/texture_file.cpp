@@ -12,7 +12,7 @@
 #include "image/dds.hpp"
 #include "image/format_table.hpp"
 #include "image/frame_key.hpp"
-#include "maps/block.hpp"
+#include "block.hpp"
 
 namespace cotan::maps {
 
