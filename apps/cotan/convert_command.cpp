@@ -12,7 +12,6 @@
 #include "cotan/inspect.hpp"
 #include "cotan/render.hpp"
 #include "gltf_open.hpp"
-#include "inspect/verify/view_files.hpp"
 #include "loading.hpp"
 #include "parse.hpp"
 #include "verify.hpp"
