@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "bake/convert_report.hpp"
+#include "convert_lines.hpp"
 #include "cotan/convert.hpp"
 #include "cotan/inspect.hpp"
 #include "cotan/render.hpp"

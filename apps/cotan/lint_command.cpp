@@ -7,6 +7,7 @@
 #include "cotan/lint.hpp"
 #include "cotan/render.hpp"
 #include "gltf_open.hpp"
+#include "lint_lines.hpp"
 #include "loading.hpp"
 #include "picture.hpp"
 #include "terminal/command_words.hpp"
