@@ -6,6 +6,7 @@
 
 #include "cotan/maps.hpp"
 #include "map_cases.hpp"
+#include "quantisation.hpp"
 
 namespace cotan::maps {
 namespace {

@@ -62,11 +62,6 @@ glm::vec4 encodeTexel(glm::vec3 normal, const Convention& convention, PixelType 
 // must depend on the rows only.
 void forRowBands(int height, const std::function<void(int first, int last)>& work);
 
-// The largest angle in degrees between a vector and what an encoding of `bits` per component gives
-// back for it, by rounding alone, anywhere on the upper hemisphere up to `tilt` degrees from flat.
-// 32 bits: that of float arithmetic. (docs/reference/maps.md has the table.)
-double quantisationDegrees(const Convention& convention, int bits, double tilt);
-
 // A number in [-0.5,0.5) for a component of a texel, the same on every run: for dithering.
 float ditherNoise(std::uint32_t x, std::uint32_t y, std::uint32_t component);
 

@@ -70,12 +70,6 @@ inline glm::vec3 reflectedGlossy(const EnvironmentMap& map, const f32::cotan_sur
                                     albedoOf(map, s.n, s.v, s.roughness));
 }
 
-// The same of metallic-roughness alone.
-inline glm::vec3 reflectedOf(const EnvironmentMap& map, const f32::cotan_surface& s)
-{
-    return reflectedGlossy(map, s, f32::cotan_plain_gloss());
-}
-
 inline glm::vec3 reflectedOfCoat(const EnvironmentMap& map, const f32::cotan_coat& c, glm::vec3 v)
 {
     return f32::cotan_reflect_coat_image(c, radianceAlong(map, f32::cotan_mirrored(c.n, v), c.roughness),
