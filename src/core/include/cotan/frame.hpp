@@ -18,8 +18,7 @@ namespace cotan {
 
 // ---- by name -------------------------------------------------------------------------------
 
-// Frames by name, and their evaluation. The mathematics is the portable text (shaders/cotan/frame.h); this is its
-// C++ front door.
+// The mathematics is the portable text (shaders/cotan/frame.h); this is how C++ reaches it.
 
 // All frames, from the table cotan/frames.inc. The numbers are those of the GPU's specialisation constant COTAN_FRAME.
 enum class Frame {
@@ -107,8 +106,6 @@ f32::cotan_frame evaluateTangents(Frame frame, f32::cotan_vec3 n, f32::cotan_vec
 f64::cotan_frame evaluateTangents(Frame frame, f64::cotan_vec3 n, f64::cotan_vec3 t, double alongV);
 
 // ---- typed ---------------------------------------------------------------------------------
-
-// The typed frame: three covectors, and what may be done with them.
 
 // Differences along any two directions: screen derivatives, triangle edges, a uv raster's steps.
 template<class Real> struct Differences {

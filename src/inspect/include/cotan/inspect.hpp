@@ -84,8 +84,6 @@ void drawEdges(Image& picture, const Image& depth, const Camera& camera, std::sp
 
 // ---- what is at a pixel --------------------------------------------------------------------
 
-// What of a scene is at a pixel.
-
 struct PickedPoint {
     int instance = 0, mesh = 0; // indices into the scene
     std::size_t triangle = 0;   // of the mesh
@@ -157,16 +155,12 @@ std::vector<ProblemArea> problemAreas(const Scene& scene, std::size_t most = 50)
 
 // ---- faults of maps ------------------------------------------------------------------------
 
-// What is wrong with the normal maps of a scene as files.
-
 // A sentence for each normal map that was saved as a colour, has channels exchanged or is broken otherwise, by name,
 // with the command that fixes it; green that points down where it is declared up counts, too. Empty where all are good.
 // Each map is looked at once: a second for 4096 x 4096 texels.
 std::vector<std::string> mapFaults(const Scene& scene);
 
 // ---- what a comparison gives ---------------------------------------------------------------
-
-// What drawing something twice and comparing the normals gives.
 
 // Seen from one side. The degrees are angles between the two normals of a pixel, over the pixels that show the
 // inside of a surface in both: those whose eight neighbours show one, too. The pictures are square, unorm8.
@@ -228,8 +222,6 @@ Result<DrawnSides> drawSides(Renderer& renderer, ModelInFrame model, std::vector
 Result<ComparedViews> compareSides(const DrawnSides& before, const DrawnSides& after);
 
 // ---- one frame against another -------------------------------------------------------------
-
-// One view of a loaded scene drawn with two frames, and what they differ by.
 
 // Whether a view of a scene shows normal maps, so that the frame has a part in the normals.
 bool showsNormalMaps(const Scene& scene, const View& view);

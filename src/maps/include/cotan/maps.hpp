@@ -108,8 +108,6 @@ std::string describe(Content content);
 
 // ---- which way green points ----------------------------------------------------------------
 
-// Which way green points, from the map alone.
-//
 // The slopes a = dh/dx and b = dh/dy of a height h satisfy da/dy = db/dx. A map whose green is
 // negated satisfies da/dy = -db/dx instead, and one with red and green exchanged has them in each
 // other's place. What cannot be told: whether bumps are dents. (x,-y) and (-x,y) are the same
@@ -186,8 +184,6 @@ void undo(const Damage& damage, Image& image);
 
 // ---- to another convention -----------------------------------------------------------------
 
-// From one way of storing a normal map to another.
-
 struct RecodeSettings {
     Convention from{}, to{};
     PixelType type = PixelType::unorm8; // of the result
@@ -209,8 +205,6 @@ Image recode(const Image& map, const RecodeSettings& settings, RecodeCounts& cou
 
 // ---- blending ------------------------------------------------------------------------------
 
-// Combines a base map and a detail map.
-
 enum class BlendMode { reoriented, whiteout, udn, slopes, linear }; // cotan/blend.h says what each does
 
 struct BlendSettings {
@@ -231,8 +225,6 @@ Image blend(const Image& base, const Image& detail, const BlendSettings& setting
 
 // ---- heights -------------------------------------------------------------------------------
 
-// Heights to normals and back.
-//
 // Units: the solvers know heights in texels (a slope of 1 rises one texel's width per texel). What a
 // texel is in metres, and what white is, is a factor that the caller applies.
 
@@ -330,8 +322,6 @@ double roughnessFromVariance(double roughness, double variance);                
 std::vector<MipLevel> mipChain(const Image& map, const MipSettings& settings);
 
 // ---- comparison ----------------------------------------------------------------------------
-
-// How far two normal maps are apart.
 
 // Per texel the angle in degrees between two maps of the same size, each read with its own
 // convention; -1 where one of the two is not a direction (not finite, or of no length).
