@@ -22,6 +22,12 @@ namespace cotan::maps {
 // Where slopes of normals are counted, steeper ones are taken as this: half a degree from lying down.
 constexpr float kSteepestSlope = 128;
 
+// Steps per unit of a stored component; 0 of floats.
+constexpr float stepsOf(PixelType type)
+{
+    return type == PixelType::unorm8 ? 255.0f : type == PixelType::unorm16 ? 65535.0f : 0.0f;
+}
+
 // Grey pixels with an alpha that varies: greyAlpha. Red constant with an alpha that varies, green
 // varying: alphaGreen. Otherwise rg.
 Swizzle swizzleOf(const Image& image);
