@@ -4,10 +4,8 @@
 // map of any convention decodes into it; which way v runs does not matter here.
 #pragma once
 
-#include <cstddef>
 #include <functional>
 #include <span>
-#include <vector>
 
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <string>
 
 #include <glm/geometric.hpp>
 #include <glm/vec2.hpp>

@@ -1,7 +1,6 @@
 #include "scene/parts.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <functional>
 #include <map>
 #include <string_view>
