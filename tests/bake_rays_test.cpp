@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <utility>
 
 #include <glm/geometric.hpp>
 
@@ -87,6 +88,57 @@ TEST(BakeRays, aSphereUnderOneAFiftiethLargerHasNoHoles)
     const Mesh low = around(32, 16, [](int, int) { return 1.0; }), high = around(32, 16, [](int, int) { return 1.02; });
     for (const BakeSearch search : {BakeSearch::first, BakeSearch::nearest})
         EXPECT_EQ(bakeOnto(low, high, search).statistics.missed, 0u);
+}
+
+Scene placed(const Mesh& mesh, const glm::mat4& toWorld)
+{
+    Scene scene = sceneOfMeshes({mesh});
+    scene.instances[0].toWorld = toWorld;
+    return scene;
+}
+
+// The same with the transform in the vertices: normals go by the inverse transpose, mirrored triangles turn.
+Scene moved(Mesh mesh, const glm::mat4& toWorld)
+{
+    const glm::mat3 linear(toWorld);
+    for (glm::vec3& p : mesh.positions)
+        p = glm::vec3(toWorld * glm::vec4(p, 1));
+    for (glm::vec3& n : mesh.normals)
+        n = glm::normalize(glm::inverse(glm::transpose(linear)) * n);
+    if (glm::determinant(linear) < 0)
+        for (std::size_t i = 0; i < mesh.indices.size(); i += 3)
+            std::swap(mesh.indices[i + 1], mesh.indices[i + 2]);
+    return sceneOfMeshes({mesh});
+}
+
+TEST(BakeRays, aTransformedInstanceBakesAsItsVerticesMoved)
+{
+    const Mesh low = around(12, 8, [](int, int) { return 1.0; }),
+               high = around(40, 24, [](int i, int j) { return 1.02 + 0.01 * std::sin(i * 0.9) * std::sin(j * 1.3); });
+    glm::mat4 stretched(1), mirrored(1), sheared(1), far(1);
+    stretched[0][0] = 3, stretched[1][1] = 0.5f;
+    mirrored[0][0] = -1.5f, mirrored[2][2] = 0.7f;
+    sheared[1][0] = 0.4f, sheared[2][1] = -0.3f;
+    far[3] = {50, -20, 30, 1};
+    const auto bakeBoth = [](const Scene& lowScene, const Scene& highScene) {
+        BakeOptions options;
+        options.width = options.height = 48;
+        options.kind = BakeKind::objectNormal;
+        const auto surface = makeLowSurface(lowScene, -1, options.frame, TangentOrigin::generated);
+        const auto detailed = HighSurface::make({highScene}, 0);
+        EXPECT_TRUE(surface && detailed);
+        return *bake(*surface, *detailed, options);
+    };
+    for (const glm::mat4& m : {stretched, mirrored, sheared, far}) {
+        const Baked a = bakeBoth(placed(low, m), placed(high, m)), b = bakeBoth(moved(low, m), moved(high, m));
+        ASSERT_EQ(a.values.size(), b.values.size());
+        EXPECT_GT(a.statistics.covered, 1000u);
+        EXPECT_EQ(a.statistics.missed, b.statistics.missed);
+        std::size_t apart = 0;
+        for (std::size_t i = 0; i < a.values.size(); ++i)
+            apart += glm::length(a.values[i] - b.values[i]) > 1e-3f; // floats at 60 from the origin: 4e-6 of a texel's
+        EXPECT_LE(apart, a.values.size() / 500);                     // rays that graze an edge may meet either side
+    }
 }
 
 // A component as files and sums of rounded numbers have it.

@@ -118,6 +118,18 @@ TEST(CommandLine, aReportGoesIntoAPipeAndDoesNotReplaceIt)
     ::close(reader);
 }
 
+TEST(CommandLine, aReportToStandardOutputIsNoFileOfThatName)
+{
+    TemporaryFolder folder;
+    std::filesystem::create_directory(folder / "-");
+    const ToolRun run =
+        runTool({"render", "--device", "reference", "--size", "16x16", "--samples", "1", "-o", "a.png", "--json", "-"},
+                folder.path());
+    EXPECT_EQ(run.code, 0) << run.err;
+    EXPECT_TRUE(run.out.starts_with("{")) << run.out.substr(0, 80);
+    EXPECT_TRUE(std::filesystem::is_empty(folder / "-"));
+}
+
 TEST(CommandLine, anEqualsSignBehindAShortOptionIsNoPartOfTheName)
 {
     TemporaryFolder folder;

@@ -94,6 +94,17 @@ TEST(CostCards, whatIsWrittenIsReadAgain)
     EXPECT_EQ((*cards)[2].date, "2026-11-24");
 }
 
+TEST(CostCards, onlyCellsThatNeedItAreQuoted)
+{
+    const std::string text = cardsToCsv({sample()});
+    EXPECT_NE(text.find("AMD,NAVI21,\"Card, the \"\"first\"\"\",\"radv, Mesa 26.2\",2026-11-24,"), std::string::npos)
+        << text;
+    std::size_t quotes = 0;
+    for (const char c : text)
+        quotes += c == '"';
+    EXPECT_EQ(quotes, 2 * (2 + 4 + 2)); // of each of the two lines: around name and driver, and doubled around "first"
+}
+
 TEST(CostCards, aWrongLineIsNamed)
 {
     const std::string good = cardsToCsv({sample()});

@@ -290,6 +290,47 @@ TEST(CostPrice, ofCardsAsksNoDriverAndKeepsTheFloorAndStoredTangents)
     EXPECT_EQ(broken.error().message.find("options.cards: line 1: "), 0u);
 }
 
+TEST(CostPrice, asksTheCardsAndDevicesThatAreNamedAndNoOthers)
+{
+    PriceOptions options;
+    options.frames = {"smooth-fused"};
+    options.families = {"no such card"};
+    const auto cards = price(options); // not the devices of this machine: they are neither asked nor timed
+    ASSERT_TRUE(cards) << cards.error().message;
+    ASSERT_EQ(cards->code.size(), 1u);
+    EXPECT_EQ(cards->code[0].family, "no such card");
+    EXPECT_NE(cards->code[0].silence, "");
+    EXPECT_TRUE(cards->timing.empty());
+    EXPECT_EQ(cards->timingSilence, "");
+    options.timing = false;
+    options.families.push_back("nor this");
+    const auto two = price(options);
+    ASSERT_TRUE(two) << two.error().message;
+    ASSERT_EQ(two->code.size(), 2u);
+    EXPECT_EQ(two->code[1].family, "nor this");
+    EXPECT_EQ(two->timingSilence, "--no-timing was given");
+    options.name = "Card";
+    const auto named = price(options);
+    ASSERT_TRUE(named) << named.error().message;
+    EXPECT_EQ(named->code.at(0).family, "no such card");
+    if (!machineCodeOfDevices({}, {}))
+        GTEST_SKIP() << "Vulkan cannot be used here";
+    for (const bool withCards : {false, true}) {
+        options = {};
+        options.frames = {"smooth-fused"};
+        options.devices = {"no such device", "nor this"};
+        if (withCards)
+            options.families = {"no such card"};
+        const auto none = price(options);
+        ASSERT_TRUE(none) << none.error().message; // operations are counted all the same
+        EXPECT_EQ(none->rows.size(), 3u);
+        EXPECT_TRUE(none->code.empty());
+        EXPECT_EQ(none->codeSilence,
+                  "no Vulkan device has 'no such device' or 'nor this' in its name; operations and "
+                  "SPIR-V were counted");
+    }
+}
+
 // Bytes follow from what is stored: floats of 4 bytes, and indices as large.
 TEST(CostStages, bytesAreThoseOfWhatIsReadAndStored)
 {

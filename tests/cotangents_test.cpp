@@ -2,6 +2,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
+#include <random>
 
 #include <gtest/gtest.h>
 
@@ -168,6 +170,47 @@ TEST(SmoothCotangents, sidesOfAMirrorLineDoNotCancelOnceSplit)
     // Not split, a vertex on the line still gets one side's gradient, not the sum of both.
     for (const glm::vec3& u : smoothCotangents(a.view()).u)
         EXPECT_NEAR(glm::length(u), 1, 1e-6);
+}
+
+// Seams anywhere and triangles in any order, so that either side of a vertex may be met first and keep it.
+TEST(SplitSmoothCotangents, areTheTwoStepsWhicheverSideAVertexMeetsFirst)
+{
+    std::mt19937 dice(5);
+    std::size_t copies = 0, keptMirrored = 0;
+    for (int round = 0; round < 30; ++round) {
+        const float seam = float(1 + dice() % 5) / 6;
+        Arrays a = gridOf(6, [&](float x, float y) {
+            return Vertex{{x, -y, 0.1f * x * y}, {0, 0, 1}, {std::abs(x - seam) * (1 + y), y}};
+        });
+        std::vector<std::size_t> order(a.indices.size() / 3);
+        std::iota(order.begin(), order.end(), std::size_t(0));
+        std::shuffle(order.begin(), order.end(), dice);
+        const std::vector<std::uint32_t> old = a.indices;
+        for (std::size_t f = 0; f < order.size(); ++f)
+            std::copy_n(old.begin() + std::ptrdiff_t(3 * order[f]), 3, a.indices.begin() + std::ptrdiff_t(3 * f));
+        const cotan::VertexSplit split = cotan::splitMirrored(a.view());
+        Arrays b;
+        for (const std::uint32_t i : split.sources)
+            b.add(a.positions[i], a.normals[i], a.texcoords[i]);
+        b.indices = split.indices;
+        const Cotangents wanted = smoothCotangents(b.view());
+        const cotan::SplitCotangents found = cotan::splitSmoothCotangents(a.view());
+        EXPECT_EQ(found.split.sources, split.sources);
+        EXPECT_EQ(found.split.indices, split.indices);
+        ASSERT_EQ(found.cotangents.u.size(), split.sources.size());
+        ASSERT_EQ(found.cotangents.v.size(), split.sources.size());
+        for (std::size_t i = 0; i < split.sources.size(); ++i) {
+            ASSERT_LT(glm::length(found.cotangents.u[i] - wanted.u[i]), 1e-5f) << round << ' ' << i;
+            ASSERT_LT(glm::length(found.cotangents.v[i] - wanted.v[i]), 1e-5f) << round << ' ' << i;
+        }
+        for (std::size_t i = a.positions.size(); i < split.sources.size(); ++i) {
+            ++copies;
+            keptMirrored += found.cotangents.u[split.sources[i]].x < 0;
+        }
+    }
+    EXPECT_GT(copies, 100u);
+    EXPECT_GT(keptMirrored, copies / 4);
+    EXPECT_LT(keptMirrored, 3 * copies / 4);
 }
 
 TEST(SmoothCotangents, areFiniteForBrokenInput)

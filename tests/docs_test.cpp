@@ -132,6 +132,31 @@ TEST(Documents, noLineIsOverTheLimit)
     }
 }
 
+// Two branches that change one place leave both versions between marks until somebody chooses.
+TEST(Sources, haveNoMarksOfAnUnfinishedMerge)
+{
+    std::size_t read = 0;
+    for (const fs::directory_entry& top : fs::directory_iterator(kSources)) {
+        std::vector<fs::path> files;
+        if (top.is_regular_file())
+            files.push_back(top.path());
+        else if (top.is_directory() && top.path().filename() != "build" && top.path().filename() != ".git")
+            for (const fs::directory_entry& entry : fs::recursive_directory_iterator(top.path()))
+                if (entry.is_regular_file())
+                    files.push_back(entry.path());
+        for (const fs::path& file : files) {
+            const std::string text = readWhole(file);
+            if (text.find('\0') != std::string::npos) // an image, a model
+                continue;
+            ++read;
+            for (const char* word : {"<<<<<<< ", ">>>>>>> "})
+                EXPECT_FALSE(text.starts_with(word) || text.find(std::string("\n") + word) != std::string::npos)
+                    << shortName(file) << ": " << word;
+        }
+    }
+    EXPECT_GT(read, 1000u);
+}
+
 // A page without its code and the targets of its links.
 std::string proseOf(const fs::path& file)
 {

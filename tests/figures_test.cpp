@@ -85,6 +85,7 @@ TEST(Figures, everyNameMakesPicturesAndOnePageThatNeedsNothingElse)
     ASSERT_EQ(run.code, 0) << run.err;
     const auto report = nlohmann::json::parse(readWhole(folder / "report.json"));
     ASSERT_EQ(report["figures"].size(), std::size(kNames));
+    EXPECT_NE(run.out.find("page: a/index.html\n"), std::string::npos) << run.out;
     const std::string page = readWhole(folder / "a/index.html");
     std::size_t pictures = 0;
     for (std::size_t i = 0; i < std::size(kNames); ++i) {

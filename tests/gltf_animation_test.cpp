@@ -269,6 +269,25 @@ TEST(AnimatedGltf, isAsLongAsItsLastKey)
     EXPECT_FALSE(damaged->at({"go", 0}));
 }
 
+// Their length is asked for before anybody asks for a moment: it is 0 where the keys are no times.
+TEST(AnimatedGltf, keysThatAreNoTimesHaveNoLength)
+{
+    const Gltf good = moved({{"translation", {0, 2}, {0, 0, 0, 1, 0, 0}, "VEC3"}});
+    const auto secondsWith = [&](const auto& input) {
+        Gltf g = good;
+        g.root["animations"][1]["samplers"][0]["input"] = input(g);
+        const auto model = opened(g);
+        EXPECT_TRUE(model);
+        EXPECT_FALSE(model->at({"go", 0}));
+        return model->animations().at(1).seconds;
+    };
+    EXPECT_EQ(opened(good)->animations().at(1).seconds, 2);
+    EXPECT_EQ(secondsWith([](Gltf& g) { return g.floats({0, 0, 0, 5, 6, 7}, "VEC3"); }), 0);
+    EXPECT_EQ(secondsWith([](Gltf& g) { return g.floats({0, 0, 5, 6}, "VEC2"); }), 0);
+    EXPECT_EQ(secondsWith([](Gltf& g) { return g.accessor(std::vector<std::uint16_t>{0, 9}, "SCALAR", kUShort); }), 0);
+    EXPECT_EQ(secondsWith([](Gltf& g) { return g.accessor(std::vector<std::uint8_t>{0, 9}, "SCALAR", kUByte); }), 0);
+}
+
 TEST(AnimatedGltf, decodesItsImagesOnce)
 {
     Gltf g = moved({{"translation", {0, 1}, {0, 0, 0, 1, 0, 0}, "VEC3"}});

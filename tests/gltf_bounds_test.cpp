@@ -1,4 +1,6 @@
 // Both sides of each limit of a glTF model, and what its warnings say and count.
+#include <map>
+
 #include "gltf_edit_maker.hpp"
 
 namespace {
@@ -47,6 +49,74 @@ TEST(GltfBounds, limitsAreReachedAndNotPassed)
     LoadLimits limits;
     limits.nodes = 2; // fewer than nodes are listed
     EXPECT_NE(refusalOf(g, limits).find("nodes: the limit is 2, found 3"), std::string::npos);
+}
+
+// Vertices of zeros, which cost the file nothing: one accessor of each type stands for all attributes of that type.
+struct Zeros {
+    explicit Zeros(std::size_t vertices) : count(vertices)
+    {
+        g.add("meshes", {{"primitives", {{{"attributes", {{"POSITION", of("VEC3")}}}}}}});
+        g.add("nodes", {{"mesh", 0}});
+        g.add("scenes", {{"nodes", {0}}});
+    }
+    int of(const char* type, int componentType = kFloat)
+    {
+        const auto [place, isNew] = made.try_emplace(type + std::to_string(componentType), 0);
+        if (isNew)
+            place->second = g.accessor({{"componentType", componentType}, {"type", type}, {"count", count}});
+        return place->second;
+    }
+    void give(const char* name, const char* type, int componentType = kFloat)
+    {
+        primitive(g)["attributes"][name] = of(type, componentType);
+    }
+
+    std::size_t count;
+    Gltf g;
+    std::map<std::string, int> made;
+};
+
+// What a model takes is what its arrays have: 4 bytes an index, 12, 16 and 8 for vectors of three, four and two. Of a
+// file 16 times its own size comes on top of the limit.
+TEST(GltfBounds, geometryTakesTheBytesOfItsArraysAndNoMore)
+{
+    constexpr std::size_t kCount = 6000, kOrder = 4, kPosition = 12, kNormal = 12;
+    struct Row {
+        const char* what;
+        void (*add)(Zeros&);
+        std::size_t bytes; // a vertex
+    };
+    const auto joints = [](Zeros& z) { z.give("JOINTS_0", "VEC4", kUByte), z.give("WEIGHTS_0", "VEC4"); };
+    for (const Row& row :
+         {Row{"positions and normals", [](Zeros&) {}, 0},
+          {"tangents", [](Zeros& z) { z.give("TANGENT", "VEC4"); }, 16},
+          {"uv", [](Zeros& z) { z.give("TEXCOORD_0", "VEC2"); }, 8},
+          {"the second uv", [](Zeros& z) { z.give("TEXCOORD_0", "VEC2"), z.give("TEXCOORD_1", "VEC2"); }, 16},
+          {"a third uv is not read", [](Zeros& z) { z.give("TEXCOORD_2", "VEC2"); }, 0},
+          {"colours", [](Zeros& z) { z.give("COLOR_0", "VEC4"); }, 16},
+          {"joints and weights", joints, 32},
+          {"a strip: three indices a corner, and the corners", [](Zeros& z) { primitive(z.g)["mode"] = 5; }, 12},
+          {"a fan", [](Zeros& z) { primitive(z.g)["mode"] = 6; }, 12},
+          {"one morph target at a time",
+           [](Zeros& z) {
+               const json target = {{"POSITION", z.of("VEC3")}, {"NORMAL", z.of("VEC3")}};
+               primitive(z.g)["targets"] = {target, target, target};
+           },
+           24},
+          {"a vertex a corner for flat normals, two uv sets and a colour",
+           [](Zeros& z) { primitive(z.g)["attributes"].erase("NORMAL"); }, 12 + 12 + 16 + 16 - kNormal}}) {
+        Zeros z(kCount);
+        z.give("NORMAL", "VEC3");
+        row.add(z);
+        const std::size_t bytes = kCount * (kOrder + kPosition + kNormal + row.bytes), ofFile = 16 * z.g.text().size();
+        ASSERT_GT(bytes, ofFile);
+        LoadLimits limits;
+        limits.geometryBytes = bytes - ofFile;
+        EXPECT_EQ(refusalOf(z.g, limits), "") << row.what;
+        --limits.geometryBytes;
+        EXPECT_NE(refusalOf(z.g, limits).find("meshes[0].primitives[0]"), std::string::npos) << row.what;
+        EXPECT_NE(refusalOf(z.g, limits).find(": the geometry takes "), std::string::npos) << row.what;
+    }
 }
 
 TEST(GltfBounds, imagesOfAllAndOfOneAreHeldToTheirBytes)

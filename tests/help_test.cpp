@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cctype>
+#include <map>
+#include <set>
 #include <sstream>
 
 #include "cotan/frame.hpp"
@@ -258,6 +260,89 @@ TEST(Help, aNameHasOneMeaningAndOlderNamesGoOnWorking)
                 folder.path())
             .code,
         1);
+}
+
+// By command: words with which it would work, and the options that take any text, which cannot be wrong.
+struct Usual {
+    Words words;
+    std::set<std::string> anyText;
+};
+const std::map<std::string, Usual> kUsual = {
+    {"render", {{"model.glb", "-o", "a.png"}, {"--variant", "--animation", "--device", "--camera", "--environment"}}},
+    {"compare", {{"model.glb", "-o", "a"}, {"--variant", "--animation", "--device", "--camera", "--environment"}}},
+    {"bake",
+     {{"--high", "statue.obj", "--low", "statue_low.obj", "-o", "a.png"},
+      {"--object", "--device", "--high-convention", "--high-frame"}}}, // the last two want a map of the high mesh
+    {"convert", {{"model.glb", "-o", "a.glb", "--to-frame", "orthonormal"}, {"--device"}}},
+    {"lint", {{"model.glb"}, {}}},
+    {"tangents", {{"model.glb"}, {}}},
+    {"shader", {{"--lang", "glsl"}, {}}},
+    {"view",
+     {{"model.glb"}, {"--variant", "--animation", "--device", "--camera", "--environment", "--do", "--convention"}}},
+    {"batch", {{"jobs.jsonl", "-o", "a.html"}, {}}},
+    {"cost", {{}, {"--device", "--family", "--name"}}},
+    {"accuracy", {{}, {"--device", "--scene"}}},
+    {"figures", {{"-o", "figures"}, {"--device"}}},
+    {"map convert", {{"rocks.png", "-o", "a.png", "--from", "gltf", "--to", "directx"}, {"--frame"}}}, // with --mesh
+    {"map blend", {{"rocks.png", "grain.png", "-o", "a.png"}, {}}},
+    {"map diff", {{"rocks.png", "other.png"}, {}}},
+    {"map mips", {{"rocks.png", "-o", "a.dds"}, {}}},
+    {"map info", {{"rocks.png"}, {}}},
+    {"map detect", {{"rocks.png"}, {}}},
+    {"map from-height", {{"height.png", "-o", "a.png", "--metres", "1", "--range", "1"}, {}}},
+    {"map to-height", {{"rocks.png", "-o", "a.png"}, {}}},
+};
+
+// Each option of each command, once with a word that is none of its own.
+TEST(Help, everyOptionRefusesAWrongWordByItsNameWithWhatItFound)
+{
+    TemporaryFolder folder;
+    prepare(folder);
+    const std::string wrong = "nonsense!";
+    std::size_t tried = 0;
+    for (const auto& [command, help] : helps()) {
+        if (command.empty() || command == "map" || command == "help")
+            continue;
+        const auto usual = kUsual.find(command);
+        ASSERT_NE(usual, kUsual.end()) << command << ": say with which words it works";
+        std::istringstream text(help);
+        for (std::string line; std::getline(text, line);) {
+            Words words = split(line);
+            if (words.size() < 2 || !line.starts_with("  "))
+                continue;
+            if (words[0].ends_with(",") && words[0].size() == 3) // -o, --output
+                words.erase(words.begin());
+            if (!words[0].starts_with("--") || words.size() < 2)
+                continue;
+            const std::string option = words[0], value = words[1];
+            if (option.ends_with(",") || line.find(option + " " + value) == std::string::npos)
+                continue; // two long names of one; no value, but a text that follows
+            const bool takesFile = value.starts_with("FILE") || value == "PATH" || value == "DIR" || value == "FOLDER";
+            if (!std::isupper(static_cast<unsigned char>(value[0])) || takesFile
+                || usual->second.anyText.contains(option))
+                continue;
+            Words all = split(command);
+            bool replaced = false;
+            for (const std::string& word : usual->second.words) {
+                const bool isValue = !all.empty() && all.back() == option;
+                all.push_back(isValue ? wrong : word);
+                replaced = replaced || isValue;
+            }
+            if (!replaced)
+                all.insert(all.end(), {option, wrong});
+            const ToolRun run = runTool(all, folder.path());
+            const std::string said = command + " " + option + ": " + run.err;
+            EXPECT_EQ(run.code, 1) << said;
+            EXPECT_TRUE(run.err.starts_with("cotan: error: " + option + ": expected ")) << said;
+            const std::string found = "; found '" + wrong + "'";
+            EXPECT_TRUE(run.err.ends_with(found + "\n")
+                        || run.err.ends_with(found + " (see cotan " + command + " --help)\n"))
+                << said;
+            EXPECT_EQ(run.out, "") << said;
+            ++tried;
+        }
+    }
+    EXPECT_GT(tried, 150u);
 }
 
 TEST(Help, anUnknownCommandIsNamedWithTheNearestOne)

@@ -247,6 +247,12 @@ TEST(ProblemAreas, areSeenAlongTheirNormalFromFourTimesTheirSize)
     floor.meshes = {makePatch(4, 0, false, 1)};
     floor.instances.push_back({"a", 0, glm::rotate(glm::mat4(1), -1.5707963f, glm::vec3(1, 0, 0))});
     EXPECT_EQ(problemAreas(floor).at(0).camera.up, glm::vec3(0, 0, -1));
+    for (const float degrees : {-30.0f, 45.0f, 80.0f}) { // a slope, from above or below, is seen with up upwards
+        floor.instances[0].toWorld = glm::rotate(glm::mat4(1), glm::radians(degrees), glm::vec3(1, 0, 0));
+        const Camera camera = problemAreas(floor).at(0).camera;
+        EXPECT_EQ(camera.up, glm::vec3(0, 1, 0)) << degrees;
+        EXPECT_NEAR(glm::normalize(camera.eye - camera.target).y, -std::sin(glm::radians(degrees)), 1e-5) << degrees;
+    }
 }
 
 // ---- what is under the pointer ------------------------------------------------------------------------

@@ -403,7 +403,7 @@ TEST(MapCommand, what_textures_cannot_hold_is_refused_in_one_line)
         {{"--compress", "bc1", "-o", "x.dds"}, "--compress: expected none, bc5 or bc7; found 'bc1'"},
         {{"--to", "gltf,orthographic", "--compress", "bc7", "-o", "x.ktx2"}, "--to: bc7 holds x, y and z"},
         {{"--compress", "bc5", "-o", "x.png"}, "--compress: blocks are for .dds and .ktx2 files"},
-        {{"--bits", "16", "-o", "x.ktx2"}, "--bits: .ktx2 files are written with 8 bits"},
+        {{"--bits", "16", "-o", "x.ktx2"}, "--bits: expected 8 or auto, as .ktx2 files have 8 bits; found '16'"},
         {{"--to", "gltf,slope", "--compress", "bc5", "-o", "x.ktx2"}, "--to: bc5 holds x and y"},
         {{"--to", "gltf,signed", "-o", "x.ktx2"}, "--to: signed values"},
         {{"--keep-lengths", "--compress", "bc5", "-o", "x.ktx2"}, "--keep-lengths: bc5"}};

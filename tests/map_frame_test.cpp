@@ -1,4 +1,5 @@
 // The frame that a normal map was made for stays with it from file to file.
+#include <array>
 #include <fstream>
 
 #include <gtest/gtest.h>
@@ -85,6 +86,30 @@ TEST_F(MapFrame, isLostInObjectSpaceAndComesFromTheMeshThatLeadsBack)
     EXPECT_EQ(after({"convert", "o.png", "--from", "object", "--to", "gltf", "--mesh", "quad.obj", "--frame",
                      "orthonormal", "-o", "t.png"}),
               "orthonormal");
+}
+
+// Two channels hold no direction into the surface: what points there is counted and said.
+TEST_F(MapFrame, directionsBehindTheMeshAreCountedWhereTwoChannelsCannotHoldThem)
+{
+    std::ofstream(folder / "quad.obj")
+        << "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nf 1/1 2/2 3/3 4/4\n";
+    Image map = makeImage(4, 4, PixelType::unorm8, "object");
+    for (std::size_t i = 0; i < 16; ++i) {
+        const bool behind =
+            i % 4 == 0; // (0.6, 0, -0.8) in the space of the quad, whose normal is z; else (0.6, 0, 0.8)
+        const std::array<int, 4> texel{204, 128, behind ? 26 : 230, 255};
+        for (std::size_t k = 0; k < 4; ++k)
+            map.data[4 * i + k] = std::byte(texel[k]);
+    }
+    ASSERT_TRUE(writeImage(folder / "object.png", map));
+    for (const auto& [to, said] : {std::pair("gltf,xy", "4 texels are steeper than "), {"gltf", ""}}) {
+        const ToolRun run = runTool({"map", "convert", "object.png", "--from", "object", "--to", to, "--mesh",
+                                     "quad.obj", "--frame", "orthonormal", "-o", "t.png"},
+                                    folder.path());
+        ASSERT_EQ(run.code, 0) << run.err;
+        EXPECT_EQ(run.err.find("steeper than") != std::string::npos, *said != 0) << to << run.err;
+        EXPECT_NE(run.err.find(said), std::string::npos) << to << run.err;
+    }
 }
 
 } // namespace

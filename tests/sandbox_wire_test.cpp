@@ -1,5 +1,6 @@
 // Bytes of another process that are not to be trusted.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -133,6 +134,80 @@ TEST(Wire, everyFieldOfALightAndACameraArrives)
     EXPECT_EQ(camera.eye, glm::vec3(1, 2, 3));
     EXPECT_EQ(camera.target, glm::vec3(4, 5, 6));
     EXPECT_EQ(camera.up, glm::vec3(0, 0, 1));
+}
+
+// Every texture of a material and every number of it, each with a value of its own.
+TEST(Wire, everyTextureAndNumberOfAMaterialArrives)
+{
+    Scene scene = everything();
+    const auto texturesOf = [](Material& m) {
+        return std::array{
+            &m.baseColorMap,      &m.metallicRoughnessMap, &m.normalMap,          &m.occlusionMap,    &m.emissiveMap,
+            &m.coat.map,          &m.coat.roughnessMap,    &m.coat.normalMap,     &m.anisotropy.map,  &m.specular.map,
+            &m.specular.colorMap, &m.sheen.colorMap,       &m.sheen.roughnessMap, &m.transmission.map};
+    };
+    const auto numbersOf = [](Material& m) {
+        return std::array{&m.baseColor.x,
+                          &m.baseColor.y,
+                          &m.baseColor.z,
+                          &m.baseColor.w,
+                          &m.metallic,
+                          &m.roughness,
+                          &m.emissive.x,
+                          &m.emissive.y,
+                          &m.emissive.z,
+                          &m.occlusionStrength,
+                          &m.normalScale,
+                          &m.alphaCutoff,
+                          &m.coat.strength,
+                          &m.coat.roughness,
+                          &m.coat.normalScale,
+                          &m.anisotropy.strength,
+                          &m.anisotropy.rotation,
+                          &m.specular.ior,
+                          &m.specular.strength,
+                          &m.specular.color.x,
+                          &m.specular.color.y,
+                          &m.specular.color.z,
+                          &m.sheen.color.x,
+                          &m.sheen.color.y,
+                          &m.sheen.color.z,
+                          &m.sheen.roughness,
+                          &m.transmission.strength};
+    };
+    Material& m = scene.materials[0];
+    int number = 1;
+    for (Texture* t : texturesOf(m)) {
+        *t = {0, number % 2, {}, {float(number), 2, 3}, {4, float(number), 6}};
+        t->sampler.wrapU = number % 3 ? Wrap::mirror : Wrap::clamp;
+        ++number;
+    }
+    for (float* x : numbersOf(m))
+        *x = float(number++);
+    m.coat.normalFormat = {MapKind::tangentSpace, Expansion::exact16, Channels::slope, true, VDirection::up};
+    const Bytes bytes = bytesOf(scene);
+    std::size_t at = 0;
+    WireIn in = arriving(bytes, at, 100);
+    Scene back;
+    exchangeScene(in, back);
+    ASSERT_TRUE(in.good());
+    Material& b = back.materials.at(0);
+    for (std::size_t i = 0; i < texturesOf(m).size(); ++i) {
+        const Texture &sent = *texturesOf(m)[i], &found = *texturesOf(b)[i];
+        EXPECT_EQ(found.image, 0) << i;
+        EXPECT_EQ(found.texcoord, sent.texcoord) << i;
+        EXPECT_EQ(found.sampler.wrapU, sent.sampler.wrapU) << i;
+        EXPECT_EQ(found.uRow, sent.uRow) << i;
+        EXPECT_EQ(found.vRow, sent.vRow) << i;
+    }
+    for (std::size_t i = 0; i < numbersOf(m).size(); ++i)
+        EXPECT_EQ(*numbersOf(b)[i], *numbersOf(m)[i]) << i;
+    EXPECT_EQ(b.coat.normalFormat, m.coat.normalFormat);
+    EXPECT_EQ(b.normalFormat, m.normalFormat);
+    EXPECT_EQ(b.name, "material");
+    EXPECT_EQ(b.tangentsFor, "X");
+    EXPECT_EQ(b.alphaMode, AlphaMode::mask);
+    EXPECT_TRUE(b.doubleSided && b.unlit);
 }
 
 TEST(Wire, largeArraysArriveWhole)

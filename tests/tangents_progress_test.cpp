@@ -104,6 +104,17 @@ TEST(TangentsProgress, saysWhatIsWrongWithAMesh)
               "indices: expected three a triangle, less than 4294967295, found 5");
     EXPECT_EQ(problemOf([](Arrays& a) { a.indices[4] = 9; }), "indices[4]: expected a number below 4, found 9");
     EXPECT_TRUE(cotan::mikktspaceTangents({}, 1, {}));
+    // More vertices than an index can name: refused by the sizes alone, nothing is read.
+    const std::size_t most = 4294967294;
+    for (const auto& [count, expected] :
+         {std::pair(most + 1, "positions: expected less than 4294967295, found 4294967295"),
+          {most, "normals: expected one a position (4294967294), found 4"}}) {
+        cotan::MeshView mesh = good.view();
+        mesh.positions = {good.positions.data(), count};
+        const auto refused = cotan::mikktspaceTangents(mesh, 1, {});
+        ASSERT_FALSE(refused);
+        EXPECT_EQ(refused.error().message, expected);
+    }
 }
 
 } // namespace

@@ -3,7 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <random>
 
 #include <glm/ext/matrix_transform.hpp>
 #include <glm/geometric.hpp>
@@ -85,6 +88,47 @@ TEST(Turntable, oneCameraSeesAllOfItAtEveryAngleAndIsNear)
         }
         // The camera of one moment cuts it off at another.
         EXPECT_GT(furthest(still, frontCamera(still, width, 900), aspect), aspect < 1 ? 0.9 : 0.0);
+    }
+}
+
+// Rings of 32 points at 33 heights: those above and below a vertex are at least as far out as it is, and no further
+// than what stands in the slices beside them.
+TEST(Turntable, theRingsAboveAndBelowAVertexHoldItsCircle)
+{
+    std::mt19937 dice(11);
+    std::uniform_real_distribution<float> unit(-1, 1);
+    for (int round = 0; round < 20; ++round) {
+        Scene scene;
+        scene.materials.emplace_back();
+        Mesh mesh;
+        for (int i = 0; i < 24; ++i) // most near the axis, so that slices differ
+            mesh.positions.push_back({unit(dice) * unit(dice) * unit(dice), 3 * unit(dice), unit(dice) * unit(dice)});
+        for (std::uint32_t i = 0; i + 2 < 24; ++i)
+            mesh.indices.insert(mesh.indices.end(), {i, i + 1, i + 2});
+        scene.meshes = {mesh};
+        scene.instances.push_back({"", 0, glm::translate(glm::mat4(1), {4, -1, 2})});
+        const std::vector<glm::vec3> points = sweptPoints(scene);
+        ASSERT_EQ(points.size(), 32u * 33u);
+        const Bounds box = bounds(scene);
+        const glm::dvec3 middle = (glm::dvec3(box.low) + glm::dvec3(box.high)) / 2.0;
+        const double height = double(box.high.y) - double(box.low.y);
+        std::array<double, 33> needed{};
+        for (const glm::vec3& p : mesh.positions) {
+            const glm::dvec3 placed = glm::dvec3(p) + glm::dvec3(4, -1, 2);
+            const double radius = std::hypot(placed.x - middle.x, placed.z - middle.z);
+            const std::size_t slice =
+                std::min(std::size_t((placed.y - double(box.low.y)) / height * 32), std::size_t(31));
+            for (const std::size_t ring : {slice, slice + 1})
+                needed[ring] = std::max(needed[ring], radius);
+        }
+        for (std::size_t ring = 0; ring < 33; ++ring)
+            for (std::size_t k = 0; k < 32; ++k) {
+                const glm::dvec3 p(points[32 * ring + k]);
+                const double radius = std::hypot(p.x - middle.x, p.z - middle.z);
+                EXPECT_GT(radius + 1e-5, needed[ring]) << round << " " << ring; // floats
+                EXPECT_LT(radius, needed[ring] * 1.006 + 1e-5) << round << ' ' << ring;
+                EXPECT_NEAR(p.y, double(box.low.y) + height * double(ring) / 32, 1e-5);
+            }
     }
 }
 

@@ -92,6 +92,20 @@ TEST(VerifyConversion, modelsWithoutMapsAreNotCompared)
     EXPECT_TRUE(std::isnan(compared->all.mean));
 }
 
+TEST(VerifyConversion, aMapInOneOfTheTwoModelsIsEnoughToCompareThem)
+{
+    const auto renderer = reference();
+    const Scene plain = sceneOf(meshOf(Patch{})), mapped = quadWith({168, 98, 240});
+    for (const bool first : {true, false}) {
+        const auto compared = verifyConversion(*renderer, {first ? mapped : plain, Frame::cotangent},
+                                               {first ? plain : mapped, Frame::cotangent}, kPixels);
+        ASSERT_TRUE(compared) << compared.error().message;
+        EXPECT_TRUE(compared->mapped) << first;
+        EXPECT_GT(compared->all.count, 1000u) << first;
+        EXPECT_GT(compared->all.mean, 5) << first; // degrees by which the one map tilts
+    }
+}
+
 TEST(VerifyConversion, picturesOfAnotherNumberOrSizeAreRefused)
 {
     const auto renderer = reference();

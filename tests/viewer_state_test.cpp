@@ -152,39 +152,41 @@ TEST(ViewerInput, whatCannotBeDoneIsSaidAndChangesNothing)
 {
     State state = withModel();
     const std::string before = reportOf(state);
-    for (const char* line : {"frame none",
-                             "show heat",
-                             "set exposure -1",
-                             "set nothing 1",
-                             "compare all",
-                             "see behind",
-                             "camera 7",
-                             "toggle x",
-                             "size 0 0",
-                             "copy",
-                             "zoom",
-                             "orbit 1",
-                             "second x y",
-                             "nonsense",
-                             "set environment-rotation 1000",
-                             "picture a.png 0 0",
-                             "turn-light nan",
-                             "next",
-                             "play",
-                             "hot-spot 3",
-                             "convention green",
-                             "window",
-                             ""}) {
+    // What is said begins with the command or the option, and ends with what was found.
+    for (const auto& [line, about, found] : {std::tuple("frame none", "frame: ", "'none'"),
+                                             {"show heat", "show: ", "'heat'"},
+                                             {"set exposure -1", "exposure: ", "'-1'"},
+                                             {"set nothing 1", "set: ", "'nothing'"},
+                                             {"compare all", "compare: ", "'all'"},
+                                             {"see behind", "see: ", "'behind'"},
+                                             {"camera 7", "", "7"},
+                                             {"toggle x", "toggle: ", "'x'"},
+                                             {"size 0 0", "size: ", "'0 0'"},
+                                             {"copy", "copy: ", "''"},
+                                             {"zoom", "zoom: ", "''"},
+                                             {"orbit 1", "orbit: ", "''"},
+                                             {"second x y", "second: ", "'x'"},
+                                             {"nonsense", "", "'nonsense'"},
+                                             {"set environment-rotation 1000", "environment-rotation: ", "'1000'"},
+                                             {"picture a.png 0 0", "picture: ", "'0 0'"},
+                                             {"turn-light nan", "turn-light: ", "'nan'"},
+                                             {"next", "next: ", "'none'"},
+                                             {"play", "play: ", "'none'"},
+                                             {"hot-spot 3", "hot-spot: ", "'3'"},
+                                             {"convention green", "", "'green'"},
+                                             {"window", "window: ", "''"}}) {
         state.problem.clear();
-        send(state, std::string("0 do ") + (*line ? line : " ") + "\n");
-        if (*line) {
-            EXPECT_FALSE(state.problem.empty()) << line;
-        }
+        send(state, std::string("0 do ") + line + "\n");
+        EXPECT_TRUE(state.problem.starts_with(std::string(about) + "expected ")) << line << ": " << state.problem;
+        EXPECT_TRUE(state.problem.ends_with(std::string("; found ") + found)) << line << ": " << state.problem;
         state.problem.clear();
         state.said.clear();
         EXPECT_EQ(reportOf(state), before) << line;
         EXPECT_TRUE(state.requests.empty()) << line;
     }
+    state.problem.clear();
+    send(state, "0 do  \n");
+    EXPECT_EQ(state.problem, "expected a command of the viewer; found ''");
 }
 
 TEST(ViewerInput, aProblemAreaIsOutlinedInTheViewThatShowsItWithTheModelAround)

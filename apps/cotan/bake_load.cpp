@@ -115,7 +115,7 @@ Result<BakeModelOptions> parseOptions(const BakeCommandOptions& o)
     const auto size = parseSize(o.size);
     if (!size)
         return size.error();
-    const auto frame = parseFrame(o.frame);
+    const auto frame = parseFrame(o.frame, "--frame");
     if (!frame)
         return frame.error();
     const auto stored = storedAs(o);

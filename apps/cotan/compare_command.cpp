@@ -28,11 +28,11 @@ Result<std::array<FrameChoice, 2>> parsePair(const std::string& text)
     const std::size_t comma = text.find(',');
     if (comma == std::string::npos)
         return usageError(fmt::format("--frames: expected two names A,B; found '{}'", text));
-    const auto a = parseFrameChoice(text.substr(0, comma));
-    const auto b = parseFrameChoice(text.substr(comma + 1));
+    const auto a = parseFrameChoice(text.substr(0, comma), "--frames");
+    const auto b = parseFrameChoice(text.substr(comma + 1), "--frames");
     for (const auto* frame : {&a, &b})
         if (!*frame)
-            return usageError("--frames: " + frame->error().message);
+            return frame->error();
     return std::array{*a, *b};
 }
 

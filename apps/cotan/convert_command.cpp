@@ -36,9 +36,9 @@ struct ConvertCommandOptions : CommonOptions {
 
 Result<Frame> frameFor(const char* option, const std::string& text)
 {
-    const auto frame = parseFrame(text);
+    const auto frame = parseFrame(text, option);
     if (!frame)
-        return usageError(fmt::format("{}: {}", option, frame.error().message));
+        return frame.error();
     if (dependsOnView(*frame))
         return usageError(fmt::format(
             "{}: expected a frame that is the same from every side; {} is not, so no map can be made for it", option,

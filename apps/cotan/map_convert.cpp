@@ -43,7 +43,7 @@ Status run(const MapConvertCommandOptions& o)
                                      .dither = o.dither,
                                      .mesh = {}};
     if (!o.mesh.empty()) {
-        const auto frame = parseFrame(o.frame);
+        const auto frame = parseFrame(o.frame, "--frame");
         if (!frame)
             return frame.error();
         options.mesh = {o.mesh, *frame, o.tangents, o.material, o.up};

@@ -245,7 +245,7 @@ Status run(const RenderCommandOptions& o)
 {
     if (o.output.empty())
         return usageError("render needs -o FILE");
-    const auto frame = parseFrameChoice(o.frame);
+    const auto frame = parseFrameChoice(o.frame, "--frame");
     if (!frame)
         return frame.error();
     if (Status fits = checkLighting(o.picture, *frame); !fits)

@@ -92,9 +92,9 @@ Result<Choice> choiceOf(const ShaderCommandOptions& o)
             choice.form = form;
             wanted = name(Frame::cotangent);
         }
-    const Result<Frame> frame = parseFrame(wanted);
+    const Result<Frame> frame = parseFrame(wanted, "--frame");
     if (!frame)
-        return usageError(frame.error().message);
+        return frame.error();
     choice.frame = *frame;
     const Result<Convention> convention = conventionOf(o);
     if (!convention)

@@ -55,7 +55,7 @@ Result<AccuracySelection> chooseRows(const AccuracyCommandOptions& o)
     AccuracySelection selection;
     selection.scene = o.scene;
     for (const std::string& word : splitAtCommas(o.frames)) {
-        const auto frame = parseFrame(word);
+        const auto frame = parseFrame(word, "--frames");
         if (!frame)
             return frame.error();
         selection.frames.push_back(*frame);

@@ -43,8 +43,8 @@ Status run(const ViewCommandOptions& o)
     state.b = state.a;
     state.b.frame = o.second.empty() ? "mikktspace" : o.second;
     state.show = o.picture.show;
-    for (const auto& frame : {state.a.frame, state.b.frame})
-        if (const auto known = parseFrameChoice(frame); !known)
+    for (const auto& [option, frame] : {std::pair("--frame", state.a.frame), {"--second", state.b.frame}})
+        if (const auto known = parseFrameChoice(frame, option); !known)
             return known.error();
     viewer::SessionOptions session;
     session.common = o;

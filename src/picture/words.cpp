@@ -55,20 +55,20 @@ void addListOfFrames(Arguments& a)
               listOfFrames);
 }
 
-Result<Frame> parseFrame(const std::string& text)
+Result<Frame> parseFrame(const std::string& text, std::string_view field)
 {
     if (const auto frame = frameFromName(text))
         return *frame;
-    return usageError(fmt::format("frame: expected one of {}; found '{}'", frameNames(), text));
+    return usageError(fmt::format("{}: expected one of {}; found '{}'", field, frameNames(), text));
 }
 
-Result<FrameChoice> parseFrameChoice(const std::string& text)
+Result<FrameChoice> parseFrameChoice(const std::string& text, std::string_view field)
 {
     if (text == kAutoFrame)
         return FrameChoice();
     if (const auto frame = frameFromName(text))
         return FrameChoice(*frame);
-    return usageError(fmt::format("frame: expected {} or one of {}; found '{}'", kAutoFrame, frameNames(), text));
+    return usageError(fmt::format("{}: expected {} or one of {}; found '{}'", field, kAutoFrame, frameNames(), text));
 }
 
 void addMemoryOption(Arguments& a, int& memory, const std::string& also)

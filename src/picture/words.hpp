@@ -23,14 +23,14 @@ std::string usefulFrameNames();
 // Adds --list-frames, which prints all of them, a line for each.
 void addListOfFrames(Arguments& a);
 
-// A frame's name; the error lists all of them.
-Result<Frame> parseFrame(const std::string& text);
+// A frame's name; the error lists all of them, and begins with the option or the field that it was given for.
+Result<Frame> parseFrame(const std::string& text, std::string_view field = "frame");
 
 // What the frame that the normal maps mean is called, where pictures are drawn.
 inline constexpr std::string_view kAutoFrame = "auto";
 
-// A frame's name, or kAutoFrame for none; the error lists all of them.
-Result<FrameChoice> parseFrameChoice(const std::string& text);
+// The same, or kAutoFrame for none.
+Result<FrameChoice> parseFrameChoice(const std::string& text, std::string_view field = "frame");
 
 // Adds --memory MIB.
 // also: what else it limits, after the picture.

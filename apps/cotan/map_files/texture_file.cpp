@@ -167,7 +167,7 @@ Result<TexelCode> codeFor(const std::string& compress, const std::string& bits, 
         return usageError(fmt::format("options.compress: blocks are for {} files; found '{}'",
                                       imageEndings(&ImageFormat::texture, ", ", " and "), file.extension().string()));
     if (isTextureFile(file) && bits != "auto" && bits != "8")
-        return usageError(fmt::format("options.bits: {} files are written with 8 bits; found '{}'",
+        return usageError(fmt::format("options.bits: expected 8 or auto, as {} files have 8 bits; found '{}'",
                                       imageFormatOf(file)->endings[0], bits));
     if (compress == "bc5" && (to.channels == Channels::stereographic || to.channels == Channels::slope))
         return usageError("options.to: bc5 holds x and y of unit vectors; found another form of two channels");
