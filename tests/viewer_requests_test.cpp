@@ -123,7 +123,7 @@ TEST(ViewerRequests, imagesAreWrittenAsTheStateShowsThemUnderANameThatIsFree)
     EXPECT_EQ(at.state().size, glm::ivec2(64, 48)); // and the window stays as it is
 }
 
-TEST(ViewerRequests, hotSpotsAreThoseOfTheModelThatIsShown)
+TEST(ViewerRequests, problemAreasAreThoseOfTheModelThatIsShown)
 {
     HeadlessSession at;
     EXPECT_TRUE(at.ask(request::FindProblemAreas{})); // of nothing
