@@ -85,7 +85,7 @@ cotan_frame frameOf(vec3 n, Differences d, CotanTextureUse use, bool base)
     if (hasCotangents) return cotan_frame_##word(n, inCotangentU, inCotangentV); break;
 #define COTAN_FROM_tangents(word) \
     if (hasTangents) return cotan_frame_##word(inNormal, inTangent.xyz, alongV); break;
-#define COTAN_FRAME_ROW(number, enumerator, word, source, total, dependsOnView, fused, name, summary) \
+#define COTAN_FRAME_ROW(number, enumerator, word, source, total, dependsOnView, normal, fused, after, name, summary) \
     case number: COTAN_FROM_##source(word)
     switch (COTAN_FRAME) {
 #include "cotan/frames.inc"

@@ -7,7 +7,7 @@ import sys
 
 ROOT = pathlib.Path(sys.argv[1])
 SRC = ROOT / "src"
-MOST_FOLDERS, MOST_ARROWS, MOST_HEADERS, MOST_LINES = 14, 80, 30, 60_000
+MOST_FOLDERS, MOST_ARROWS, MOST_HEADERS, MOST_LINES = 14, 80, 30, 58_500
 WITHOUT_HEADER = {"c", "terminal"}  # cotan.h; what only the tool and the C API use
 INCLUDE = re.compile(r'^\s*#\s*include\s+[<"]([^">]+)[">]', re.M)
 

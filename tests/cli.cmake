@@ -32,7 +32,7 @@ if(Python3_FOUND)
 endif()
 # Words as values, without a process.
 cotan_test(words_test
-  SOURCES arguments_test.cpp picture_light_test.cpp picture_options_test.cpp turntable_test.cpp
+  SOURCES arguments_test.cpp bake_scenes_test.cpp picture_light_test.cpp picture_options_test.cpp turntable_test.cpp
   LIBRARIES cotan_app cotan_scene fmt::fmt)
 # The manual's pages, and completion by the shells themselves.
 foreach(part man words bash zsh fish)

@@ -44,13 +44,6 @@ const DeviceCode& card(const std::string& name)
     return *found;
 }
 
-const StageCode& resolveCode(const DeviceCode& device, std::string_view name)
-{
-    const auto found = std::ranges::find_if(
-        otherStages(), [&](const Stage& s) { return s.kind == StageKind::resolve && s.name == name; });
-    return otherCode(device, *found);
-}
-
 using Count = std::optional<double>;
 using Counts = std::vector<std::pair<const DeviceCode*, double>>; // by card: more than stored tangents
 

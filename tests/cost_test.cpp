@@ -61,6 +61,26 @@ TEST(CostScalar, fusedFormsCostLessThanPlainOnes)
     EXPECT_LT(operationsOfRow("cotangent-area-fused").total(), operationsOfRow("cotangent-fused").total());
 }
 
+TEST(CostRows, everyFrameAndItsFusedFormHaveOne)
+{
+    for (const FrameInfo& f : frames()) {
+        const Row* row = rowFromName(f.name);
+        ASSERT_TRUE(row) << f.name;
+        EXPECT_EQ(row->frame, f.frame);
+        EXPECT_EQ(rowFromName(std::string(f.name) + "-fused") != nullptr, f.fused) << f.name;
+    }
+    EXPECT_EQ(rows().front().name, "floor");
+}
+
+TEST(CostRows, aFrameIsPricedWithWhatItIsMadeFrom)
+{
+    EXPECT_EQ(rowFromName("mikktspace")->stored, Stored::tangent);
+    EXPECT_EQ(rowFromName("smooth")->stored, Stored::cotangents);
+    EXPECT_EQ(rowFromName("triangle-fused")->stored, Stored::triangle);
+    EXPECT_EQ(rowFromName("cotangent")->stored, Stored::nothing);
+    EXPECT_EQ(rowFromName("exact")->stored, Stored::nothing);
+}
+
 TEST(CostScalar, everyRowIsCountedAndCountsTheSameTwice)
 {
     for (const Row& row : rows()) {

@@ -190,7 +190,7 @@ TEST(Defaults, ofMapsAreThoseOfTheHelp)
     EXPECT_EQ(b.pictureHeight, 0);
     maps::MipSettings m;
     EXPECT_FALSE(m.keepLengths);
-    EXPECT_TRUE(m.model == maps::SpreadModel::lean);
+    EXPECT_TRUE(m.model == maps::VarianceModel::lean);
     EXPECT_EQ(m.roughness, 0.3);
     maps::RecodeSettings r;
     EXPECT_EQ(r.strength, 1);

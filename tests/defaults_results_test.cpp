@@ -125,7 +125,7 @@ TEST(EmptyResults, ofMapsKnowNothing)
     EXPECT_FALSE(s.eightBits);
     EXPECT_FALSE(s.signedStored);
     EXPECT_EQ(s.texels, 0u);
-    for (const double x : {s.background, s.invalid, s.belowHorizon, s.outsideDisc, s.meanLength, s.lengthSpread,
+    for (const double x : {s.background, s.invalid, s.belowHorizon, s.outsideDisc, s.meanLength, s.lengthDeviation,
                            s.shortened, s.meanTilt, s.rmsExact, s.rmsBiased})
         EXPECT_EQ(x, 0);
     maps::Heights h;
@@ -173,10 +173,10 @@ TEST(EmptyResults, ofPicturesAndPlacesHaveNoSize)
     EXPECT_EQ(g.extent, glm::vec2(1));
     Bounds b;
     EXPECT_TRUE(b.empty());
-    HotSpot h;
+    ProblemArea h;
     EXPECT_EQ(h.mesh, 0u);
     EXPECT_EQ(h.share, 0);
-    EXPECT_EQ(h.badness, 0);
+    EXPECT_EQ(h.severity, 0);
     EXPECT_FALSE(h.storedTangents);
     Probed p;
     EXPECT_EQ(p.normal, glm::vec3(0));

@@ -24,6 +24,12 @@ using glm::vec2;
 using glm::vec3;
 constexpr double kPi = std::numbers::pi;
 
+// Of metallic-roughness alone.
+vec3 reflectedOf(const EnvironmentMap& map, const f32::cotan_surface& s)
+{
+    return reflectedGlossy(map, s, f32::cotan_plain_gloss());
+}
+
 vec3 white(vec3) { return vec3(1); }
 
 // A dark room with one wide lamp at +x: one that no mean hides.

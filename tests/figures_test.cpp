@@ -11,7 +11,8 @@
 #include <nlohmann/json.hpp>
 
 #include "cotan/image.hpp"
-#include "files/report/page.hpp"
+#include "figures/page.hpp"
+#include "files/report/html.hpp"
 #include "run_tool.hpp"
 
 namespace cotan {

@@ -163,12 +163,12 @@ TEST(Probe, theTexelIsInsideTheMapWhereverUvAre)
     EXPECT_EQ(p.texel, glm::ivec2(4, 1));
 }
 
-TEST(HotSpots, theWorstTriangleIsLookedAtAlongItsNormal)
+TEST(ProblemAreas, theWorstTriangleIsLookedAtAlongItsNormal)
 {
     Scene scene = square(1, 0, false);
     scene.meshes.push_back(makePatch(3, 0, false, 1));
     scene.instances.push_back({"stretched", 1, glm::translate(glm::mat4(1), glm::vec3(10, 0, 0))});
-    const std::vector<HotSpot> spots = hotSpots(scene);
+    const std::vector<ProblemArea> spots = problemAreas(scene);
     ASSERT_EQ(spots.size(), 1u);
     EXPECT_NE(spots[0].text.find("stretched over 1.2: 100.0 % of "), std::string::npos) << spots[0].text;
     EXPECT_TRUE(spots[0].text.ends_with(", here 3")) << spots[0].text;
@@ -179,7 +179,7 @@ TEST(HotSpots, theWorstTriangleIsLookedAtAlongItsNormal)
     EXPECT_EQ(hit->mesh, 1);
 }
 
-TEST(HotSpots, theCameraIsNearerThanWhatStandsBeforeTheTriangle)
+TEST(ProblemAreas, theCameraIsNearerThanWhatStandsBeforeTheTriangle)
 {
     Scene scene;
     scene.materials.emplace_back();
@@ -188,7 +188,7 @@ TEST(HotSpots, theCameraIsNearerThanWhatStandsBeforeTheTriangle)
     scene.instances.push_back({"stretched", 0, glm::mat4(1)});
     const glm::mat4 before = glm::translate(glm::mat4(1), glm::vec3(-3, -3, 8));
     scene.instances.push_back({"before it", 1, glm::scale(before, glm::vec3(9))});
-    const std::vector<HotSpot> spots = hotSpots(scene);
+    const std::vector<ProblemArea> spots = problemAreas(scene);
     ASSERT_EQ(spots.size(), 1u);
     const auto hit = pick(scene, spots[0].camera, {100, 100}, {50, 50});
     ASSERT_TRUE(hit);
@@ -197,7 +197,7 @@ TEST(HotSpots, theCameraIsNearerThanWhatStandsBeforeTheTriangle)
 }
 
 // The window lists what `lint` reports: the same shares of the same things.
-TEST(HotSpots, haveTheSharesOfLint)
+TEST(ProblemAreas, haveTheSharesOfLint)
 {
     const std::filesystem::path file = COTAN_SHARED_DATA "/animated/lumberjack.glb";
     if (!std::filesystem::exists(file))
@@ -205,7 +205,7 @@ TEST(HotSpots, haveTheSharesOfLint)
     const Scene scene = *loadScene(file);
     const PrimitiveLint lint = lintScene(scene).primitives.at(0);
     std::map<std::string, double> shares;
-    for (const HotSpot& spot : hotSpots(scene))
+    for (const ProblemArea& spot : problemAreas(scene))
         for (const char* words : {"without area", "stretched", "sheared", "w against the uv", "turned"})
             if (spot.text.find(words) != std::string::npos)
                 shares[words] = spot.share;
@@ -218,15 +218,15 @@ TEST(HotSpots, haveTheSharesOfLint)
     EXPECT_EQ(shares.contains("without area"), lint.uv.degenerate >= 0.001);
 }
 
-TEST(HotSpots, aStoredTangentOnTheWrongSideIsFound)
+TEST(ProblemAreas, aStoredTangentOnTheWrongSideIsFound)
 {
     Scene scene = square(1, 0, false);
     scene.meshes[0].tangents.assign(scene.meshes[0].vertexCount(), {1, 0, 0, 1});
-    EXPECT_TRUE(hotSpots(scene).empty());
+    EXPECT_TRUE(problemAreas(scene).empty());
     for (glm::vec4& tangent : scene.meshes[0].tangents)
         tangent.w = -1;
-    ASSERT_EQ(hotSpots(scene).size(), 1u);
-    EXPECT_NE(hotSpots(scene)[0].text.find("w against the uv: 100.0 %"), std::string::npos);
+    ASSERT_EQ(problemAreas(scene).size(), 1u);
+    EXPECT_NE(problemAreas(scene)[0].text.find("w against the uv: 100.0 %"), std::string::npos);
 }
 
 } // namespace

@@ -192,7 +192,7 @@ Scene faulty()
 
 TEST(ProblemAreas, ofEachKindAreNamedWithTheirViewAndTheWorstComesFirst)
 {
-    const std::vector<HotSpot> spots = hotSpots(faulty());
+    const std::vector<ProblemArea> spots = problemAreas(faulty());
     ASSERT_GE(spots.size(), 5u);
     struct Row {
         const char *mesh, *words, *view;
@@ -205,7 +205,7 @@ TEST(ProblemAreas, ofEachKindAreNamedWithTheirViewAndTheWorstComesFirst)
           {"flat", "uv without area: 100.0 % of flat", "mirrored", 2, false},
           {"", "stored w against the uv: 100.0 % of mesh 3", "w", 3, false},
           {"", "stored tangents turned over 45 degrees: 100.0 % of mesh 3, here 90", "tangent", 3, true}}) {
-        const auto spot = std::ranges::find(spots, std::string(row.words), &HotSpot::text);
+        const auto spot = std::ranges::find(spots, std::string(row.words), &ProblemArea::text);
         ASSERT_NE(spot, spots.end()) << row.words;
         EXPECT_EQ(spot->view, row.view);
         EXPECT_EQ(spot->mesh, row.number) << row.words;
@@ -213,9 +213,9 @@ TEST(ProblemAreas, ofEachKindAreNamedWithTheirViewAndTheWorstComesFirst)
         EXPECT_NEAR(spot->share, 1, 1e-6) << row.words;
     }
     for (std::size_t i = 1; i < spots.size(); ++i)
-        EXPECT_GE(spots[i - 1].badness, spots[i].badness);
-    EXPECT_EQ(hotSpots(faulty(), 2).size(), 2u);
-    EXPECT_EQ(hotSpots(faulty(), 2)[1].text, spots[1].text);
+        EXPECT_GE(spots[i - 1].severity, spots[i].severity);
+    EXPECT_EQ(problemAreas(faulty(), 2).size(), 2u);
+    EXPECT_EQ(problemAreas(faulty(), 2)[1].text, spots[1].text);
 }
 
 // From four times the longest edge, or a sixth of the model where that is more, along the normal.
@@ -226,9 +226,9 @@ TEST(ProblemAreas, areSeenAlongTheirNormalFromFourTimesTheirSize)
         scene.materials.emplace_back();
         scene.meshes = {makePatch(4, 0, false, 1)};
         scene.instances.push_back({"a", 0, glm::scale(glm::mat4(1), glm::vec3(mirror, 1, 1))});
-        const std::vector<HotSpot> spots = hotSpots(scene);
+        const std::vector<ProblemArea> spots = problemAreas(scene);
         ASSERT_EQ(spots.size(), 1u);
-        const HotSpot& spot = spots[0];
+        const ProblemArea& spot = spots[0];
         const glm::vec3 middle = (spot.corners[0] + spot.corners[1] + spot.corners[2]) / 3.0f;
         float longest = 0;
         for (int k = 0; k < 3; ++k)
@@ -239,17 +239,17 @@ TEST(ProblemAreas, areSeenAlongTheirNormalFromFourTimesTheirSize)
         EXPECT_TRUE(pick(scene, spot.camera, {100, 100}, {50, 50}));
         scene.meshes.push_back(makePatch(1, 0, false, 1)); // far away: the model is 1000 wide
         scene.instances.push_back({"b", 1, glm::translate(glm::mat4(1), glm::vec3(1000, 0, 0))});
-        const HotSpot small = hotSpots(scene).at(0);
+        const ProblemArea small = problemAreas(scene).at(0);
         EXPECT_NEAR(glm::length(small.camera.eye - small.camera.target), 1000.0 / 6, 2);
     }
     Scene floor; // seen from above, up the picture is away
     floor.materials.emplace_back();
     floor.meshes = {makePatch(4, 0, false, 1)};
     floor.instances.push_back({"a", 0, glm::rotate(glm::mat4(1), -1.5707963f, glm::vec3(1, 0, 0))});
-    EXPECT_EQ(hotSpots(floor).at(0).camera.up, glm::vec3(0, 0, -1));
+    EXPECT_EQ(problemAreas(floor).at(0).camera.up, glm::vec3(0, 0, -1));
     for (const float degrees : {-30.0f, 45.0f, 80.0f}) { // a slope, from above or below, is seen with up upwards
         floor.instances[0].toWorld = glm::rotate(glm::mat4(1), glm::radians(degrees), glm::vec3(1, 0, 0));
-        const Camera camera = hotSpots(floor).at(0).camera;
+        const Camera camera = problemAreas(floor).at(0).camera;
         EXPECT_EQ(camera.up, glm::vec3(0, 1, 0)) << degrees;
         EXPECT_NEAR(glm::normalize(camera.eye - camera.target).y, -std::sin(glm::radians(degrees)), 1e-5) << degrees;
     }

@@ -9,6 +9,7 @@
 #include "cotan/maps.hpp"
 #include "cotan/scene.hpp"
 #include "maps/texels.hpp"
+#include "quantisation.hpp"
 
 namespace cotan::maps {
 namespace {
@@ -70,16 +71,16 @@ TEST(Mips, the_models_agree_where_normals_spread_little_and_evenly)
     // Slopes of variance s along each axis: R = 1 - s to first order, and all three widen alpha^2 by 2s.
     const double roughness = 0.4, s = 0.001, truth = std::pow(std::pow(roughness, 4) + 2 * s, 0.25);
     EXPECT_NEAR(roughnessFromVariance(roughness, 2 * s), truth, 1e-12);
-    EXPECT_NEAR(roughnessFromLength(roughness, 1 - s, SpreadModel::vmf), truth, 1e-4); // second order in s
+    EXPECT_NEAR(roughnessFromLength(roughness, 1 - s, VarianceModel::vmf), truth, 1e-4); // second order in s
     // Toksvig's is of the exponent e = 2/alpha^2 - 2: it widens by 2s (1 - alpha^2)^2, which is short by a
     // share of 2 alpha^2; the second order in s gets a tenth of that.
-    EXPECT_NEAR(roughnessFromLength(roughness, 1 - s, SpreadModel::toksvig), truth,
+    EXPECT_NEAR(roughnessFromLength(roughness, 1 - s, VarianceModel::toksvig), truth,
                 2.2 * std::pow(roughness, 4) * (truth - roughness));
 }
 
 TEST(Mips, roughness_never_falls_and_never_leaves_its_range)
 {
-    for (SpreadModel model : {SpreadModel::toksvig, SpreadModel::vmf})
+    for (VarianceModel model : {VarianceModel::toksvig, VarianceModel::vmf})
         for (double roughness : {0.0, 0.05, 0.5, 1.0}) {
             double before = roughness - 1e-9;
             for (double length : {1.0, 0.999, 0.9, 0.5, 0.1, 0.0}) {
@@ -89,8 +90,8 @@ TEST(Mips, roughness_never_falls_and_never_leaves_its_range)
                 before = r - 1e-9;
             }
         }
-    EXPECT_NEAR(roughnessFromLength(0.5, 1, SpreadModel::toksvig), 0.5, 1e-9);
-    EXPECT_NEAR(roughnessFromLength(0.5, 1, SpreadModel::vmf), 0.5, 1e-9);
+    EXPECT_NEAR(roughnessFromLength(0.5, 1, VarianceModel::toksvig), 0.5, 1e-9);
+    EXPECT_NEAR(roughnessFromLength(0.5, 1, VarianceModel::vmf), 0.5, 1e-9);
 }
 
 TEST(Mips, lean_measures_the_variance_of_slopes)

@@ -11,6 +11,7 @@
 #include "cotan/maps.hpp"
 #include "cotan/scene.hpp"
 #include "maps/texels.hpp"
+#include "quantisation.hpp"
 
 namespace cotan::maps {
 namespace {

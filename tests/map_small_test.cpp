@@ -6,6 +6,7 @@
 
 #include "cotan/maps.hpp"
 #include "map_cases.hpp"
+#include "quantisation.hpp"
 
 namespace cotan::maps {
 namespace {
@@ -170,7 +171,7 @@ TEST(SmallMips, toksvig_and_vmf_follow_the_length_of_the_mean)
                  shortened = exponent / (1 + exponent * (1 - length) / length); // Blinn-Phong's
     const double kappa = (3 * length - length * length * length) / (1 - length * length);
     for (auto [model, expected] :
-         {std::pair(SpreadModel::toksvig, 2 / (shortened + 2)), {SpreadModel::vmf, alpha2 + 2 / kappa}}) {
+         {std::pair(VarianceModel::toksvig, 2 / (shortened + 2)), {VarianceModel::vmf, alpha2 + 2 / kappa}}) {
         const auto chain = mipChain(
             map, {.from = kFloats, .to = kFloats, .model = model, .roughness = 0.3, .type = PixelType::float32});
         EXPECT_NEAR(chain[1].meanRoughness, std::pow(expected, 0.25), kSingle) << int(model);

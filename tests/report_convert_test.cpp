@@ -7,6 +7,7 @@
 
 #include "bake/convert_report.hpp"
 #include "bake/report_words.hpp"
+#include "convert_lines.hpp"
 #include "cotan/scene.hpp"
 
 namespace cotan {

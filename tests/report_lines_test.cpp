@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "bake/lint_report.hpp"
+#include "lint_lines.hpp"
 
 namespace cotan {
 namespace {

@@ -129,7 +129,7 @@ TEST(ViewWindow, aMapThatWasSavedAsAColourIsNamedOnceAsLintDoes)
     EXPECT_NE((lint.out + lint.err).find(sentence), std::string::npos) << lint.out << lint.err;
 }
 
-TEST(ViewWindow, itsHotSpotsAreThoseOfLintAndTheCameraGoesThere)
+TEST(ViewWindow, itsProblemAreasAreThoseOfLintAndTheCameraGoesThere)
 {
     COTAN_NEEDS_DISPLAY();
     TemporaryFolder folder;

@@ -75,7 +75,7 @@ TEST(ViewerCommands, eachSwitchTurnsItsOwnFieldAndBack)
     const std::map<std::string, bool State::*> switches = {{"interface", &State::interfaceShown},
                                                            {"help", &State::cheatSheet},
                                                            {"settings", &State::settingsShown},
-                                                           {"hot-spots", &State::hotSpotsShown},
+                                                           {"hot-spots", &State::problemAreasShown},
                                                            {"card", &State::cardShown},
                                                            {"statistics", &State::statisticsShown},
                                                            {"look", &State::dark},
@@ -91,13 +91,13 @@ TEST(ViewerCommands, eachSwitchTurnsItsOwnFieldAndBack)
     }
     const State listed = after("toggle hot-spots", before);
     ASSERT_EQ(listed.requests.size(), 1u); // nobody has looked for them yet
-    EXPECT_TRUE(std::holds_alternative<request::FindHotSpots>(listed.requests[0]));
+    EXPECT_TRUE(std::holds_alternative<request::FindProblemAreas>(listed.requests[0]));
     State found = before;
-    found.hotSpots.emplace();
+    found.problemAreas.emplace();
     EXPECT_TRUE(after("toggle hot-spots", found).requests.empty());
-    found.hotSpotsShown = true;
-    found.hotSpot = 0;
-    EXPECT_FALSE(after("toggle hot-spots", found).hotSpot);
+    found.problemAreasShown = true;
+    found.problemArea = 0;
+    EXPECT_FALSE(after("toggle hot-spots", found).problemArea);
 }
 
 TEST(ViewerCommands, sidesAreSetApartAndExchanged)
@@ -159,7 +159,7 @@ TEST(ViewerCommands, whatTheSessionDoesIsAskedForWithItsWords)
     EXPECT_EQ(std::get<request::Load>(asks("reload")).model, "here.glb");
     EXPECT_TRUE(std::holds_alternative<request::Paste>(asks("paste")));
     EXPECT_TRUE(std::holds_alternative<request::ChooseFile>(asks("choose")));
-    EXPECT_TRUE(std::holds_alternative<request::FindHotSpots>(asks("find-hot-spots")));
+    EXPECT_TRUE(std::holds_alternative<request::FindProblemAreas>(asks("find-hot-spots")));
     EXPECT_TRUE(std::holds_alternative<request::LoseSurface>(asks("lose-surface")));
     EXPECT_TRUE(std::holds_alternative<request::Quit>(asks("quit")));
     EXPECT_EQ(std::get<request::WriteWindow>(asks("window w.png")).file, "w.png");

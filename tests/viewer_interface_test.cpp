@@ -210,15 +210,15 @@ TEST(ViewerInterface, theDividerStandsAtItsShareWithTheNamesOfBothSides)
 TEST(ViewerInterface, switchesAndWhatIsLoadingAreThoseOfTheState)
 {
     State s = builtIn();
-    s.hotSpots = std::vector<HotSpot>(2);
-    (*s.hotSpots)[0].text = "one";
-    (*s.hotSpots)[1].text = "two";
+    s.problemAreas = std::vector<ProblemArea>(2);
+    (*s.problemAreas)[0].text = "one";
+    (*s.problemAreas)[1].text = "two";
     for (const bool on : {false, true}) {
         s.interfaceShown = on;
         s.dark = !on;
         s.cheatSheet = on;
         s.settingsShown = !on;
-        s.hotSpotsShown = on;
+        s.problemAreasShown = on;
         s.scale = on ? 1.5f : 0.0f;
         s.loading = on ? "a.glb" : "";
         s.progress = on ? 0.5f : -1.0f;
@@ -228,32 +228,32 @@ TEST(ViewerInterface, switchesAndWhatIsLoadingAreThoseOfTheState)
         EXPECT_EQ(i.dark, !on);
         EXPECT_EQ(i.cheatSheet, on);
         EXPECT_EQ(i.slidersShown, !on);
-        EXPECT_EQ(i.hotSpotsShown, on);
+        EXPECT_EQ(i.problemAreasShown, on);
         EXPECT_EQ(i.scale, s.scale);
         EXPECT_EQ(i.doing, on ? "loading a.glb" : "");
         EXPECT_EQ(i.progress, s.progress);
         EXPECT_EQ(i.problem, s.problem);
-        ASSERT_EQ(i.hotSpots.size(), 2u);
-        EXPECT_EQ(i.hotSpots[1].text, "two");
-        EXPECT_EQ(i.hotSpots[1].command, "hot-spot 1");
+        ASSERT_EQ(i.problemAreas.size(), 2u);
+        EXPECT_EQ(i.problemAreas[1].text, "two");
+        EXPECT_EQ(i.problemAreas[1].command, "hot-spot 1");
     }
 }
 
 TEST(ViewerInterface, aTriangleBehindTheEyeOrOfAMomentThatHasGoneHasNoOutline)
 {
     State s = builtIn();
-    s.hotSpots = std::vector<HotSpot>(1);
+    s.problemAreas = std::vector<ProblemArea>(1);
     const glm::vec3 forward = glm::normalize(s.camera.target - s.camera.eye);
-    (*s.hotSpots)[0].corners = {s.camera.target, s.camera.target + s.camera.up, s.camera.eye + 2.0f * forward};
+    (*s.problemAreas)[0].corners = {s.camera.target, s.camera.target + s.camera.up, s.camera.eye + 2.0f * forward};
     EXPECT_TRUE(interfaceOf(s).lines.empty()); // nobody has gone to it
-    s.hotSpot = 0;
+    s.problemArea = 0;
     const std::vector<Line2D> lines = interfaceOf(s).lines;
     ASSERT_EQ(lines.size(), 3u);
     for (std::size_t k = 0; k < 3; ++k)
         EXPECT_EQ(lines[k].to, lines[(k + 1) % 3].from); // closed
     for (std::size_t corner = 0; corner < 3; ++corner) {
         State behind = s;
-        (*behind.hotSpots)[0].corners[corner] = s.camera.eye - forward;
+        (*behind.problemAreas)[0].corners[corner] = s.camera.eye - forward;
         EXPECT_TRUE(interfaceOf(behind).lines.empty()) << corner;
     }
     s.playing = true;

@@ -44,8 +44,8 @@ TEST(ViewerReport, hasTheValueOfEachFieldInTheLineOfItsName)
     s.loads = 4;
     s.failedLoads = 2;
     s.problem = "a problem";
-    s.hotSpots = std::vector<HotSpot>(2);
-    (*s.hotSpots)[0].text = "first spot";
+    s.problemAreas = std::vector<ProblemArea>(2);
+    (*s.problemAreas)[0].text = "first spot";
     const std::string report = reportOf(s);
     const std::vector<std::pair<const char*, std::string>> lines = {
         {"model", "b.glb"},

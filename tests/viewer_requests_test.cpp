@@ -123,15 +123,15 @@ TEST(ViewerRequests, imagesAreWrittenAsTheStateShowsThemUnderANameThatIsFree)
     EXPECT_EQ(at.state().size, glm::ivec2(64, 48)); // and the window stays as it is
 }
 
-TEST(ViewerRequests, hotSpotsAreThoseOfTheModelThatIsShown)
+TEST(ViewerRequests, problemAreasAreThoseOfTheModelThatIsShown)
 {
     HeadlessSession at;
-    EXPECT_TRUE(at.ask(request::FindHotSpots{})); // of nothing
+    EXPECT_TRUE(at.ask(request::FindProblemAreas{})); // of nothing
     EXPECT_FALSE(at.parts.loader.busy());
     at.load("");
-    EXPECT_TRUE(at.ask(request::FindHotSpots{}));
-    at.work([&] { return at.state().hotSpots.has_value(); });
-    EXPECT_EQ(at.state().hotSpots->size(), hotSpots(at.state().model->scene).size());
+    EXPECT_TRUE(at.ask(request::FindProblemAreas{}));
+    at.work([&] { return at.state().problemAreas.has_value(); });
+    EXPECT_EQ(at.state().problemAreas->size(), problemAreas(at.state().model->scene).size());
 }
 
 TEST(ViewerRequests, anotherModelForgetsTheShapeTheVariantAndTheMoment)

@@ -189,15 +189,15 @@ TEST(ViewerInput, whatCannotBeDoneIsSaidAndChangesNothing)
     EXPECT_EQ(state.problem, "expected a command of the viewer; found ''");
 }
 
-TEST(ViewerInput, aHotSpotIsOutlinedInTheViewThatShowsItWithTheModelAround)
+TEST(ViewerInput, aProblemAreaIsOutlinedInTheViewThatShowsItWithTheModelAround)
 {
     State state = withModel();
-    state.hotSpots = hotSpots(state.model->scene);
-    ASSERT_FALSE(state.hotSpots->empty());
-    for (std::size_t i = 0; i < state.hotSpots->size(); ++i) {
+    state.problemAreas = problemAreas(state.model->scene);
+    ASSERT_FALSE(state.problemAreas->empty());
+    for (std::size_t i = 0; i < state.problemAreas->size(); ++i) {
         state.compare = Compare::angle;
         send(state, "0 do hot-spot " + std::to_string(i) + "\n");
-        EXPECT_EQ(state.show, (*state.hotSpots)[i].view);
+        EXPECT_EQ(state.show, (*state.problemAreas)[i].view);
         EXPECT_EQ(state.compare, Compare::off);
         const std::vector<Line2D> lines = interfaceOf(state).lines;
         ASSERT_EQ(lines.size(), 3u);

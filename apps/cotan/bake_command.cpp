@@ -11,7 +11,6 @@
 #include "cotan/image.hpp"
 #include "gltf_open.hpp"
 #include "image/format_table.hpp"
-#include "inspect/verify/view_files.hpp"
 #include "parse.hpp"
 #include "verify.hpp"
 

@@ -7,18 +7,18 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "bake_objects.hpp"
 #include "cotan/convention.hpp"
 #include "cotan/image.hpp"
 #include "files/extension.hpp"
 #include "gltf_open.hpp"
 #include "image/component_types.hpp"
+#include "likely_turn.hpp"
 #include "parse.hpp"
 #include "scene/bounds.hpp"
 #include "scene/meant_frame.hpp"
 #include "scene/normal_format.hpp"
-#include "scene/objects.hpp"
 #include "scene/stored_green.hpp"
-#include "scene/up.hpp"
 
 namespace cotan::app {
 

@@ -8,11 +8,11 @@
 #include <fmt/format.h>
 
 #include "bake/convert_report.hpp"
+#include "convert_lines.hpp"
 #include "cotan/convert.hpp"
 #include "cotan/inspect.hpp"
 #include "cotan/render.hpp"
 #include "gltf_open.hpp"
-#include "inspect/verify/view_files.hpp"
 #include "loading.hpp"
 #include "parse.hpp"
 #include "verify.hpp"

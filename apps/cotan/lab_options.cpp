@@ -17,42 +17,27 @@ constexpr const char* kTables[] = {"flat",   "foreshortening", "perspective", "v
                                    "facets", "precision",      "half",        "degenerate", "procedural", "rendered"};
 constexpr const char* kFigures[] = {"2.6.3",   "2.6.4",  "2.6.5",    "tutorial", "normal-matrices", "mirrored",
                                     "targets", "decode", "faceting", "furnace",  "sparkle"};
-constexpr const char* kRows[] = {"floor",
-                                 "mikktspace",
-                                 "vertex",
-                                 "smooth",
-                                 "smooth-fused",
-                                 "triangle-halfs",
-                                 "triangle-fused",
-                                 "triangle-read",
-                                 "triangle-scaled",
-                                 "triangle",
-                                 "cotangent-fused",
-                                 "cotangent-seen",
-                                 "cotangent-area-fused",
-                                 "gradient-fused",
-                                 "orthonormal-fused",
-                                 "cotangent-plain",
-                                 "cotangent-facing",
-                                 "gradient-plain",
-                                 "orthonormal-plain",
-                                 "cotangent",
-                                 "gradient",
-                                 "orthonormal",
-                                 "exact",
-                                 "cotangent-2013",
-                                 "nonperspective",
-                                 "unit",
-                                 "paper-full",
-                                 "paper-nodet",
-                                 "paper-transpose",
-                                 "paper-orthogonal"};
+// Beside the frames and their fused forms.
+constexpr const char* kRows[] = {"triangle-halfs",   "triangle-read",        "triangle-scaled",
+                                 "cotangent-seen",   "cotangent-area-fused", "cotangent-plain",
+                                 "cotangent-facing", "gradient-plain",       "orthonormal-plain"};
 
 } // namespace
 
 std::vector<std::string> accuracyTableNames() { return {std::begin(kTables), std::end(kTables)}; }
 std::vector<std::string> figureOptionNames() { return {std::begin(kFigures), std::end(kFigures)}; }
-std::vector<std::string> costRowNames() { return {std::begin(kRows), std::end(kRows)}; }
+
+std::vector<std::string> costRowNames()
+{
+    std::vector<std::string> names = {"floor"};
+    for (const FrameInfo& f : frames()) {
+        names.emplace_back(f.name);
+        if (f.fused)
+            names.push_back(std::string(f.name) + "-fused");
+    }
+    names.insert(names.end(), std::begin(kRows), std::end(kRows));
+    return names;
+}
 
 namespace {
 

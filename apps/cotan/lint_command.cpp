@@ -7,6 +7,7 @@
 #include "cotan/lint.hpp"
 #include "cotan/render.hpp"
 #include "gltf_open.hpp"
+#include "lint_lines.hpp"
 #include "loading.hpp"
 #include "picture.hpp"
 #include "terminal/command_words.hpp"
@@ -86,9 +87,10 @@ Status run(const LintCommandOptions& o)
     for (const std::string& line : verdict)
         say(o, line);
     std::vector<std::string> details = detailLines(report);
-    const std::vector<HotSpot> spots = report.primitives.empty() ? std::vector<HotSpot>() : hotSpots(*scene);
-    for (const HotSpot& spot : spots)
-        details.push_back(fmt::format("look: {}: --camera {}", spot.text, formatCamera(spot.camera)));
+    const std::vector<ProblemArea> areas =
+        report.primitives.empty() ? std::vector<ProblemArea>() : problemAreas(*scene);
+    for (const ProblemArea& area : areas)
+        details.push_back(fmt::format("look: {}: --camera {}", area.text, formatCamera(area.camera)));
     if (o.limits.any())
         for (const std::string& line : checkLines(check, o.details ? check.failures.size() : 1))
             say(o, line);
@@ -114,11 +116,11 @@ Status run(const LintCommandOptions& o)
                 {"drops_tangents", report.dropsTangents}}}};
     j.update(listsOf(report));
     j["hot_spots"] = Json::array();
-    for (const HotSpot& spot : spots)
-        j["hot_spots"].push_back({{"text", spot.text},
-                                  {"mesh", scene->meshes[spot.mesh].name},
-                                  {"share", spot.share},
-                                  {"camera", formatCamera(spot.camera)}});
+    for (const ProblemArea& area : areas)
+        j["hot_spots"].push_back({{"text", area.text},
+                                  {"mesh", scene->meshes[area.mesh].name},
+                                  {"share", area.share},
+                                  {"camera", formatCamera(area.camera)}});
     j["check"] = toJson(check);
     j["over_limit"] = overLimits(check);
     j["seconds"] = {{"load", loadSeconds}, {"lint", watch.lap()}};

@@ -25,9 +25,9 @@ Status run(const MapMipsCommandOptions& o)
     if (!conventions)
         return conventions.error();
     const std::optional<Convention> to = o.to.empty() ? std::nullopt : std::optional(conventions->second.convention);
-    using enum maps::SpreadModel;
+    using enum maps::VarianceModel;
     const auto model =
-        valueOf<maps::SpreadModel>("--model", o.model, {{"toksvig", toksvig}, {"vmf", vmf}, {"lean", lean}});
+        valueOf<maps::VarianceModel>("--model", o.model, {{"toksvig", toksvig}, {"vmf", vmf}, {"lean", lean}});
     if (!model)
         return model.error();
     const auto plan = [&](const std::filesystem::path& file) {

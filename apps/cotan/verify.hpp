@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "common.hpp"
 #include "cotan/frame.hpp"
@@ -19,6 +20,16 @@ struct VerifyOptions {
     std::string device;
     int memory = 0;
 };
+
+// What the pictures of a view are called: NAME-0.png, NAME-1.png and so on.
+struct ViewNames {
+    const char *expected, *drawn, *difference;
+};
+
+inline constexpr ViewNames kConversionNames = {"before", "after", "difference"}, kBakeNames = {"high", "low", "error"};
+
+// The files of so many views.
+std::vector<std::string> picturesOf(const ViewNames& names, std::size_t views);
 
 // Draw, write the pictures, say the degrees, and return them for a report.
 // Errors: of loading, drawing and writing.

@@ -40,21 +40,21 @@ Status setCamera(State& state, const std::string& words)
     return moved(state);
 }
 
-Status goToHotSpot(State& state, Words& words)
+Status goToProblemArea(State& state, Words& words)
 {
     const auto number = words.number("hot-spot");
     if (!number)
         return number.error();
-    const std::size_t count = state.hotSpots ? state.hotSpots->size() : 0;
+    const std::size_t count = state.problemAreas ? state.problemAreas->size() : 0;
     if (*number < 0 || std::size_t(*number) >= count)
         return expected("hot-spot", count > 0 ? fmt::format("0 to {}", count - 1) : "hot spots to have been found",
                         fmt::format("{}", *number));
-    state.hotSpot = std::size_t(*number);
-    const HotSpot& spot = (*state.hotSpots)[*state.hotSpot];
-    state.camera = spot.camera;
-    state.show = std::string(spot.view);
+    state.problemArea = std::size_t(*number);
+    const ProblemArea& area = (*state.problemAreas)[*state.problemArea];
+    state.camera = area.camera;
+    state.show = std::string(area.view);
     state.compare = Compare::off; // whose pictures would cover it
-    if (spot.storedTangents) {
+    if (area.storedTangents) {
         state.a.frame = "mikktspace";
         state.a.tangents = TangentOrigin::stored;
     }
@@ -129,7 +129,7 @@ std::optional<Status> performCamera(State& state, const std::string& command, Wo
     if (command == "camera")
         return setCamera(state, words.rest);
     if (command == "hot-spot")
-        return goToHotSpot(state, words);
+        return goToProblemArea(state, words);
     if (command == "turn-light") {
         const auto degrees = words.number("turn-light");
         if (!degrees)

@@ -85,7 +85,7 @@ Status toggle(State& state, const std::string& name)
     const std::map<std::string, bool State::*> switches = {{"interface", &State::interfaceShown},
                                                            {"help", &State::cheatSheet},
                                                            {"settings", &State::settingsShown},
-                                                           {"hot-spots", &State::hotSpotsShown},
+                                                           {"hot-spots", &State::problemAreasShown},
                                                            {"card", &State::cardShown},
                                                            {"statistics", &State::statisticsShown},
                                                            {"look", &State::dark},
@@ -95,10 +95,10 @@ Status toggle(State& state, const std::string& name)
     if (known != switches.end()) {
         state.*known->second = !(state.*known->second);
         state.pinnedAt = azimuthOf(state.camera);
-        if (name == "hot-spots" && state.hotSpotsShown && !state.hotSpots)
-            state.requests.push_back(request::FindHotSpots{});
-        if (name == "hot-spots" && !state.hotSpotsShown)
-            state.hotSpot.reset();
+        if (name == "hot-spots" && state.problemAreasShown && !state.problemAreas)
+            state.requests.push_back(request::FindProblemAreas{});
+        if (name == "hot-spots" && !state.problemAreasShown)
+            state.problemArea.reset();
         return Done{};
     }
     std::string names;
@@ -259,7 +259,7 @@ const std::map<std::string, Perform>& performers()
         {"previous", [](State& s, Words&) { return neighbour(s, -1); }},
         {"paste", requested<request::Paste>},
         {"choose", requested<request::ChooseFile>},
-        {"find-hot-spots", requested<request::FindHotSpots>},
+        {"find-hot-spots", requested<request::FindProblemAreas>},
         {"lose-surface", requested<request::LoseSurface>},
         {"quit", requested<request::Quit>},
         {"set", performSet},

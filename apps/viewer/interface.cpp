@@ -116,7 +116,7 @@ std::vector<Line2D> arrowsOf(const State& s)
 // The triangle of the hot spot that was gone to.
 void addOutline(const State& s, std::vector<Line2D>& lines)
 {
-    const std::array<glm::vec3, 3>& corners = (*s.hotSpots)[*s.hotSpot].corners;
+    const std::array<glm::vec3, 3>& corners = (*s.problemAreas)[*s.problemArea].corners;
     std::array<glm::vec3, 3> at;
     for (std::size_t k = 0; k < 3; ++k) {
         at[k] = onPicture(s.camera, corners[k], s.size);
@@ -171,7 +171,7 @@ Interface interfaceOf(const State& s)
     i.scale = s.scale;
     i.cheatSheet = s.cheatSheet;
     i.slidersShown = s.settingsShown;
-    i.hotSpotsShown = s.hotSpotsShown;
+    i.problemAreasShown = s.problemAreasShown;
     std::string heading;
     for (const Entry& entry : entriesOf(s)) {
         if (i.menus.empty() || i.menus.back().title != entry.menu)
@@ -203,11 +203,11 @@ Interface interfaceOf(const State& s)
     }
     if (s.interfaceShown && (s.compare == Compare::angle || s.show == "error" || s.show == "shear"))
         i.scaleBar = scaleOfDegrees();
-    if (s.hotSpots && s.hotSpot && s.interfaceShown && !s.playing) // what plays has moved on
+    if (s.problemAreas && s.problemArea && s.interfaceShown && !s.playing) // what plays has moved on
         addOutline(s, i.lines);
-    if (s.hotSpots)
-        for (std::size_t k = 0; k < s.hotSpots->size(); ++k)
-            i.hotSpots.push_back({(*s.hotSpots)[k].text, fmt::format("hot-spot {}", k)});
+    if (s.problemAreas)
+        for (std::size_t k = 0; k < s.problemAreas->size(); ++k)
+            i.problemAreas.push_back({(*s.problemAreas)[k].text, fmt::format("hot-spot {}", k)});
     if (s.compare == Compare::divider && s.interfaceShown) {
         i.divider = s.divider * float(s.size.x);
         i.leftName = frameLabel(s, s.a);

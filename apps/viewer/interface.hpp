@@ -58,8 +58,8 @@ struct Interface {
     float divider = -1; // pixels from the left; below 0: none
     std::string leftName, rightName;
     std::vector<std::pair<double, glm::vec3>> scaleBar; // degrees and their colours
-    bool hotSpotsShown = false;
-    std::vector<Choice> hotSpots;
+    bool problemAreasShown = false;
+    std::vector<Choice> problemAreas;
     std::vector<std::pair<std::string, std::string>> sheet; // key, what it does and how it stands; a title without key
 };
 

@@ -93,15 +93,15 @@ void takePosed(State& state, const Loaded& loaded)
         resetCamera(state);
     if (state.playing) // the moment has gone on
         return;
-    forgetHotSpots(state);
+    forgetProblemAreas(state);
 }
 
 } // namespace
 
 void take(State& state, const Loaded& loaded)
 {
-    if (loaded.hotSpots) {
-        state.hotSpots = loaded.hotSpots;
+    if (loaded.problemAreas) {
+        state.problemAreas = loaded.problemAreas;
         return;
     }
     if (!loaded.faults.empty()) {
@@ -128,7 +128,7 @@ void take(State& state, const Loaded& loaded)
     if (!state.playing)
         state.picture.time = loaded.options.time;
     state.model = loaded.model;
-    forgetHotSpots(state);
+    forgetProblemAreas(state);
     state.statisticsOf.clear();
     if (other || !state.cameraMoved) {
         if (state.loads > 1 && other) {
@@ -199,7 +199,7 @@ struct Loader::Work {
     static Loaded lookAt(const Model& model)
     {
         Loaded loaded;
-        loaded.hotSpots = hotSpots(model.scene);
+        loaded.problemAreas = problemAreas(model.scene);
         return loaded;
     }
 
@@ -263,7 +263,7 @@ void Loader::pose(const PictureOptions& options)
     work_->changed.notify_all();
 }
 
-void Loader::findHotSpots(std::shared_ptr<const Model> model)
+void Loader::findProblemAreas(std::shared_ptr<const Model> model)
 {
     {
         const std::lock_guard lock(work_->mutex);

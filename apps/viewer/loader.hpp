@@ -13,7 +13,7 @@ struct Loaded {
     bool posed = false;                 // the model as before, at another moment
     PictureOptions options;             // that it was read with
     std::shared_ptr<const Model> model; // null where there is an error, or nothing else
-    std::optional<std::vector<HotSpot>> hotSpots;
+    std::optional<std::vector<ProblemArea>> problemAreas;
     std::vector<std::string> faults; // of its maps; they come after the model, since looking takes longer than drawing
     std::optional<Error> error;
     double seconds = 0;
@@ -34,7 +34,7 @@ public:
     // images again; a pose that waits is dropped. Nothing while a model is being read.
     void pose(const PictureOptions& options);
     // Looks for hot spots of a model.
-    void findHotSpots(std::shared_ptr<const Model> model);
+    void findProblemAreas(std::shared_ptr<const Model> model);
     std::optional<Loaded> take();
     bool busy() const;    // something was asked for and is not taken yet
     bool reading() const; // a file

@@ -173,7 +173,7 @@ void addFrameEntries(Entries& e, const State& s)
     e.line();
     e.add("Statistics", "", "toggle statistics", s.statisticsShown);
     e.add("Inspect under pointer", "i", "toggle card", s.cardShown);
-    e.add("Problem areas", "l", "toggle hot-spots", s.hotSpotsShown);
+    e.add("Problem areas", "l", "toggle hot-spots", s.problemAreasShown);
 }
 
 void addShowEntries(Entries& e, const State& s)

@@ -101,10 +101,10 @@ Status carryOut(Parts& parts, const request::LoseSurface&)
     return Done{};
 }
 
-Status carryOut(Parts& parts, const request::FindHotSpots&)
+Status carryOut(Parts& parts, const request::FindProblemAreas&)
 {
     if (parts.state.model)
-        parts.loader.findHotSpots(parts.state.model);
+        parts.loader.findProblemAreas(parts.state.model);
     return Done{};
 }
 

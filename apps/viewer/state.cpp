@@ -76,12 +76,12 @@ PictureOptions optionsOf(const State& state, bool second)
     return o;
 }
 
-void forgetHotSpots(State& state)
+void forgetProblemAreas(State& state)
 {
-    state.hotSpots.reset();
-    state.hotSpot.reset();
-    if (state.hotSpotsShown)
-        state.requests.push_back(request::FindHotSpots{});
+    state.problemAreas.reset();
+    state.problemArea.reset();
+    if (state.problemAreasShown)
+        state.requests.push_back(request::FindProblemAreas{});
 }
 
 void resetCamera(State& state)
@@ -212,10 +212,10 @@ std::string reportOf(const State& state)
         add("stored tangent", p.storedTangent == glm::vec3(0) ? "none" : textOf(p.storedTangent));
         add("degrees there", state.probe.degrees < 0 ? "none" : fmt::format("{:.2f}", state.probe.degrees));
     }
-    if (state.hotSpots) {
-        add("hot spots", fmt::format("{}", state.hotSpots->size()));
-        for (const HotSpot& spot : *state.hotSpots)
-            add("hot spot", spot.text);
+    if (state.problemAreas) {
+        add("hot spots", fmt::format("{}", state.problemAreas->size()));
+        for (const ProblemArea& area : *state.problemAreas)
+            add("hot spot", area.text);
     }
     add("loads", fmt::format("{} failed {}", state.loads, state.failedLoads));
     add("problem", state.problem.empty() ? "none" : state.problem);

@@ -71,13 +71,13 @@ struct Resize {
     glm::ivec2 size{0};
 };
 struct LoseSurface {};
-struct FindHotSpots {};
+struct FindProblemAreas {};
 struct Quit {};
 } // namespace request
 
 using Request = std::variant<request::Load, request::Pose, request::WritePicture, request::WriteWindow,
                              request::WriteReport, request::Copy, request::Paste, request::ChooseFile, request::Resize,
-                             request::LoseSurface, request::FindHotSpots, request::Quit>;
+                             request::LoseSurface, request::FindProblemAreas, request::Quit>;
 
 // What is under the pointer.
 struct Probe {
@@ -107,12 +107,12 @@ struct State {
     float rate = 1, speed = 0.5; // of the animation; of flying, model sizes a second
     bool playing = false, loops = true;
 
-    std::shared_ptr<const Model> model;           // null until the first one is read
-    std::optional<std::vector<HotSpot>> hotSpots; // none: nobody has looked yet
-    std::optional<std::size_t> hotSpot;           // of those, the one that was gone to: its triangle is outlined
-    std::vector<std::string> recent;              // files, the latest first
+    std::shared_ptr<const Model> model;                   // null until the first one is read
+    std::optional<std::vector<ProblemArea>> problemAreas; // none: nobody has looked yet
+    std::optional<std::size_t> problemArea; // of those, the one that was gone to: its triangle is outlined
+    std::vector<std::string> recent;        // files, the latest first
 
-    bool interfaceShown = true, cheatSheet = false, dark = true, settingsShown = false, hotSpotsShown = false;
+    bool interfaceShown = true, cheatSheet = false, dark = true, settingsShown = false, problemAreasShown = false;
     bool cardShown = true, statisticsShown = true;
     float scale = 0; // of the interface; 0: as the screen asks for
 
@@ -139,7 +139,7 @@ struct State {
 };
 
 // The hot spots are those of another model or moment; finds them again where they are listed.
-void forgetHotSpots(State& state);
+void forgetProblemAreas(State& state);
 
 // The animation of the model that picture.animation names; null where there is none.
 const GltfAnimation* animationOf(const State& state);

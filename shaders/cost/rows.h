@@ -1,7 +1,8 @@
 // What `cotan cost` counts, as portable text: each function is the whole of perturbing a normal, from
 // interpolated inputs and differences to the unit result. Include cotan/lang.h, frame.h, history.h and fused.h
 // first. The fragment shaders (fragment.frag) and the operation counter (apps/lab/cost/scalar_count.cpp)
-// call the same text.
+// call the same text. The table of frames makes cost_frame_WORD of each frame, and cost_fused_WORD where there is a
+// fused form.
 //
 // Inputs: n interpolated normal, not unit; the differences of a frame; m decoded texel; tangent as
 // interpolated, w the sign with which cross(n, t) points along +v; cotangent_u and cotangent_v as
@@ -35,43 +36,52 @@ COTAN_FUNCTION cotan_vec3 cost_sum(cotan_frame f, cotan_vec3 m)
 // texel applied; what every row pays.
 COTAN_FUNCTION cotan_vec3 cost_floor(cost_inputs i) { return cost_unit(cost_unit(i.n) * i.m.z); }
 
-// ---- stored at the vertices -----------------------------------------------------------------
+// ---- the frames, and their fused forms --------------------------------------------------------
 
-COTAN_FUNCTION cotan_vec3 cost_mikktspace(cost_inputs i)
-{
-    cotan_vec3 t = cotan_vec3(i.tangent.x, i.tangent.y, i.tangent.z);
-    return cost_sum(cotan_frame_mikktspace(i.n, t, i.tangent.w), i.m);
-}
+// By who makes the normal unit. Where that is nobody, the texel is applied to the normal as it is.
+#define COST_NORMAL_frame(n) n
+#define COST_NORMAL_caller(n) cost_unit(n)
+#define COST_NORMAL_nobody(n) n
+#define COST_APPLY_frame cotan_apply
+#define COST_APPLY_caller cost_sum
+#define COST_APPLY_nobody cost_sum
+// By what the frame is made from. A frame from the triangle that has a fused form is made from u and v.
+#define COST_FROM_differences(word, fused, n) cotan_frame_##word(n, i.dpdx, i.dpdy, i.duvdx, i.duvdy)
+#define COST_FROM_cotangents(word, fused, n) cotan_frame_##word(n, i.cotangent_u, i.cotangent_v)
+#define COST_FROM_tangents(word, fused, n) \
+    cotan_frame_##word(n, cotan_vec3(i.tangent.x, i.tangent.y, i.tangent.z), i.tangent.w)
+#define COST_FROM_triangle(word, fused, n) COST_FROM_triangle_##fused(word, n)
+#define COST_FROM_triangle_false(word, n) cotan_frame_##word(n, i.dpdx, i.dpdy, i.duvdx, i.duvdy)
+#define COST_FROM_triangle_true(word, n) cotan_frame_of_##word(n, i.triangle_u, i.triangle_v)
+#define COST_FUSED_differences(word) cotan_perturb_##word(i.n, i.dpdx, i.dpdy, i.duvdx, i.duvdy, i.m)
+#define COST_FUSED_cotangents(word) cotan_perturb_##word(i.n, i.cotangent_u, i.cotangent_v, i.m)
+#define COST_FUSED_triangle(word) cotan_perturb_##word(i.n, i.triangle_u, i.triangle_v, i.m)
+#define COST_FUSED_ROW_false(word, source)
+#define COST_FUSED_ROW_true(word, source) \
+    COTAN_FUNCTION cotan_vec3 cost_fused_##word(cost_inputs i) { return COST_FUSED_##source(word); }
 
-COTAN_FUNCTION cotan_vec3 cost_vertex(cost_inputs i)
-{
-    cotan_vec3 t = cotan_vec3(i.tangent.x, i.tangent.y, i.tangent.z);
-    return cotan_apply(cotan_frame_vertex(i.n, t, i.tangent.w), i.m);
-}
+#define COTAN_FRAME_ROW(number, enumerator, word, source, total, dependsOnView, normal, fused, after, name, summary) \
+    COTAN_FUNCTION cotan_vec3 cost_frame_##word(cost_inputs i)                                                       \
+    {                                                                                                                \
+        return COST_APPLY_##normal(COST_FROM_##source(word, fused, COST_NORMAL_##normal(i.n)), i.m);                 \
+    }                                                                                                                \
+    COST_FUSED_ROW_##fused(word, source)
+#include "cotan/frames.inc"
 
-COTAN_FUNCTION cotan_vec3 cost_smooth(cost_inputs i)
-{
-    return cotan_apply(cotan_frame_smooth(i.n, i.cotangent_u, i.cotangent_v), i.m);
-}
+// ---- fused forms beside them ------------------------------------------------------------------
 
-COTAN_FUNCTION cotan_vec3 cost_smooth_fused(cost_inputs i)
-{
-    return cotan_perturb_smooth(i.n, i.cotangent_u, i.cotangent_v, i.m);
-}
-
-// ---- from two vectors of the triangle ---------------------------------------------------------
-
-COTAN_FUNCTION cotan_vec3 cost_triangle_fused(cost_inputs i)
-{
-    return cotan_perturb_triangle(i.n, i.triangle_u, i.triangle_v, i.m);
-}
 COTAN_FUNCTION cotan_vec3 cost_triangle_scaled(cost_inputs i)
 {
     return cotan_perturb_triangle_scaled(i.n, i.triangle_u, i.triangle_v, i.m);
 }
-COTAN_FUNCTION cotan_vec3 cost_triangle(cost_inputs i)
+COTAN_FUNCTION cotan_vec3 cost_cotangent_area_fused(cost_inputs i)
 {
-    return cotan_apply(cotan_frame_of_triangle(i.n, i.triangle_u, i.triangle_v), i.m);
+    return cotan_perturb_cotangent_area(i.n, i.dpdx, i.dpdy, i.duvdx, i.duvdy, i.m);
+}
+COTAN_FUNCTION cotan_vec3 cost_cotangent_seen(cost_inputs i)
+{
+    return cotan_perturb_cotangent_seen(
+        i.n, i.dpdx, i.dpdy, i.duvdx, i.duvdy, i.m, cotan_real(-1.0));
 }
 
 // ---- plain forms of the formulas, without totality ----------------------------------------
@@ -141,80 +151,6 @@ COTAN_FUNCTION cotan_vec3 cost_orthonormal_plain(cost_inputs i)
     f.b = cross(n, f.t) * (s * side);
     f.n = n;
     return cost_sum(f, i.m);
-}
-
-// ---- fused.h ---------------------------------------------------------------------------------
-
-COTAN_FUNCTION cotan_vec3 cost_cotangent_fused(cost_inputs i)
-{
-    return cotan_perturb_cotangent(i.n, i.dpdx, i.dpdy, i.duvdx, i.duvdy, i.m);
-}
-COTAN_FUNCTION cotan_vec3 cost_cotangent_area_fused(cost_inputs i)
-{
-    return cotan_perturb_cotangent_area(i.n, i.dpdx, i.dpdy, i.duvdx, i.duvdy, i.m);
-}
-COTAN_FUNCTION cotan_vec3 cost_cotangent_seen(cost_inputs i)
-{
-    return cotan_perturb_cotangent_seen(
-        i.n, i.dpdx, i.dpdy, i.duvdx, i.duvdy, i.m, cotan_real(-1.0));
-}
-COTAN_FUNCTION cotan_vec3 cost_gradient_fused(cost_inputs i)
-{
-    return cotan_perturb_gradient(i.n, i.dpdx, i.dpdy, i.duvdx, i.duvdy, i.m);
-}
-COTAN_FUNCTION cotan_vec3 cost_orthonormal_fused(cost_inputs i)
-{
-    return cotan_perturb_orthonormal(i.n, i.dpdx, i.dpdy, i.duvdx, i.duvdy, i.m);
-}
-
-// ---- the total frames of frame.h: no input gives a NaN ---------------------------------------
-
-COTAN_FUNCTION cotan_vec3 cost_cotangent(cost_inputs i)
-{
-    return cotan_apply(cotan_frame_cotangent(i.n, i.dpdx, i.dpdy, i.duvdx, i.duvdy), i.m);
-}
-COTAN_FUNCTION cotan_vec3 cost_gradient(cost_inputs i)
-{
-    return cotan_apply(cotan_frame_gradient(i.n, i.dpdx, i.dpdy, i.duvdx, i.duvdy), i.m);
-}
-COTAN_FUNCTION cotan_vec3 cost_orthonormal(cost_inputs i)
-{
-    return cotan_apply(cotan_frame_orthonormal(i.n, i.dpdx, i.dpdy, i.duvdx, i.duvdy), i.m);
-}
-COTAN_FUNCTION cotan_vec3 cost_exact(cost_inputs i)
-{
-    return cotan_apply(cotan_frame_exact(i.n, i.dpdx, i.dpdy, i.duvdx, i.duvdy), i.m);
-}
-
-// ---- the frames of history.h, which want n unit --------------------------------------------
-
-COTAN_FUNCTION cotan_vec3 cost_cotangent_2013(cost_inputs i)
-{
-    return cost_sum(cotan_frame_cotangent_2013(cost_unit(i.n), i.dpdx, i.dpdy, i.duvdx, i.duvdy), i.m);
-}
-COTAN_FUNCTION cotan_vec3 cost_nonperspective(cost_inputs i)
-{
-    return cost_sum(cotan_frame_nonperspective(cost_unit(i.n), i.dpdx, i.dpdy, i.duvdx, i.duvdy), i.m);
-}
-COTAN_FUNCTION cotan_vec3 cost_paper_full(cost_inputs i)
-{
-    return cost_sum(cotan_frame_paper_full(cost_unit(i.n), i.dpdx, i.dpdy, i.duvdx, i.duvdy), i.m);
-}
-COTAN_FUNCTION cotan_vec3 cost_paper_nodet(cost_inputs i)
-{
-    return cost_sum(cotan_frame_paper_nodet(cost_unit(i.n), i.dpdx, i.dpdy, i.duvdx, i.duvdy), i.m);
-}
-COTAN_FUNCTION cotan_vec3 cost_paper_transpose(cost_inputs i)
-{
-    return cost_sum(cotan_frame_paper_transpose(cost_unit(i.n), i.dpdx, i.dpdy, i.duvdx, i.duvdy), i.m);
-}
-COTAN_FUNCTION cotan_vec3 cost_paper_orthogonal(cost_inputs i)
-{
-    return cost_sum(cotan_frame_paper_orthogonal(cost_unit(i.n), i.dpdx, i.dpdy, i.duvdx, i.duvdy), i.m);
-}
-COTAN_FUNCTION cotan_vec3 cost_unit_lengths(cost_inputs i)
-{
-    return cost_sum(cotan_frame_unit(cost_unit(i.n), i.dpdx, i.dpdy, i.duvdx, i.duvdy), i.m);
 }
 
 #endif

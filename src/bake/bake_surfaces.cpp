@@ -14,7 +14,7 @@
 #include "bake/surface/uv_raster.hpp"
 #include "baker.hpp"
 #include "core/loops.hpp"
-#include "repeated.hpp"
+#include "scene/repeated.hpp"
 
 namespace cotan {
 

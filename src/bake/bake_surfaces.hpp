@@ -1,7 +1,6 @@
 // From a detailed surface to a map on a simple one.
 #pragma once
 
-#include <memory>
 #include <vector>
 
 #include "bake/high_normal_maps.hpp"

@@ -1,65 +1,8 @@
 #include "bake/convert_report.hpp"
 
-#include <algorithm>
-
-#include <fmt/format.h>
-
 #include "bake/report_words.hpp"
-#include "gltf/json/lookup.hpp"
 
 namespace cotan {
-
-namespace {
-
-// What is to be said of a map that stays.
-std::string whyKept(const ConvertedMap& map, const std::string& to)
-{
-    const ValueSummary& off = map.figures.unconverted;
-    if (off.count == 0)
-        return fmt::format("{}: stays as it is; nothing was judged, for no triangle with area, also in uv, shows it",
-                           map.name);
-    return fmt::format(
-        "{}: stays as it is: read with {} it is off by {} degrees on {}, no more than rounding a new one costs",
-        map.name, to, toText(off), counted(map.surfaces, "surface"));
-}
-
-double bytesPerVertex(const TangentBytes& d) { return d.vertices > 0 ? double(d.bytes) / double(d.vertices) : 0; }
-
-} // namespace
-
-namespace {
-
-// "JPEG of quality 90,"
-std::string formatOf(const ConvertedMap& map)
-{
-    return map.quality > 0 ? fmt::format("{} of quality {},", map.format, map.quality) : map.format;
-}
-
-} // namespace
-
-std::vector<std::string> linesOf(const ConvertedMap& map, const std::string& to)
-{
-    if (map.kept)
-        return {whyKept(map, to)};
-    const ReencodeFigures& r = map.figures;
-    const double texels = double(map.width) * double(map.height);
-    std::vector<std::string> lines;
-    lines.push_back(fmt::format("{}: {}x{}, {:.1f} % covered by {}; read with {} as it is, off by {} degrees", map.name,
-                                map.width, map.height, 100 * double(r.covered) / texels,
-                                counted(map.surfaces, "surface"), to, toText(r.unconverted)));
-    if (r.several > 0)
-        lines.push_back(fmt::format(
-            "  {} texels are used in several places; in {} ({:.2f} % of the covered) these disagree by over {} "
-            "degrees{}",
-            r.several, r.disagreeing, 100 * double(r.disagreeing) / double(std::max<std::size_t>(r.covered, 1)),
-            kDisagree, r.disagreeing > 0 ? fmt::format(": {} off at the worst place", toText(r.disagreement)) : ""));
-    lines.push_back(fmt::format("  converted and rounded to {} bits, off by {} degrees; {} texels of padding converted "
-                                "too; {} {} bytes, before {}",
-                                map.bits, toText(r.error), r.padded, formatOf(map), map.bytesAfter, map.bytesBefore));
-    if (r.belowHorizon > 0)
-        lines.push_back(fmt::format("  {} texels point below the horizon of the frame", r.belowHorizon));
-    return lines;
-}
 
 // Of a map that stays, no texel was looked at: those figures are missing.
 Json toJson(const ConvertedMap& map)
@@ -97,33 +40,6 @@ Json toJson(const ConvertedMap& map)
             {"bytes_after", map.bytesAfter}};
 }
 
-std::vector<std::string> tangentsLines(const ConvertModelReport& report, const std::string& to)
-{
-    if (report.tangents == TangentsAfter::kept)
-        return {};
-    if (report.tangents == TangentsAfter::given)
-        return {fmt::format("{} got TANGENT for {}", counted(report.primitivesGiven, "primitive"), to)};
-    const TangentBytes& d = report.dropped;
-    std::vector<std::string> lines = {
-        d.bytes > 0 ? fmt::format("TANGENT dropped from {}: {:.3g} bytes a vertex, {} vertices, {} bytes",
-                                  counted(d.primitives, "primitive"), bytesPerVertex(d), d.vertices, d.bytes)
-                    : "no TANGENT to drop"};
-    const TurnedDirection* worst = nullptr;
-    std::size_t turned = 0;
-    for (const TurnedDirection& direction : d.directions)
-        if (!direction.stays) {
-            ++turned;
-            if (!worst || direction.degrees.percentile95 > worst->degrees.percentile95)
-                worst = &direction;
-        }
-    if (worst)
-        lines.push_back(fmt::format("  highlights of {} were stretched along it; along {} they turn by {} degrees at "
-                                    "the worst, in {}",
-                                    counted(turned, "primitive"), to, toText(worst->degrees),
-                                    primitiveField(worst->mesh, worst->primitive)));
-    return lines;
-}
-
 Json tangentsJson(const ConvertModelReport& report)
 {
     if (report.tangents == TangentsAfter::kept)
@@ -132,7 +48,7 @@ Json tangentsJson(const ConvertModelReport& report)
         return {{"given_primitives", report.primitivesGiven}};
     const TangentBytes& d = report.dropped;
     Json json = {{"dropped_primitives", d.primitives},
-                 {"bytes_per_vertex", bytesPerVertex(d)},
+                 {"bytes_per_vertex", d.vertices > 0 ? double(d.bytes) / double(d.vertices) : 0},
                  {"vertices", d.vertices},
                  {"bytes", d.bytes}};
     for (const TurnedDirection& turned : d.directions)
@@ -141,57 +57,6 @@ Json tangentsJson(const ConvertModelReport& report)
                                       {"material", turned.material},
                                       {"turned_degrees", toJson(turned.degrees)},
                                       {"tangents_stay", turned.stays}});
-    return json;
-}
-
-namespace {
-
-GltfProvoked sumOf(const std::vector<GltfProvoked>& primitives)
-{
-    GltfProvoked sum;
-    for (const GltfProvoked& p : primitives) {
-        sum.triangles += p.triangles;
-        sum.verticesBefore += p.verticesBefore;
-        sum.verticesAfter += p.verticesAfter;
-    }
-    return sum;
-}
-
-double growthOf(const GltfProvoked& p)
-{
-    return p.verticesBefore > 0 ? double(p.verticesAfter) / double(p.verticesBefore) : 1;
-}
-
-Json rowOf(const GltfProvoked& p)
-{
-    return {{"triangles", p.triangles},
-            {"vertices_before", p.verticesBefore},
-            {"vertices_after", p.verticesAfter},
-            {"growth", growthOf(p)}};
-}
-
-} // namespace
-
-std::string provokingLine(const std::vector<GltfProvoked>& primitives, const std::string& provoking)
-{
-    const GltfProvoked sum = sumOf(primitives);
-    if (primitives.empty())
-        return "no triangles: nothing was numbered anew";
-    return fmt::format("{} of {}: {} vertices, before {}: {:.2f} times as many; vertex k provokes triangle k as its {}",
-                       counted(sum.triangles, "triangle"), counted(primitives.size(), "primitive"), sum.verticesAfter,
-                       sum.verticesBefore, growthOf(sum), provoking);
-}
-
-Json provokingJson(const std::vector<GltfProvoked>& primitives, const std::string& provoking)
-{
-    Json json = {{"vertex", provoking}};
-    json.update(rowOf(sumOf(primitives)));
-    json["primitives"] = Json::array();
-    for (const GltfProvoked& p : primitives) {
-        Json row = {{"mesh", p.mesh}, {"primitive", p.primitive}};
-        row.update(rowOf(p));
-        json["primitives"].push_back(std::move(row));
-    }
     return json;
 }
 

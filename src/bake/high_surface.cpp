@@ -11,7 +11,7 @@
 
 #include "cotan/covector.hpp"
 #include "high_state.hpp"
-#include "repeated.hpp"
+#include "scene/repeated.hpp"
 
 namespace cotan {
 

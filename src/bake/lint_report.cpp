@@ -1,95 +1,12 @@
 #include "bake/lint_report.hpp"
 
-#include <algorithm>
-#include <cmath>
-
 #include <fmt/format.h>
 
-#include "bake/lint/map_fit.hpp"
 #include "bake/report_words.hpp"
 
 namespace cotan {
 
 namespace {
-
-std::string percentOf(double share) { return fmt::format("{:.1f} %", 100 * share); }
-
-std::string greenVerdict(const GreenEvidence& g)
-{
-    if (!g.decided())
-        return "cannot be told from the map (" + (g.verdict.reason.empty() ? "it was not read" : g.verdict.reason)
-            + ")";
-    return fmt::format("{} ({})", g.asDeclared() ? "as declared" : "the other way than declared",
-                       name(g.verdict.confidence));
-}
-
-std::string frameWord(Frame frame) { return frame == Frame::mikktspace ? "MikkTSpace" : std::string(name(frame)); }
-
-void addPrimitive(const LintReport& report, std::size_t index, std::vector<std::string>& lines)
-{
-    const PrimitiveLint& p = report.primitives[index];
-    lines.push_back(fmt::format("{}: {} triangles, {}", nameOf(p, index), p.triangles,
-                                p.image >= 0 ? fmt::format("normal map {}", p.image) : "no normal map"));
-    if (p.triangles == 0 || !p.hasUv || !(p.uv.area > 0)) {
-        lines.push_back(fmt::format("  nothing to measure: no {}",
-                                    p.triangles == 0 ? "triangles"
-                                        : !p.hasUv   ? "uv"
-                                                     : "area"));
-        return;
-    }
-    lines.push_back(fmt::format(
-        "  uv: degenerate {}, mirrored {}, overlapping {} (in both orientations {}), stretched over {:.1f} {}, "
-        "sheared over {:.0f} degrees {} of the area",
-        percentOf(p.uv.degenerate), percentOf(p.uv.mirrored), percentOf(p.uv.overlapping),
-        percentOf(p.uv.overlappingMirrored), kStretched, percentOf(p.uv.stretched), kSheared, percentOf(p.uv.sheared)));
-    lines.push_back(fmt::format("  stretch {}, shear {} degrees", toText(p.uv.stretch), toText(p.uv.shear)));
-    lines.push_back(
-        fmt::format("  steps at {} interior edges, texel tilted {:.0f} degrees: cotangent {}, orthonormal {}",
-                    p.steps.edges, kTestTilt, toText(p.steps.cotangent), toText(p.steps.orthonormal)));
-    if (p.stored.present && p.stored.angle.count == 0)
-        lines.push_back("  stored tangents: nothing to compare them with, the uv have no area");
-    else if (p.stored.present)
-        lines.push_back(
-            fmt::format("  stored tangents: w against the uv on {}, turned over {:.0f} degrees on {} of the area; "
-                        "{} degrees from dP/du",
-                        percentOf(p.stored.reversedW), kTurned, percentOf(p.stored.turned), toText(p.stored.angle)));
-    if (!p.notJudged.empty())
-        lines.push_back("  normal map not judged: " + p.notJudged);
-    else
-        for (const Reading& r : p.readings)
-            lines.push_back(
-                fmt::format("  made for {}, read with {}: {}", frameWord(p.madeFor), r.name, toText(r.error)));
-    if (p.uv.gradient > 0)
-        lines.push_back(fmt::format("  rounding at distance {:.3g}: {:.2g} degrees; half a degree at {:.2g}",
-                                    report.distance, p.precision, p.closest));
-}
-
-std::string titleOf(const std::string& model, const LintReport& report)
-{
-    std::size_t mapped = 0, stored = 0;
-    for (const PrimitiveLint& p : report.primitives) {
-        mapped += p.image >= 0;
-        stored += p.stored.present;
-    }
-    return fmt::format("{}: {}, {} with a normal map, {} with stored tangents", model,
-                       counted(report.primitives.size(), "primitive"), mapped, stored);
-}
-
-std::string greenLine(const LintReport& report)
-{
-    std::size_t right = 0, wrong = 0;
-    for (const GreenEvidence& g : report.maps) {
-        right += g.decided() && g.asDeclared();
-        wrong += !g.asDeclared();
-    }
-    if (report.maps.empty())
-        return {};
-    return fmt::format("Green, judged by the maps alone: as declared in {}, the other way in {}, cannot be told in {}.",
-                       right, wrong, report.maps.size() - right - wrong);
-}
-
-// With what is beside the value.
-std::string sentenceOf(const LintFailure& f) { return f.beside.empty() ? f.text : f.text + " (" + f.beside + ")"; }
 
 Json toJson(const PrimitiveLint& p)
 {
@@ -153,68 +70,16 @@ Json toJson(const MapFit& f)
 
 } // namespace
 
-std::vector<std::string> verdictLines(const std::string& model, const LintReport& report, const std::string& run)
+std::string greenVerdict(const GreenEvidence& g)
 {
-    std::vector<std::string> lines = {titleOf(model, report)};
-    for (const std::string& line :
-         {report.defects, report.seen, greenLine(report), report.notJudged, report.otherReaders, report.advised})
-        if (!line.empty())
-            lines.push_back(line);
-    if (!run.empty())
-        lines.push_back("  " + run);
-    return lines;
+    if (!g.decided())
+        return "cannot be told from the map (" + (g.verdict.reason.empty() ? "it was not read" : g.verdict.reason)
+            + ")";
+    return fmt::format("{} ({})", g.asDeclared() ? "as declared" : "the other way than declared",
+                       name(g.verdict.confidence));
 }
 
-std::vector<std::string> detailLines(const LintReport& report)
-{
-    std::vector<std::string> lines;
-    if (!report.worst.empty())
-        lines.push_back(report.worst);
-    lines.emplace_back("Three figures are mean / 95 % / maximum, weighted by area.");
-    for (std::size_t i = 0; i < report.primitives.size(); ++i)
-        addPrimitive(report, i, lines);
-    for (const GreenEvidence& g : report.maps)
-        lines.push_back(fmt::format(
-            "normal map {}{}: green, taking red as right, {}; agreement {:+.2f} for green up, {} of the detail agrees",
-            g.image, g.name.empty() ? "" : " " + g.name, greenVerdict(g), g.verdict.agreement,
-            percentOf(g.verdict.votes)));
-    for (const MapFit& f : report.fits)
-        lines.push_back(fmt::format("normal map {}{}: read as it is, orthonormal {}, cotangent {}, smooth {}", f.image,
-                                    f.name.empty() ? "" : " " + f.name, toText(f.orthonormal), toText(f.cotangent),
-                                    toText(f.smooth)));
-    return lines;
-}
-
-Json overLimits(const LintCheck& check)
-{
-    const auto text = [](const std::string& name) { return name.empty() ? Json(nullptr) : Json(name); };
-    const auto number = [](bool known, double value) { return known ? Json(value) : Json(nullptr); };
-    Json all = Json::array();
-    for (const LintFailure& f : check.failures) {
-        const bool measured = f.limit >= 0;
-        all.push_back({{"kind", f.kind},
-                       {"mesh", text(f.mesh)},
-                       {"material", text(f.material)},
-                       {"map", text(f.map)},
-                       {"degrees", number(measured && !f.percent, f.value)},
-                       {"percent", number(measured && f.percent, f.value)},
-                       {"limit", number(measured, f.limit)},
-                       {"text", f.text}});
-    }
-    return all;
-}
-
-std::vector<std::string> checkLines(const LintCheck& check, std::size_t most)
-{
-    if (check.passed())
-        return {"check: passed"};
-    std::vector<std::string> lines;
-    for (std::size_t i = 0; i < std::min(most, check.failures.size()); ++i)
-        lines.push_back("check: failed: " + sentenceOf(check.failures[i]));
-    if (lines.size() < check.failures.size())
-        lines.back() += fmt::format(" and {} more", check.failures.size() - lines.size());
-    return lines;
-}
+std::string sentenceOf(const LintFailure& f) { return f.beside.empty() ? f.text : f.text + " (" + f.beside + ")"; }
 
 std::string summaryOf(const LintCheck& check)
 {

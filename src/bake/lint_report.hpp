@@ -1,4 +1,4 @@
-// A LintReport in texts and as JSON.
+// A LintReport as JSON.
 #pragma once
 
 #include <string>
@@ -9,15 +9,11 @@
 
 namespace cotan {
 
-// The verdict: what the model is, what will be seen and how much, what is wrong, what to do. At most seven lines.
-// run: the command that does it; empty if there is none.
-std::vector<std::string> verdictLines(const std::string& model, const LintReport& report, const std::string& run);
+// Whether green is as declared, and how sure that is; or why it cannot be told.
+std::string greenVerdict(const GreenEvidence& g);
 
-// All that was measured: a few lines for each primitive, one for each map.
-std::vector<std::string> detailLines(const LintReport& report);
-
-// "passed" or what failed: the first `most` failures, one line each, the last with the number of those left out.
-std::vector<std::string> checkLines(const LintCheck& check, std::size_t most);
+// A failure with what is beside the value.
+std::string sentenceOf(const LintFailure& f);
 
 // The first failure and how many more there are, without a line's beginning; empty where the check passed.
 std::string summaryOf(const LintCheck& check);
@@ -25,11 +21,6 @@ std::string summaryOf(const LintCheck& check);
 // {"passed", "limit", "limit_area", "frame", "failures": [{"kind", "where", "value", "limit", "text"}]}; null where no
 // limit was set, limits that were not set are null.
 Json toJson(const LintCheck& check);
-
-// The failures as objects: {"kind", "mesh", "material", "map", "degrees", "percent", "limit", "text"}. Names are null
-// where the failure is about something else or the file gives none; of degrees and percent the one that was measured is
-// not null.
-Json overLimits(const LintCheck& check);
 
 // Those of the file as it was read, then lintWarnings.
 std::vector<std::string> warningsOf(const LintReport& report, std::vector<std::string> ofFile);

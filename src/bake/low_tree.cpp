@@ -11,7 +11,7 @@
 #include <glm/geometric.hpp>
 
 #include "packets.hpp"
-#include "repeated.hpp"
+#include "scene/repeated.hpp"
 
 namespace cotan {
 

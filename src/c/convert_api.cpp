@@ -1,6 +1,5 @@
 // cotan.h: a model's maps made for another frame, in memory, in one step or in two.
 #include <algorithm>
-#include <span>
 
 #include "bake/convert_report.hpp"
 #include "cotan/convert.hpp"

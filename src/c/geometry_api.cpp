@@ -1,6 +1,4 @@
 // cotan.h: frames and tangents.
-#include <array>
-#include <span>
 
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>

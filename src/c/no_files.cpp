@@ -14,30 +14,18 @@ Error noFiles()
 
 } // namespace
 
-cotan_status cotan_model_open(const char*, int, int, cotan_model**, char* message, size_t message_size)
-{
-    return refused(noFiles(), message, message_size);
-}
+#define COTAN_REFUSES(function, ...)                                                                                   \
+    cotan_status function(__VA_ARGS__, char* message, size_t message_size)                                             \
+    {                                                                                                                  \
+        return refused(noFiles(), message, message_size);                                                              \
+    }
 
-cotan_status cotan_set_reader(size_t, const char* const*, char* message, size_t message_size)
-{
-    return refused(noFiles(), message, message_size);
-}
+COTAN_REFUSES(cotan_model_open, const char*, int, int, cotan_model**)
+COTAN_REFUSES(cotan_set_reader, size_t, const char* const*)
 
 int cotan_reader_process(void) { return COTAN_UNAVAILABLE; }
 
-cotan_status cotan_image_read(const char*, int, cotan_image**, char* message, size_t message_size)
-{
-    return refused(noFiles(), message, message_size);
-}
-
-cotan_status cotan_image_write(const char*, const cotan_picture*, char* message, size_t message_size)
-{
-    return refused(noFiles(), message, message_size);
-}
-
-cotan_status cotan_render(const void*, size_t, const cotan_model_files*, const cotan_render_options*, cotan_image**,
-                          cotan_bytes**, char* message, size_t message_size)
-{
-    return refused(noFiles(), message, message_size);
-}
+COTAN_REFUSES(cotan_image_read, const char*, int, cotan_image**)
+COTAN_REFUSES(cotan_image_write, const char*, const cotan_picture*)
+COTAN_REFUSES(cotan_render, const void*, size_t, const cotan_model_files*, const cotan_render_options*, cotan_image**,
+              cotan_bytes**)

@@ -9,8 +9,8 @@ namespace {
 using enum FrameSource;
 
 constexpr std::array<FrameInfo, kFrameCount> kFrames = {{
-#define COTAN_FRAME_ROW(number, enumerator, word, source, total, dependsOnView, fused, name, summary)                  \
-    {Frame::enumerator, name, #word, source, total, dependsOnView, fused, summary},
+#define COTAN_FRAME_ROW(number, enumerator, word, source, total, dependsOnView, normal, fused, after, name, summary)   \
+    {Frame::enumerator, name, #word, source, total, dependsOnView, FrameNormal::normal, fused, after, summary},
 #include "cotan/frames.inc"
 }};
 

@@ -5,7 +5,6 @@
 #include <array>
 #include <bit>
 #include <cstddef>
-#include <functional>
 #include <numeric>
 #include <utility>
 
@@ -111,10 +110,10 @@ void averageGroup(const Triangles& t, std::span<const std::uint32_t> group, Memb
 
 // ---- groups ---------------------------------------------------------------------------------
 
-// The set of the places in a list where `value` stands, as bits.
-template<std::size_t kSize> std::uint32_t placesOf(std::uint32_t value, const std::array<std::uint32_t, kSize>& list)
+// The set of the positions in a list where `value` stands, as bits.
+template<std::size_t kSize> std::uint32_t positionsOf(std::uint32_t value, const std::array<std::uint32_t, kSize>& list)
 {
-    std::uint32_t places = 0;
+    std::uint32_t positions = 0;
 #ifdef __SSE2__ // compilers do not find that
     const __m128i wanted = _mm_set1_epi32(static_cast<int>(value));
     const auto equal = [&](std::size_t i) {
@@ -122,13 +121,13 @@ template<std::size_t kSize> std::uint32_t placesOf(std::uint32_t value, const st
     };
     for (std::size_t i = 0; i < kSize; i += 8) {
         const __m128i words = _mm_packs_epi32(equal(i), equal(i + 4));
-        places |= static_cast<std::uint32_t>(_mm_movemask_epi8(_mm_packs_epi16(words, _mm_setzero_si128()))) << i;
+        positions |= static_cast<std::uint32_t>(_mm_movemask_epi8(_mm_packs_epi16(words, _mm_setzero_si128()))) << i;
     }
 #else
     for (std::size_t i = 0; i < kSize; ++i)
-        places |= list[i] == value ? 1u << i : 0u;
+        positions |= list[i] == value ? 1u << i : 0u;
 #endif
-    return places;
+    return positions;
 }
 
 // The groups at a vertex with at most kMax corners: sets of corners are the bits of a word, and neighbours are
@@ -150,7 +149,7 @@ void averageFew(const Triangles& t, std::span<const std::uint32_t> corners, Memb
     }
     for (std::uint32_t i = 0, rest = ~0u; i < count; ++i) { // rest: nobody's right neighbour
         left[i] = kNobody;
-        if (const std::uint32_t those = placesOf(leaving[i], coming) & rest; those != 0) {
+        if (const std::uint32_t those = positionsOf(leaving[i], coming) & rest; those != 0) {
             left[i] = std::uint32_t(std::countr_zero(those));
             right[left[i]] = i;
             rest &= ~(1u << left[i]);

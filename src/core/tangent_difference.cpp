@@ -1,7 +1,6 @@
 #include "cotan/tangents.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 #include <glm/geometric.hpp>
 

@@ -1,5 +1,4 @@
 // Accessors of a file to arrays: every offset, stride and count is checked once, then read without doubt.
-#include <algorithm>
 #include <set>
 
 #include "gltf_model.hpp"

@@ -1,9 +1,7 @@
 // Draco's bitstream 2.2 to the arrays that glTF wants. Source: the Draco Bitstream Specification, version 2.2, sections
 // 4 (header) and 5 (connectivity).
 #include <cstring>
-#include <memory>
 #include <new>
-#include <type_traits>
 
 #include <draco/compression/decode.h>
 #include <draco/core/decoder_buffer.h>

@@ -1,6 +1,4 @@
 // Opening a glTF file for changes; images, textures and materials.
-#include <new>
-#include <system_error>
 
 #include <fmt/format.h>
 

@@ -1,5 +1,4 @@
 // Elements of a document's accessors: bytes added, geometry read.
-#include <cmath>
 #include <numeric>
 
 #include "cotan/vector.hpp"

@@ -1,7 +1,6 @@
 // Other vertices and other triangles for a primitive: what tangents and provoking vertices have in common.
 #include <algorithm>
 #include <cstring>
-#include <limits>
 
 #include "edit_state.hpp"
 

@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <limits>
 #include <map>
-#include <memory>
 #include <new>
 #include <system_error>
 

@@ -1,8 +1,6 @@
 // Finds and decodes the images of a model.
 #include <algorithm>
-#include <array>
 #include <atomic>
-#include <optional>
 
 #include "core/loops.hpp"
 #include "cotan/image.hpp"

@@ -1,6 +1,5 @@
 // glTF 2.0 and GLB files to Scene.
 #include <map>
-#include <new>
 #include <tuple>
 #include <utility>
 

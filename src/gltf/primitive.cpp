@@ -1,6 +1,4 @@
 // Reads one primitive: attributes, morph targets, and any topology made into triangles.
-#include <algorithm>
-#include <cmath>
 #include <numeric>
 
 #include "cotan/vector.hpp"

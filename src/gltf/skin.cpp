@@ -1,5 +1,4 @@
 // Skins in their rest state.
-#include <algorithm>
 #include <cmath>
 
 #include <glm/geometric.hpp>

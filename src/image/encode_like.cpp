@@ -1,7 +1,5 @@
 #include "cotan/image.hpp"
 
-#include <optional>
-
 #include <fmt/format.h>
 
 #include "image/format_table.hpp"

@@ -9,30 +9,6 @@
 
 namespace cotan {
 
-namespace {
-
-std::string joined(const std::vector<std::string_view>& words, std::string_view between, std::string_view last)
-{
-    std::string text;
-    for (std::size_t i = 0; i < words.size(); ++i) {
-        if (i > 0)
-            text += i + 1 == words.size() ? last : between;
-        text += words[i];
-    }
-    return text;
-}
-
-template<class Wanted> std::string endingsWhere(const Wanted& wanted, std::string_view between, std::string_view last)
-{
-    std::vector<std::string_view> endings;
-    for (const ImageFormat& format : kImageFormats)
-        if (wanted(format))
-            endings.push_back(format.endings[0]);
-    return joined(endings, between, last.empty() ? between : last);
-}
-
-} // namespace
-
 const ImageFormat* imageFormatOf(const std::filesystem::path& file)
 {
     const std::string ending = lowerExtension(file);
@@ -61,23 +37,29 @@ Status checkImageName(const std::filesystem::path& file)
                                   imageEndings(&ImageFormat::writes, " ", " or "), file.extension().string()));
 }
 
-std::string imageEndings(bool (*wanted)(const ImageFormat&), std::string_view between, std::string_view last)
+std::string imageEndings(const std::function<bool(const ImageFormat&)>& wanted, std::string_view between,
+                         std::string_view last)
 {
-    return endingsWhere(wanted, between, last);
-}
-
-std::string imageEndings(bool ImageFormat::*wanted, std::string_view between, std::string_view last)
-{
-    return endingsWhere([wanted](const ImageFormat& f) { return f.*wanted; }, between, last);
+    std::vector<std::string_view> endings;
+    for (const ImageFormat& format : kImageFormats)
+        if (wanted(format))
+            endings.push_back(format.endings[0]);
+    std::string text;
+    for (std::size_t i = 0; i < endings.size(); ++i) {
+        if (i > 0)
+            text += i + 1 == endings.size() && !last.empty() ? last : between;
+        text += endings[i];
+    }
+    return text;
 }
 
 std::string readableFormatNames()
 {
-    std::vector<std::string_view> names;
+    std::string names;
     for (const ImageFormat& format : kImageFormats)
         if (format.reads)
-            names.push_back(format.name);
-    return joined(names, ", ", ", ");
+            names.append(names.empty() ? "" : ", ").append(format.name);
+    return names;
 }
 
 } // namespace cotan

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <filesystem>
+#include <functional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -171,9 +172,8 @@ inline bool keepsFloats(const std::filesystem::path& file)
 
 // The usual endings of the formats for which `wanted` holds, in the order of the table: ".png, .exr or .tif" with
 // `last` " or ". Empty `last`: `between`.
-std::string imageEndings(bool (*wanted)(const ImageFormat&), std::string_view between = " ",
+std::string imageEndings(const std::function<bool(const ImageFormat&)>& wanted, std::string_view between = " ",
                          std::string_view last = {});
-std::string imageEndings(bool ImageFormat::*wanted, std::string_view between = " ", std::string_view last = {});
 
 // The names of the formats that can be read: "PNG, EXR, ...".
 std::string readableFormatNames();

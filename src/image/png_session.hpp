@@ -5,7 +5,6 @@
 #include <cstddef>
 #include <cstdio>
 #include <span>
-#include <string>
 
 #include <png.h>
 

@@ -3,8 +3,6 @@
 #include <array>
 #include <cstdio>
 #include <cstring>
-#include <optional>
-#include <string_view>
 
 #include <fmt/format.h>
 

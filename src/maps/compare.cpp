@@ -1,6 +1,5 @@
 #include "cotan/maps.hpp"
 
-#include <cmath>
 #include <numbers>
 
 #include <glm/geometric.hpp>

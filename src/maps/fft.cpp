@@ -1,6 +1,5 @@
 #include "fft.hpp"
 
-#include <algorithm>
 #include <bit>
 #include <numbers>
 #include <utility>

@@ -65,11 +65,6 @@ glm::vec2 difference(const std::vector<float>& above, const std::vector<float>& 
     return 0.5f * glm::vec2(right - left, up - down);
 }
 
-float stepsOf(PixelType type)
-{
-    return type == PixelType::unorm8 ? 255.0f : type == PixelType::unorm16 ? 65535.0f : 0.0f;
-}
-
 } // namespace
 
 Image normalsFromHeight(const Image& height, const FromHeightSettings& s, std::size_t& invalid)

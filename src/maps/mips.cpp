@@ -85,7 +85,7 @@ double roughnessOf(const Moments& m, const MipSettings& s)
 {
     if (!(m.share > 0))
         return s.roughness;
-    if (s.model != SpreadModel::lean)
+    if (s.model != VarianceModel::lean)
         return roughnessFromLength(s.roughness, std::min(1.0, double(glm::length(m.normal)) / double(m.share)),
                                    s.model);
     const double bx = double(m.bx / m.share), by = double(m.by / m.share), bb = double(m.bb / m.share);
@@ -127,11 +127,11 @@ template<class RowOf> MipLevel encoded(int width, int height, const MipSettings&
 
 } // namespace
 
-double roughnessFromLength(double roughness, double length, SpreadModel model)
+double roughnessFromLength(double roughness, double length, VarianceModel model)
 {
     const double alpha2 = std::pow(roughness, 4), r = std::clamp(length, 1e-6, 1.0);
     double result = alpha2;
-    if (model == SpreadModel::toksvig) {
+    if (model == VarianceModel::toksvig) {
         const double exponent = 2 / std::max(alpha2, 1e-9) - 2; // Blinn-Phong's of the same width
         const double spread = (1 - r) / r;
         result = 2 / (exponent / (1 + exponent * spread) + 2);

@@ -281,11 +281,11 @@ Content contentOf(const NormalStatistics& s, const Sums& sums, bool constantBlue
     if (share(sums.strange, sums.finite) > 0.1)
         return Content::other;
     const bool upwards = share(sums.above[2], sums.finite) > 0.99;
-    if (upwards && deviation(s.lengthSpread * s.lengthSpread, s.meanLength) < 0.1)
+    if (upwards && deviation(s.lengthDeviation * s.lengthDeviation, s.meanLength) < 0.1)
         return Content::tangentSpace; // shorter or longer than 1, but all alike
     if (s.belowHorizon > 0.1)
-        return s.lengthSpread < 0.2 ? Content::objectSpace : Content::other;
-    return s.lengthSpread < 0.25 ? Content::tangentSpace : Content::other;
+        return s.lengthDeviation < 0.2 ? Content::objectSpace : Content::other;
+    return s.lengthDeviation < 0.25 ? Content::tangentSpace : Content::other;
 }
 
 } // namespace
@@ -386,7 +386,7 @@ NormalStatistics MapSurvey::finish()
     if (d.valid) {
         const double n = double(d.valid);
         s.meanLength = d.length / n;
-        s.lengthSpread = std::sqrt(d.error2 / n);
+        s.lengthDeviation = std::sqrt(d.error2 / n);
         s.meanTilt = d.tilt / n;
         for (std::size_t i = 0; i < 3; ++i)
             s.mean[i] = d.sum[i] / n;

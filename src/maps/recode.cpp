@@ -25,12 +25,6 @@ bool holds(const glm::vec3& n, Channels channels)
     return true;
 }
 
-// Steps per unit of a stored component.
-float steps(PixelType type)
-{
-    return type == PixelType::unorm8 ? 255.0f : type == PixelType::unorm16 ? 65535.0f : 0.0f;
-}
-
 // Where nothing but single components changes, 8 bits to 8 bits.
 struct Tables {
     std::array<std::array<std::uint8_t, 256>, 3> stored{};
@@ -128,7 +122,7 @@ Image recode(const Image& map, const RecodeSettings& s, RecodeCounts& counts)
         return recodeByComponent(map, s, counts);
     Image out = makeImage(map.width, map.height, s.type, map.name);
     const bool keepAlpha = s.from.channels == Channels::xyz && s.to.channels == Channels::xyz;
-    const float most = steps(s.type);
+    const float most = stepsOf(s.type);
     std::atomic<std::size_t> invalid = 0, clamped = 0;
     forRowBands(map.height, [&](int first, int last) {
         const std::size_t width = std::size_t(map.width);

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -178,25 +177,6 @@ void forRowBands(int height, const std::function<void(int first, int last)>& wor
     constexpr int kBand = 16;
     parallelFor(0, (height + kBand - 1) / kBand,
                 [&](int band) { work(band * kBand, std::min(height, (band + 1) * kBand)); });
-}
-
-double quantisationDegrees(const Convention& convention, int bits, double tilt)
-{
-    // Half a step in each stored component, as a signed number.
-    const double codes = std::pow(2.0, bits);
-    const double half = bits >= 32                 ? 3e-7
-        : convention.expansion == Expansion::exact ? 1 / (codes - 2)
-                                                   : 1 / (codes - 1);
-    const double z = std::max(std::cos(tilt * std::numbers::pi / 180), 1e-9);
-    // Tangential part of the error, to first order:
-    double error = half * std::sqrt(3.0); // xyz: the whole error vector at worst
-    if (convention.channels == Channels::orthographic)
-        error = half * std::sqrt(2.0) / z; // steepest direction: d(tilt) = d(sin)/cos
-    if (convention.channels == Channels::stereographic)
-        error = half * std::sqrt(2.0) * 2; // |dn/dp| = 2/(1+p^2) <= 2
-    if (convention.channels == Channels::slope)
-        error = half * std::sqrt(2.0); // |d atan(s)/ds| <= 1
-    return error * 180 / std::numbers::pi;
 }
 
 } // namespace cotan::maps

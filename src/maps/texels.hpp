@@ -4,10 +4,8 @@
 // map of any convention decodes into it; which way v runs does not matter here.
 #pragma once
 
-#include <cstddef>
 #include <functional>
 #include <span>
-#include <vector>
 
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
@@ -21,6 +19,12 @@ namespace cotan::maps {
 
 // Where slopes of normals are counted, steeper ones are taken as this: half a degree from lying down.
 constexpr float kSteepestSlope = 128;
+
+// Steps per unit of a stored component; 0 of floats.
+constexpr float stepsOf(PixelType type)
+{
+    return type == PixelType::unorm8 ? 255.0f : type == PixelType::unorm16 ? 65535.0f : 0.0f;
+}
 
 // Grey pixels with an alpha that varies: greyAlpha. Red constant with an alpha that varies, green
 // varying: alphaGreen. Otherwise rg.
@@ -61,11 +65,6 @@ glm::vec4 encodeTexel(glm::vec3 normal, const Convention& convention, PixelType 
 // Calls work(first, last) for bands of rows, on all threads that the caller's arena allows. Results
 // must depend on the rows only.
 void forRowBands(int height, const std::function<void(int first, int last)>& work);
-
-// The largest angle in degrees between a vector and what an encoding of `bits` per component gives
-// back for it, by rounding alone, anywhere on the upper hemisphere up to `tilt` degrees from flat.
-// 32 bits: that of float arithmetic. (docs/reference/maps.md has the table.)
-double quantisationDegrees(const Convention& convention, int bits, double tilt);
 
 // A number in [-0.5,0.5) for a component of a texel, the same on every run: for dithering.
 float ditherNoise(std::uint32_t x, std::uint32_t y, std::uint32_t component);

@@ -1,7 +1,6 @@
 // Models through Assimp: checked before, watched during, checked after.
 #include <algorithm>
 #include <exception>
-#include <span>
 #include <stdexcept>
 #include <string>
 #include <system_error>

@@ -1,7 +1,6 @@
 // From Assimp's structures to ours.
 #pragma once
 
-#include <optional>
 #include <string>
 
 #include "cotan/model.hpp"

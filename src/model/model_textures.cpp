@@ -1,7 +1,6 @@
 #include "model_textures.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <cstring>
 #include <span>
 

@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <map>
 #include <new>
-#include <optional>
 #include <system_error>
 
 #include <fmt/format.h>

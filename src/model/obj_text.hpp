@@ -1,7 +1,6 @@
 // Wavefront OBJ: its text to arrays and triangles.
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <string>

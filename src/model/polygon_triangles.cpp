@@ -1,7 +1,6 @@
 #include "polygon_triangles.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 #include <glm/geometric.hpp>
 #include <glm/vec2.hpp>

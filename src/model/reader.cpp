@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <cstdio>
 #include <mutex>
-#include <new>
 #include <string_view>
 
 #include <fcntl.h>

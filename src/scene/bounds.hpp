@@ -1,7 +1,6 @@
 // The box around a scene, and how much of it there is to draw.
 #pragma once
 
-#include <cmath>
 #include <limits>
 #include <optional>
 #include <string>

@@ -122,11 +122,11 @@ bool isTooMuch(const Covered& covered, double picture)
         || covered.edges > kMaxEdges * picture;
 }
 
-// How many places the vertices of all meshes are in. Not how many vertices there are: a loader may have made them,
-// three for each triangle, of a few places.
-std::size_t placesOf(const Scene& scene)
+// The number of different positions among the vertices of all meshes. Not how many vertices there are: a loader may
+// have made them, three for each triangle, of a few positions.
+std::size_t distinctPositions(const Scene& scene)
 {
-    std::size_t places = 0;
+    std::size_t count = 0;
     for (const Mesh& mesh : scene.meshes) {
         std::vector<std::array<std::uint32_t, 3>> own(mesh.positions.size()); // their bits, which have an order
         std::ranges::transform(mesh.positions, own.begin(), [](glm::vec3 p) {
@@ -134,9 +134,9 @@ std::size_t placesOf(const Scene& scene)
                               std::bit_cast<std::uint32_t>(p.z)};
         });
         std::ranges::sort(own);
-        places += std::size_t(std::unique(own.begin(), own.end()) - own.begin());
+        count += std::size_t(std::unique(own.begin(), own.end()) - own.begin());
     }
-    return places;
+    return count;
 }
 
 Error tooMuch(const Scene& scene, const std::string& what, double found, double most, const std::string& advice)
@@ -164,7 +164,7 @@ Status settleCovered(Scene& scene, const View& view, std::size_t pictures)
         covered = coveredBy(scene, view);
     }
     if (isTooMuch(covered, picture)) // only then: it takes time
-        picture *= std::max(1.0, double(placesOf(scene)) / kFewPoints);
+        picture *= std::max(1.0, double(distinctPositions(scene)) / kFewPoints);
     const char* const further = "look from further away, or leave some out";
     if (covered.opaque > kMaxCovered * picture)
         return tooMuch(scene, "its triangles cover the picture", covered.opaque / picture, kMaxCovered, further);

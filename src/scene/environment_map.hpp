@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <string>
 
 #include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
@@ -68,12 +67,6 @@ inline glm::vec3 reflectedGlossy(const EnvironmentMap& map, const f32::cotan_sur
     const glm::vec3 mirrored = f32::cotan_mirrored(f32::cotan_reflecting_normal(s, g), s.v);
     return f32::cotan_reflect_image(s, g, irradianceAlong(map, s.n), radianceAlong(map, mirrored, s.roughness),
                                     albedoOf(map, s.n, s.v, s.roughness));
-}
-
-// The same of metallic-roughness alone.
-inline glm::vec3 reflectedOf(const EnvironmentMap& map, const f32::cotan_surface& s)
-{
-    return reflectedGlossy(map, s, f32::cotan_plain_gloss());
 }
 
 inline glm::vec3 reflectedOfCoat(const EnvironmentMap& map, const f32::cotan_coat& c, glm::vec3 v)

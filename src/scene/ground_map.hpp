@@ -1,8 +1,6 @@
 // The shadow that a scene throws on a level plane, as both renderers read it.
 #pragma once
 
-#include <cmath>
-
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 

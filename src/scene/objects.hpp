@@ -1,27 +1,16 @@
-// What a scene holds under one name: its objects.
+// What an object of a scene is called.
 #pragma once
 
 #include <string>
-#include <string_view>
-#include <vector>
 
 #include "cotan/scene.hpp"
 
 namespace cotan {
 
 // The name of an instance, or where it has none of its mesh; may be empty.
-const std::string& objectName(const Scene& scene, const Instance& instance);
-
-// The names of all instances, each once, in the order of the scene. Instances of one name are one object.
-std::vector<std::string> objectNames(const Scene& scene);
-
-struct SplitScene {
-    Scene object; // the instances of one name, with all else that the scene has
-    Scene others; // the other instances with their meshes; no images, one plain material
-};
-
-// Takes a scene apart. Meshes that nothing places are left out; what both parts place is copied. A name that nothing
-// has gives an object without instances.
-SplitScene splitObject(Scene scene, std::string_view name);
+inline const std::string& objectName(const Scene& scene, const Instance& instance)
+{
+    return !instance.name.empty() ? instance.name : scene.meshes[std::size_t(instance.mesh)].name;
+}
 
 } // namespace cotan

@@ -1,8 +1,6 @@
 #include "scene/parts.hpp"
 
 #include <algorithm>
-#include <array>
-#include <cmath>
 #include <functional>
 #include <map>
 #include <string_view>
@@ -16,6 +14,7 @@
 
 #include "cotan/covector.hpp"
 #include "cotan/vector.hpp"
+#include "scene/repeated.hpp"
 
 namespace cotan {
 
@@ -150,39 +149,23 @@ void joinSmall(Scene& scene)
 
 // ---- triangles ------------------------------------------------------------------------------
 
-using Corners = std::array<float, 9>;
-
-struct CornersHash {
-    std::size_t operator()(const Corners& corners) const
-    {
-        std::uint64_t hash = 0x9e3779b97f4a7c15u;
-        for (const float c : corners) {
-            hash = (hash ^ std::hash<float>()(c)) * 0xff51afd7ed558ccdu;
-            hash ^= hash >> 32;
-        }
-        return std::size_t(hash);
-    }
-};
-
 // The corners of a triangle from the least on, in their order round.
-Corners cornersOf(const Mesh& mesh, std::size_t first)
+CornersOfTriangle cornersOf(const Mesh& mesh, std::size_t first)
 {
-    std::array<std::array<float, 3>, 3> p{};
-    for (std::size_t k = 0; k < 3; ++k) {
-        const glm::vec3& v = mesh.positions[mesh.indices[first + k]];
-        p[k] = {v.x, v.y, v.z};
-    }
-    std::rotate(p.begin(), std::min_element(p.begin(), p.end()), p.end());
-    return {p[0][0], p[0][1], p[0][2], p[1][0], p[1][1], p[1][2], p[2][0], p[2][1], p[2][2]};
+    CornersOfTriangle t;
+    for (std::size_t k = 0; k < 3; ++k)
+        t.at[k] = mesh.positions[mesh.indices[first + k]];
+    const auto least = std::ranges::min_element(t.at, {}, [](const glm::vec3& p) { return std::tuple(p.x, p.y, p.z); });
+    std::rotate(t.at.begin(), least, t.at.end());
+    return t;
 }
 
 void dropRepeated(Mesh& mesh)
 {
-    std::unordered_set<Corners, CornersHash> known;
-    known.reserve(mesh.triangleCount());
+    KnownTriangles known(mesh.triangleCount());
     std::size_t kept = 0;
     for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3)
-        if (known.insert(cornersOf(mesh, i)).second) {
+        if (known.see(cornersOf(mesh, i)) == 0) {
             std::copy_n(mesh.indices.begin() + std::ptrdiff_t(i), 3, mesh.indices.begin() + std::ptrdiff_t(kept));
             kept += 3;
         }

@@ -7,11 +7,10 @@ namespace cotan::shader_text {
 
 namespace {
 
-// The normal as the frame wants it: the total and fused forms take any length.
+// The normal as the frame wants it.
 std::string normalFor(Frame frame)
 {
-    const bool anyLength = info(frame).total || frame == Frame::mikktspace;
-    return anyLength ? "normal" : "normal * cotan_inversesqrt(dot(normal, normal))";
+    return info(frame).normal == FrameNormal::caller ? "normal * cotan_inversesqrt(dot(normal, normal))" : "normal";
 }
 
 std::string fromVertices(Frame frame, Form form)
@@ -52,18 +51,18 @@ const char* const kTriangleMaker =
     "n2);\n"
     "    return cotan_pack_triangle(vectors.u, vectors.v);\n}\n";
 
-// The pixel's part.
+// The pixel's part, of the frame {}.
 const char* const kTrianglePixel =
     "// The perturbed normal, unit.\n"
     "// normal: interpolated. On back faces leave it as it is and turn the result.\n"
     "// words: as cotan_make_triangle gave them, the same at every pixel of the triangle.\n"
     "// texel: the normal map as sampled.\n"
     "COTAN_FUNCTION cotan_vec3 cotan_perturb_normal_on_triangle(cotan_vec3 normal, cotan_packed_triangle words, "
-    "cotan_vec3 texel)\n{\n"
+    "cotan_vec3 texel)\n{{\n"
     "    cotan_vec3 m = cotan_decode(texel);\n"
     "    cotan_vec3 u = cotan_unpack_triangle_u(words);\n"
     "    cotan_vec3 v = cotan_unpack_triangle_v(words);\n"
-    "    return cotan_perturb_triangle(normal, u, v, m);\n}\n";
+    "    return cotan_perturb_{}(normal, u, v, m);\n}}\n";
 
 // What the form `seen` asks for beside the others.
 const char* const kSideParameter = ", cotan_real side";
@@ -92,9 +91,9 @@ std::string fromDifferences(Frame frame, Form form)
                                   "    cotan_vec3 m = cotan_decode(texel);\n",
                                   what + (seen ? kSide : ""), entryOf(frame), seen ? kSideParameter : "");
     if (form == Form::fused && edges)
-        return head
-            + "    cotan_triangle vectors = cotan_triangle_of_sound_edges(dpdx, dpdy, duvdx, duvdy, normal);\n"
-              "    return cotan_perturb_triangle(normal, vectors.u, vectors.v, m);\n}\n";
+        return fill("{}    cotan_triangle vectors = cotan_triangle_of_sound_edges(dpdx, dpdy, duvdx, duvdy, normal);\n"
+                    "    return cotan_perturb_{}(normal, vectors.u, vectors.v, m);\n}}\n",
+                    head, functionWord(frame));
     if (form != Form::total)
         return fill("{}    return cotan_perturb_{}{}(normal, dpdx, dpdy, duvdx, duvdy, m{});\n}}\n", head,
                     functionWord(frame),
@@ -114,23 +113,25 @@ const char* const kTriangleVectorsPixel =
     "// u, v: the vectors of the triangle, the same at every pixel of it, in normal's space.\n"
     "// texel: the normal map as sampled.\n"
     "COTAN_FUNCTION cotan_vec3 cotan_perturb_normal_on_triangle(cotan_vec3 normal, cotan_vec3 u, cotan_vec3 v, "
-    "cotan_vec3 texel)\n{\n"
-    "    return cotan_perturb_triangle(normal, u, v, cotan_decode(texel));\n}\n";
+    "cotan_vec3 texel)\n{{\n"
+    "    return cotan_perturb_{}(normal, u, v, cotan_decode(texel));\n}}\n";
 
 std::string ofTriangle(const Choice& choice)
 {
+    const std::string fromEdges = fromDifferences(choice.frame, Form::fused);
     if (choice.language == Language::godot) {
         const bool pixelOnly = isGodotShader(choice) || choice.stage == Stage::fragment;
-        return kTriangleVectorsPixel + (pixelOnly ? "" : "\n" + fromDifferences(Frame::triangle, Form::fused));
+        return fill(kTriangleVectorsPixel, functionWord(choice.frame)) + (pixelOnly ? "" : "\n" + fromEdges);
     }
+    const std::string pixel = fill(kTrianglePixel, functionWord(choice.frame));
     switch (choice.stage) {
-    case Stage::fragment: return kTrianglePixel;
+    case Stage::fragment: return pixel;
     case Stage::vertex:
     case Stage::mesh: return kTriangleMaker;
-    case Stage::compute: return fromDifferences(Frame::triangle, Form::fused);
+    case Stage::compute: return fromEdges;
     case Stage::all: break;
     }
-    return std::string(kTriangleMaker) + "\n" + kTrianglePixel + "\n" + fromDifferences(Frame::triangle, Form::fused);
+    return std::string(kTriangleMaker) + "\n" + pixel + "\n" + fromEdges;
 }
 
 // What follows for every uv set, {0} being its number.
@@ -223,7 +224,7 @@ std::string entryOf(Frame frame)
 
 std::string entryOf(const Choice& choice)
 {
-    if (isGodotShader(choice) && choice.frame == Frame::triangle)
+    if (isGodotShader(choice) && readsTriangleVectors(choice.frame))
         return "cotan_perturb_normal_on_triangle";
     switch (choice.stage) {
     case Stage::fragment: return "cotan_perturb_normal_on_triangle";
@@ -245,7 +246,7 @@ std::string entryText(const Choice& choice, Form form)
 {
     if (readsVertices(choice.frame))
         return fromVertices(choice.frame, form);
-    if (choice.frame == Frame::triangle && form == Form::fused)
+    if (readsTriangleVectors(choice.frame) && form == Form::fused)
         return ofTriangle(choice);
     std::string text =
         choice.uvSets == 1 ? fromDifferences(choice.frame, form) : fromSeveralSets(choice.frame, form, choice.uvSets);

@@ -12,13 +12,13 @@ namespace {
 bool hasLight(const Choice& choice) { return std::ranges::find(choice.sets, Set::light) != choice.sets.end(); }
 
 // Whether two vectors come with the mesh: U and V of its triangles, or cotangents.
-bool hasVectors(const Choice& choice) { return choice.frame == Frame::triangle || readsCotangents(choice.frame); }
+bool hasVectors(const Choice& choice) { return readsTriangleVectors(choice.frame) || readsCotangents(choice.frame); }
 
 // What fragment() calls.
 std::string perturbed(const Choice& choice, const std::string& normal)
 {
     const std::string texel = "texture(normal_map, UV).xyz";
-    if (choice.frame == Frame::triangle)
+    if (readsTriangleVectors(choice.frame))
         return fill("cotan_perturb_normal_on_triangle({}, cotan_u, cotan_v, {})", normal, texel);
     if (readsCotangents(choice.frame))
         return fill("{}({}, cotan_u, cotan_v, {})", kVertexEntry, normal, texel);
@@ -36,7 +36,7 @@ bool readsNormal(const Choice& choice) { return hasLight(choice) || choice.twoSi
 // Whether it must be known that the transform mirrors.
 bool readsSide(const Choice& choice)
 {
-    return choice.frame == Frame::triangle || (choice.twoSided && !hasDerivatives(choice));
+    return readsTriangleVectors(choice.frame) || (choice.twoSided && !hasDerivatives(choice));
 }
 
 std::string head(const Choice& choice)
@@ -74,7 +74,7 @@ std::string vertex(const Choice& choice)
     if (choice.twoSided && !hasDerivatives(choice))
         text += "    cotan_side = side;\n";
     if (hasVectors(choice)) {
-        const std::string_view factor = choice.frame == Frame::triangle ? " * side" : "";
+        const std::string_view factor = readsTriangleVectors(choice.frame) ? " * side" : "";
         text += fill("    // In Godot 4: CUSTOM0.xyz and CUSTOM1.xyz. For transforms that scale evenly.\n"
                      "    cotan_u = (MODELVIEW_MATRIX * vec4(TANGENT, 0.0)).xyz{0};\n"
                      "    cotan_v = (MODELVIEW_MATRIX * vec4(COLOR.rgb, 0.0)).xyz{0};\n",
@@ -132,7 +132,8 @@ Status checkGodot(const Choice& choice, Form form)
                           "the mesh");
     if (!isGodotShader(choice))
         return Done{};
-    if (info(choice.frame).source == FrameSource::triangle && (choice.frame != Frame::triangle || form != Form::fused))
+    if (info(choice.frame).source == FrameSource::triangle
+        && (!readsTriangleVectors(choice.frame) || form != Form::fused))
         return usageError(fill("the frame {}: Godot's shaders do not see a triangle's edges; expected triangle in its "
                                "fused form, or the functions alone",
                                name(choice.frame)));
@@ -157,7 +158,7 @@ std::string godotNeeds(const Choice& choice)
             "//   normal_map an image as it is in the file: imported without sRGB. Green up, as Godot has it\n";
     if (hasVectors(choice))
         return text
-            + (choice.frame == Frame::triangle
+            + (readsTriangleVectors(choice.frame)
                    ? "//   u, v       two vectors of each triangle (triangleVectors of cotan/triangle.hpp), at all "
                      "three\n"
                      "//              of its vertices, which it shares with none\n"

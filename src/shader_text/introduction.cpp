@@ -48,9 +48,9 @@ std::string call(const Choice& choice, Form form)
                             + (readsCotangents(choice.frame) ? "(normal, cotangent, cobitangent, "
                                                              : "(normal, tangent.xyz, tangent.w, ")
                             + sample + ")");
-    if (choice.frame == Frame::triangle && l == Language::godot && form == Form::fused)
+    if (readsTriangleVectors(choice.frame) && l == Language::godot && form == Form::fused)
         return declared(l, "cotan_perturb_normal_on_triangle(normal, u, v, " + sample + ")");
-    if (choice.frame == Frame::triangle && form == Form::fused && choice.stage != Stage::compute) {
+    if (readsTriangleVectors(choice.frame) && form == Form::fused && choice.stage != Stage::compute) {
         const std::string make = "words = " + scope + "cotan_make_triangle(p0, p1, p2, uv0, uv1, uv2, n0, n1, n2);";
         const std::string pixel =
             declared(l, scope + "cotan_perturb_normal_on_triangle(normal, words, " + sample + ")");
@@ -98,7 +98,7 @@ std::string needs(const Choice& choice)
                        "//   normal     interpolated surface normal; any space, the same for all vectors\n";
     if (readsVertices(choice.frame))
         return text + "//   the vertex attributes named at the function below, interpolated\n";
-    if (choice.frame == Frame::triangle && choice.stage == Stage::all)
+    if (readsTriangleVectors(choice.frame) && choice.stage == Stage::all)
         return text
             + "//   p0 p1 p2, uv0 uv1 uv2, n0 n1 n2  the triangle's corners, in the vertex stage (at the provoking\n"
               "//              vertex), the mesh stage, or in one stage with all the rest; no screen derivatives\n";
@@ -129,7 +129,8 @@ std::string_view formText(Form form)
 
 std::string_view sidesOf(Frame frame)
 {
-    if (frame != Frame::cotangent && frame != Frame::gradient && frame != Frame::orthonormal)
+    const FrameInfo& f = info(frame);
+    if (f.source != FrameSource::differences || !f.total || f.dependsOnView)
         return "";
     return "//   Right for y-up and y-down targets, both handednesses, mirrored uv and transforms, and back\n"
            "//   faces, with no uniform and no front-face flag.\n";
@@ -138,7 +139,7 @@ std::string_view sidesOf(Frame frame)
 std::string limits(const Choice& choice, Form form)
 {
     std::string text = "// Limits:\n";
-    if (form == Form::fused && choice.frame == Frame::triangle)
+    if (form == Form::fused && readsTriangleVectors(choice.frame))
         text +=
             "//   No NaN for constant uv, zero edges or empty texels: the result is then the interpolated normal.\n"
             "//   Undefined for non-finite input and normals shorter than 0.01. The frame to 0.03 degrees, the error\n"
@@ -166,7 +167,7 @@ std::string limits(const Choice& choice, Form form)
                 "//   non-finite input and normals shorter than 0.01. The frame to 0.01 degrees for (longest\n"
                 "//   position difference) * (longest uv difference) within 1e-12 .. 1e5, each within\n"
                 "//   1e-9 .. 1e6, and footprints that are no slivers (area a tenth of the longest squared).\n";
-    else if (choice.frame == Frame::mikktspace)
+    else if (info(choice.frame).normal == FrameNormal::nobody)
         text += "//   Zero vectors give the interpolated normal as it is, and so does one that is not finite.\n";
     else if (info(choice.frame).total)
         text += "//   Total: no input gives NaN; where there is no frame (constant uv, no area, non-finite\n"
@@ -211,11 +212,12 @@ std::string credits(const Choice& choice)
     std::string text = "// After:\n"
                        "//   [2006] C. Schueler, Normal Mapping without Precomputed Tangents, ShaderX5, 2006\n"
                        "//   [2013] C. Schueler, Followup: Normal Mapping Without Precomputed Tangents, 2013\n";
-    if (hasSet(choice, Set::gradient) || choice.uvSets > 1 || choice.frame == Frame::gradient
-        || choice.frame == Frame::orthonormal)
-        text += "//   [2020] M. Mikkelsen, Surface Gradient Based Bump Mapping Framework, JCGT 9(3), 2020\n";
-    if (choice.frame == Frame::mikktspace)
-        text += "//   M. Mikkelsen, mikktspace.h\n";
+    const std::string_view ofGradients = info(Frame::gradient).after, ofFrame = info(choice.frame).after;
+    const bool gradients = hasSet(choice, Set::gradient) || choice.uvSets > 1;
+    if (gradients)
+        text += fill("//   {}\n", ofGradients);
+    if (!ofFrame.empty() && !(gradients && ofFrame == ofGradients))
+        text += fill("//   {}\n", ofFrame);
     if (hasSet(choice, Set::shadow))
         text += "//   R. Fernando, Percentage-Closer Soft Shadows, 2005\n";
     if (hasSet(choice, Set::blend))
@@ -229,7 +231,7 @@ std::string introduction(const Choice& choice, Form form)
 {
     const Convention& c = choice.convention;
     const LanguageInfo& language = infoOf(choice.language);
-    const bool halfs = choice.frame == Frame::triangle && form == Form::fused && !language.titleWithHalfs.empty();
+    const bool halfs = readsTriangleVectors(choice.frame) && form == Form::fused && !language.titleWithHalfs.empty();
     return fill("// Normal mapping, frame `{}` ({}), for {}.\n"
                 "// Written by cotan shader from the portable text of Cotan; MIT licence.\n"
                 "//\n"

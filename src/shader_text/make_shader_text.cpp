@@ -97,7 +97,7 @@ Result<Form> formOf(const Choice& choice)
                     : fill("the fused form: expected {}; found '{}'", fusedFrameNames(" or "), name(choice.frame)));
     const bool fusedByItself = hasFused && !readsVertices(choice.frame);
     const Form form = choice.form ? *choice.form : fusedByItself ? Form::fused : Form::total;
-    if (choice.stage != Stage::all && (choice.frame != Frame::triangle || form != Form::fused))
+    if (choice.stage != Stage::all && (!readsTriangleVectors(choice.frame) || form != Form::fused))
         return usageError("a stage: expected the frame triangle in its fused form; found another");
     if (Status possible = checkLanguage(choice, form); !possible)
         return possible.error();

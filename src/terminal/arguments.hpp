@@ -2,11 +2,9 @@
 // default. CLI11 reads them; only arguments.cpp and parse_errors.cpp see it.
 #pragma once
 
-#include <filesystem>
 #include <functional>
 #include <initializer_list>
 #include <memory>
-#include <optional>
 #include <string>
 #include <vector>
 

@@ -12,7 +12,7 @@
 
 #include "cotan/image.hpp"
 #include "files/extension.hpp"
-#include "files/report/page.hpp"
+#include "files/report/html.hpp"
 
 namespace cotan {
 

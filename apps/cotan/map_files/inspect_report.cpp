@@ -101,7 +101,7 @@ std::vector<std::string> linesOf(const SurveyedFile& image, const std::string& f
         line("no direction is left to measure");
         return lines;
     }
-    line(fmt::format("length: mean {:.4f}, spread {:.4f}; under 0.9: {:.2f} %", s.meanLength, s.lengthSpread,
+    line(fmt::format("length: mean {:.4f}, spread {:.4f}; under 0.9: {:.2f} %", s.meanLength, s.lengthDeviation,
                      s.shortened * 100));
     std::string tilt;
     for (std::size_t i = 0; i < s.tilt.size(); ++i)
@@ -124,7 +124,7 @@ Json toJson(const SurveyedFile& image)
               {"transfer", name(s.transfer)},
               {"signed", s.signedStored},
               {"mean_length", s.meanLength},
-              {"length_spread", s.lengthSpread},
+              {"length_spread", s.lengthDeviation},
               {"shortened", s.shortened},
               {"background", s.background},
               {"invalid", s.invalid},

@@ -13,7 +13,7 @@ namespace cotan::maps {
 struct MipFileOptions {
     StatedConvention from{};
     std::optional<Convention> to{}; // not given: as the map is read
-    SpreadModel model = SpreadModel::lean;
+    VarianceModel model = VarianceModel::lean;
     double roughness = 0.3;        // perceptual roughness of the material, 0 to 1
     bool keepLengths = false;      // three channels: store mean vectors with their shortened lengths
     std::string bits = "auto";     // as bitsFor; .dds and .ktx2 have 8

@@ -261,4 +261,10 @@ const StageCode& otherCode(const DeviceCode& device, const Stage& stage)
     return found == device.others.end() ? none : found->code;
 }
 
+const StageCode& resolveCode(const DeviceCode& device, std::string_view name)
+{
+    const auto is = [&](const Stage& s) { return s.kind == StageKind::resolve && s.name == name; };
+    return otherCode(device, *std::ranges::find_if(otherStages(), is));
+}
+
 } // namespace cotan::cost

@@ -68,6 +68,8 @@ DeviceCode machineCodeOfFamily(const std::vector<const Row*>& rows, const std::s
 const StageCode& fragmentCode(const DeviceCode& device, std::string_view row);
 const StageCode& vertexCode(const DeviceCode& device, Stored stored);
 const StageCode& otherCode(const DeviceCode& device, const Stage& stage);
+// Of otherStages(), the resolve of that name, which there has to be.
+const StageCode& resolveCode(const DeviceCode& device, std::string_view name);
 
 // Calls use(kind, name, code) for each of a device's stages, which it may change where the device is no constant:
 // "fragment" by the row, "vertex" by what vertices have, then otherStages() by their kinds.

@@ -1,35 +1,18 @@
 #include "cost/rows.hpp"
 
-#include "frag_cotangent.h"
-#include "frag_cotangent_2013.h"
+#include <algorithm>
+
 #include "frag_cotangent_area_fused.h"
 #include "frag_cotangent_facing.h"
-#include "frag_cotangent_fused.h"
 #include "frag_cotangent_plain.h"
 #include "frag_cotangent_seen.h"
-#include "frag_exact.h"
 #include "frag_floor.h"
-#include "frag_gradient.h"
-#include "frag_gradient_fused.h"
 #include "frag_gradient_plain.h"
-#include "frag_mikktspace.h"
-#include "frag_nonperspective.h"
-#include "frag_orthonormal.h"
-#include "frag_orthonormal_fused.h"
 #include "frag_orthonormal_plain.h"
-#include "frag_paper_full.h"
-#include "frag_paper_nodet.h"
-#include "frag_paper_orthogonal.h"
-#include "frag_paper_transpose.h"
-#include "frag_smooth.h"
-#include "frag_smooth_fused.h"
-#include "frag_triangle.h"
-#include "frag_triangle_fused.h"
 #include "frag_triangle_halfs.h"
 #include "frag_triangle_read.h"
 #include "frag_triangle_scaled.h"
-#include "frag_unit_lengths.h"
-#include "frag_vertex.h"
+#include "shaders_of_frames.h"
 #include "varyings_cotangents.h"
 #include "varyings_plain.h"
 #include "varyings_tangent.h"
@@ -46,49 +29,81 @@
 
 namespace cotan::cost {
 
-const std::vector<Row>& rows()
+namespace {
+
+// What the vertex stage hands on for a frame.
+Stored storedFor(Frame frame)
+{
+    return readsTangents(frame)       ? Stored::tangent
+        : readsCotangents(frame)      ? Stored::cotangents
+        : readsTriangleVectors(frame) ? Stored::triangle
+                                      : Stored::nothing;
+}
+
+// What a fragment reads for a frame from the whole triangle: three indices, three positions, three uv.
+int bytesReadFor(Frame frame)
+{
+    return info(frame).source == FrameSource::triangle && !readsTriangleVectors(frame) ? 3 * 4 + 3 * 12 + 3 * 8 : 0;
+}
+
+// As the chapter of 2006 counted its four.
+int instructionsOf2006(Frame frame)
+{
+    switch (frame) {
+    case Frame::paperFull: return 46;
+    case Frame::paperNodet: return 31;
+    case Frame::paperTranspose: return 17;
+    case Frame::paperOrthogonal: return 14;
+    default: return 0;
+    }
+}
+
+// What all are compared with comes first, then what the vertices hand something on for; frames of the papers are last.
+std::vector<Row> makeRows()
 {
     using S = Stored;
-    using G = Group;
-    // Three indices, three positions, three uv.
-    constexpr int kTriangleBytes = 3 * 4 + 3 * 12 + 3 * 8;
-    static const std::vector<Row> list = {
-        {"floor", G::floor, S::nothing, 0, 0, "the interpolated normal and the texel, no frame", frag_floor},
-        {"mikktspace", G::stored, S::tangent, 0, 0, "stored tangents, bitangent per pixel", frag_mikktspace},
-        {"vertex", G::stored, S::tangent, 0, 0, "stored tangents, orthonormal again per pixel; total", frag_vertex},
-        {"smooth", G::stored, S::cotangents, 0, 0, "cotangents averaged at the vertices; total", frag_smooth},
-        {"smooth-fused", G::stored, S::cotangents, 0, 0, "cotangents averaged at the vertices, as interpolated",
-         frag_smooth_fused},
-        {"triangle-halfs", G::triangle, S::triangleHalfs, 0, 0, "U and V of the triangle as six halfs",
-         frag_triangle_halfs},
-        {"triangle-fused", G::triangle, S::triangle, 0, 0, "U and V of the triangle as six floats",
-         frag_triangle_fused},
-        {"triangle-read", G::triangle, S::nothing, 0, 12, "six halfs of the triangle, read per pixel",
-         frag_triangle_read},
-        {"triangle-scaled", G::triangle, S::triangle, 0, 0, "with the scale of cotangent", frag_triangle_scaled},
-        {"triangle", G::triangle, S::triangle, 0, 0, "no input gives NaN", frag_triangle},
-        {"cotangent-fused", G::fused, S::nothing, 0, 0, "sign and guard", frag_cotangent_fused},
-        {"cotangent-seen", G::fused, S::nothing, 0, 0, "n on the side that is seen", frag_cotangent_seen},
-        {"cotangent-area-fused", G::fused, S::nothing, 0, 0, "area-normalised scale", frag_cotangent_area_fused},
-        {"gradient-fused", G::fused, S::nothing, 0, 0, "surface gradient, metric", frag_gradient_fused},
-        {"orthonormal-fused", G::fused, S::nothing, 0, 0, "orthonormal basis", frag_orthonormal_fused},
-        {"cotangent-plain", G::plain, S::nothing, 0, 0, "the formula with sign and guard", frag_cotangent_plain},
-        {"cotangent-facing", G::plain, S::nothing, 0, 0, "the sign left to gl_FrontFacing", frag_cotangent_facing},
-        {"gradient-plain", G::plain, S::nothing, 0, 0, "the formula, unguarded", frag_gradient_plain},
-        {"orthonormal-plain", G::plain, S::nothing, 0, 0, "the formula, guarded against uv without area",
-         frag_orthonormal_plain},
-        {"cotangent", G::total, S::nothing, 0, 0, "no input gives NaN", frag_cotangent},
-        {"gradient", G::total, S::nothing, 0, 0, "no input gives NaN", frag_gradient},
-        {"orthonormal", G::total, S::nothing, 0, 0, "no input gives NaN", frag_orthonormal},
-        {"exact", G::total, S::nothing, 0, kTriangleBytes, "from the triangle's vertices, read per pixel", frag_exact},
-        {"cotangent-2013", G::papers, S::nothing, 0, 0, "as printed in 2013", frag_cotangent_2013},
-        {"nonperspective", G::papers, S::nothing, 0, 0, "shortcut of 2013", frag_nonperspective},
-        {"unit", G::papers, S::nothing, 0, 0, "t and b each of unit length", frag_unit_lengths},
-        {"paper-full", G::papers, S::nothing, 46, 0, "2006, full inverse", frag_paper_full},
-        {"paper-nodet", G::papers, S::nothing, 31, 0, "2006, without determinant", frag_paper_nodet},
-        {"paper-transpose", G::papers, S::nothing, 17, 0, "2006, as cross products", frag_paper_transpose},
-        {"paper-orthogonal", G::papers, S::nothing, 14, 0, "2006, orthogonal differences", frag_paper_orthogonal},
+#define COTAN_FUSED_false(enumerator, word, name, summary)
+#define COTAN_FUSED_true(enumerator, word, name, summary)                                                              \
+    {name "-fused", storedFor(Frame::enumerator), 0, summary ", frame and texel in one step", fused_##word},
+#define COTAN_FRAME_ROW(number, enumerator, word, source, total, dependsOnView, normal, fused, after, name, summary)   \
+    {name,                                                                                                             \
+     storedFor(Frame::enumerator),                                                                                     \
+     bytesReadFor(Frame::enumerator),                                                                                  \
+     summary,                                                                                                          \
+     frame_##word,                                                                                                     \
+     Frame::enumerator,                                                                                                \
+     instructionsOf2006(Frame::enumerator)},                                                                           \
+        COTAN_FUSED_##fused(enumerator, word, name, summary)
+    std::vector<Row> list = {
+        {"floor", S::nothing, 0, "the interpolated normal and the texel, no frame", frag_floor},
+#include "cotan/frames.inc"
+        {"triangle-halfs", S::triangleHalfs, 0, "U and V of the triangle as six halfs", frag_triangle_halfs},
+        {"triangle-read", S::nothing, 12, "six halfs of the triangle, read per pixel", frag_triangle_read},
+        {"triangle-scaled", S::triangle, 0, "with the scale of cotangent", frag_triangle_scaled},
+        {"cotangent-seen", S::nothing, 0, "n on the side that is seen", frag_cotangent_seen},
+        {"cotangent-area-fused", S::nothing, 0, "area-normalised scale", frag_cotangent_area_fused},
+        {"cotangent-plain", S::nothing, 0, "the formula with sign and guard", frag_cotangent_plain},
+        {"cotangent-facing", S::nothing, 0, "the sign left to gl_FrontFacing", frag_cotangent_facing},
+        {"gradient-plain", S::nothing, 0, "the formula, unguarded", frag_gradient_plain},
+        {"orthonormal-plain", S::nothing, 0, "the formula, guarded against uv without area", frag_orthonormal_plain},
     };
+#undef COTAN_FUSED_false
+#undef COTAN_FUSED_true
+    std::ranges::stable_sort(list, {}, [](const Row& row) {
+        return row.name == "floor"           ? 0
+            : row.frame == Frame::mikktspace ? 1
+            : row.stored != S::nothing       ? 2
+            : !isHistorical(row)             ? 3
+                                             : 4;
+    });
+    return list;
+}
+
+} // namespace
+
+const std::vector<Row>& rows()
+{
+    static const std::vector<Row> list = makeRows();
     return list;
 }
 

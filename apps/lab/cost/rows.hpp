@@ -2,9 +2,12 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string_view>
 #include <vector>
+
+#include "cotan/frame.hpp"
 
 namespace cotan::cost {
 
@@ -20,18 +23,20 @@ enum class Stored {
     triangleHalfs, // the same as six halfs
 };
 
-enum class Group { floor, stored, triangle, fused, plain, total, papers };
-
 struct Row {
-    std::string_view name; // as on the command line; "floor" is the first
-    Group group;
+    std::string_view name; // as on the command line
     Stored stored;
-    int instructionsOf2006 = 0;              // as published in the 2006 chapter; 0: not among its four
     int bytesPerPixel = 0;                   // buffer reads of the fragment stage, without the normal map
     std::string_view what;                   // one line
     std::span<const std::uint32_t> fragment; // SPIR-V
+    std::optional<Frame> frame = {};         // of which it is the row; none for a fused or another form
+    int instructionsOf2006 = 0;              // as published in the 2006 chapter; 0: not among its four
 };
 
+// Whether it is that of a frame of the papers, which is there to be compared with.
+inline bool isHistorical(const Row& row) { return row.frame && !info(*row.frame).total; }
+
+// "floor" is the first, "mikktspace" the second. Each frame has one, and one for its fused form, NAME-fused.
 const std::vector<Row>& rows();
 
 // Nothing where there is no row of that name.

@@ -33,38 +33,25 @@ struct RowFunction {
     cotan_vec3 (*run)(counted::cost_inputs);
 };
 
+#define COTAN_FUSED_false(word, name)
+#define COTAN_FUSED_true(word, name) {name "-fused", counted::cost_fused_##word},
+#define COTAN_FRAME_ROW(number, enumerator, word, source, total, dependsOnView, normal, fused, after, name, summary)   \
+    {name, counted::cost_frame_##word}, COTAN_FUSED_##fused(word, name)
 constexpr RowFunction kRows[] = {
     {"floor", counted::cost_floor},
-    {"mikktspace", counted::cost_mikktspace},
-    {"vertex", counted::cost_vertex},
-    {"smooth", counted::cost_smooth},
-    {"smooth-fused", counted::cost_smooth_fused},
-    {"triangle-halfs", counted::cost_triangle_fused},
-    {"triangle-fused", counted::cost_triangle_fused},
-    {"triangle-read", counted::cost_triangle_fused},
+#include "cotan/frames.inc"
+    {"triangle-halfs", counted::cost_fused_triangle},
+    {"triangle-read", counted::cost_fused_triangle},
     {"triangle-scaled", counted::cost_triangle_scaled},
-    {"triangle", counted::cost_triangle},
-    {"cotangent-fused", counted::cost_cotangent_fused},
     {"cotangent-seen", counted::cost_cotangent_seen},
     {"cotangent-area-fused", counted::cost_cotangent_area_fused},
-    {"gradient-fused", counted::cost_gradient_fused},
-    {"orthonormal-fused", counted::cost_orthonormal_fused},
     {"cotangent-plain", counted::cost_cotangent_plain},
     {"cotangent-facing", counted::cost_cotangent_facing},
     {"gradient-plain", counted::cost_gradient_plain},
     {"orthonormal-plain", counted::cost_orthonormal_plain},
-    {"cotangent", counted::cost_cotangent},
-    {"gradient", counted::cost_gradient},
-    {"orthonormal", counted::cost_orthonormal},
-    {"exact", counted::cost_exact},
-    {"cotangent-2013", counted::cost_cotangent_2013},
-    {"nonperspective", counted::cost_nonperspective},
-    {"unit", counted::cost_unit_lengths},
-    {"paper-full", counted::cost_paper_full},
-    {"paper-nodet", counted::cost_paper_nodet},
-    {"paper-transpose", counted::cost_paper_transpose},
-    {"paper-orthogonal", counted::cost_paper_orthogonal},
 };
+#undef COTAN_FUSED_false
+#undef COTAN_FUSED_true
 
 struct FrameFunction {
     std::string_view name;
@@ -77,7 +64,7 @@ constexpr FrameFunction kFrames[] = {
 #define COTAN_ROW_triangle(name, word) {name, counted::cotan_frame_##word},
 #define COTAN_ROW_cotangents(name, word)
 #define COTAN_ROW_tangents(name, word)
-#define COTAN_FRAME_ROW(number, enumerator, word, source, total, dependsOnView, fused, name, summary)                  \
+#define COTAN_FRAME_ROW(number, enumerator, word, source, total, dependsOnView, normal, fused, after, name, summary)   \
     COTAN_ROW_##source(name, word)
 #include "cotan/frames.inc"
 };

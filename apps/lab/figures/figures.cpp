@@ -11,7 +11,7 @@
 #include "figure.hpp"
 #include "figure_renderer.hpp"
 #include "files/output.hpp"
-#include "files/report/page.hpp"
+#include "page.hpp"
 #include "stage.hpp"
 
 namespace cotan::figures {

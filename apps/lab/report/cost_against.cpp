@@ -10,15 +10,6 @@ using namespace cost;
 
 namespace {
 
-const StageCode& codeOf(const DeviceCode& d, StageKind kind, std::string_view name)
-{
-    for (const Stage& s : otherStages())
-        if (s.kind == kind && s.name == name)
-            return otherCode(d, s);
-    static const StageCode none;
-    return none;
-}
-
 struct Against {
     int cheaper = 0, equal = 0;
     double least = 0, most = 0; // more than stored tangents; negative: less
@@ -77,9 +68,8 @@ std::string againstStored(const CostReport& report)
                 }));
     for (const std::string_view form : {"triangle-read", "triangle-fused", "smooth-fused", "cotangent-fused"})
         addLine(table, "visibility buffer, instructions", form,
-                against(report, form, [](const DeviceCode& d, std::string_view row) {
-                    return codeOf(d, StageKind::resolve, row).instructions;
-                }));
+                against(report, form,
+                        [](const DeviceCode& d, std::string_view row) { return resolveCode(d, row).instructions; }));
     return table.size() < 2 ? "" : "### Against stored tangents, over all cards\n\n" + aligned(table);
 }
 

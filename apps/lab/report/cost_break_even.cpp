@@ -31,7 +31,7 @@ std::string byVertex(const CostReport& report)
     Table table = tableOf({"wins below ... pixels a vertex", "in bytes"}, devices);
     const int tangentBytes = vertexStage(Stored::tangent).bytes;
     for (const Row* row : report.rows) {
-        if (row->stored != Stored::nothing || row->group == Group::floor || row->group == Group::papers)
+        if (row->stored != Stored::nothing || row->name == "floor" || isHistorical(*row))
             continue;
         std::vector<std::string> line = {std::string(row->name),
                                          ratio(pixelsPerVertex(tangentBytes, row->bytesPerPixel))};

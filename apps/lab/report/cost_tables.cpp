@@ -192,10 +192,9 @@ std::string frameOperations()
                          std::to_string(o.compare), std::to_string(o.bits), std::to_string(o.total()),
                          std::to_string(o.totalFused())});
     };
-    for (const std::string_view frame :
-         {"cotangent-2013", "nonperspective", "unit", "paper-full", "paper-nodet", "paper-transpose",
-          "paper-orthogonal", "cotangent", "gradient", "orthonormal", "exact"})
-        line(frame, operationsOfFrame(frame));
+    for (const FrameInfo& f : frames())
+        if (!readsVertices(f.frame) && !readsTriangleVectors(f.frame))
+            line(f.name, operationsOfFrame(f.name));
     line("(their safe normal)", operationsOfSafeNormal());
     line("(U and V, sound edges)", operationsOfTriangleVectors(false));
     line("(U and V, any edges)", operationsOfTriangleVectors(true));

@@ -186,9 +186,9 @@ void drawScale(const Interface& interface)
     }
 }
 
-void drawHotSpots(const Interface& interface, Commands& chosen)
+void drawProblemAreas(const Interface& interface, Commands& chosen)
 {
-    if (!interface.hotSpotsShown)
+    if (!interface.problemAreasShown)
         return;
     const ImVec2 size = ImGui::GetIO().DisplaySize;
     const float line = ImGui::GetFrameHeight();
@@ -196,13 +196,13 @@ void drawHotSpots(const Interface& interface, Commands& chosen)
     ImGui::SetNextWindowSizeConstraints({8 * line, 0}, {std::max(8 * line, size.x * 0.6f), size.y * 0.4f});
     if (ImGui::Begin("Problem areas", nullptr,
                      kPanel | ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_HorizontalScrollbar)) {
-        if (interface.hotSpots.empty())
+        if (interface.problemAreas.empty())
             ImGui::TextUnformatted("none found");
         int number = 0;
-        for (const Choice& spot : interface.hotSpots) {
+        for (const Choice& area : interface.problemAreas) {
             ImGui::PushID(number++);
-            if (ImGui::Selectable(spot.text.c_str()))
-                chosen.push_back(spot.command);
+            if (ImGui::Selectable(area.text.c_str()))
+                chosen.push_back(area.command);
             ImGui::PopID();
         }
     }
@@ -291,7 +291,7 @@ std::vector<std::string> drawInterface(const Interface& interface, float scale)
         drawMenus(interface, chosen);
         drawSliders(interface, chosen);
         drawStatus(interface);
-        drawHotSpots(interface, chosen);
+        drawProblemAreas(interface, chosen);
         drawCard(interface);
     }
     drawSheet(interface);

@@ -1,7 +1,6 @@
 // The tangents of a glTF file whose normal maps were converted: dropped where nothing else reads them.
 #pragma once
 
-#include <cstddef>
 #include <string>
 #include <vector>
 

@@ -67,11 +67,11 @@ std::string whyNotJudged(const PrimitiveLint& p, const Image& map)
     return p.readings.front().error.count == 0 ? "no triangle has area, also in uv" : "";
 }
 
-template<class Make> void eachAdvised(FrameSummaries& spreads, const Make& make)
+template<class Make> void eachAdvised(FrameSummaries& summaries, const Make& make)
 {
-    spreads.orthonormal = make(Frame::orthonormal);
-    spreads.cotangent = make(Frame::cotangent);
-    spreads.smooth = make(Frame::smooth);
+    summaries.orthonormal = make(Frame::orthonormal);
+    summaries.cotangent = make(Frame::cotangent);
+    summaries.smooth = make(Frame::smooth);
 }
 
 // The frame that a material's maps are for: the one that the file names, or else glTF's.

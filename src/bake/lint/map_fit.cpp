@@ -95,10 +95,10 @@ std::vector<ValueSummary> mapErrors(const Image& before, const Image& after, con
                                          normalOf(after, *use, stored, frames[i].to, frames[i].toTangents, p)),
                     area / double(count));
     }
-    std::vector<ValueSummary> spreads;
+    std::vector<ValueSummary> summaries;
     for (auto& of : errors)
-        spreads.push_back(summaryOf(std::move(of)));
-    return spreads;
+        summaries.push_back(summaryOf(std::move(of)));
+    return summaries;
 }
 
 std::size_t pointsOfEach(std::size_t surfaces)

@@ -189,11 +189,11 @@ std::string defects(const LintReport& report)
     return broken.empty() || rest.empty() ? broken + rest : broken + " " + rest;
 }
 
-const ValueSummary& of(const FrameSummaries& spreads, Advice advice)
+const ValueSummary& of(const FrameSummaries& summaries, Advice advice)
 {
-    return advice == Advice::convertToCotangent ? spreads.cotangent
-        : advice == Advice::convertToSmooth     ? spreads.smooth
-                                                : spreads.orthonormal;
+    return advice == Advice::convertToCotangent ? summaries.cotangent
+        : advice == Advice::convertToSmooth     ? summaries.smooth
+                                                : summaries.orthonormal;
 }
 
 // Whether something else than a normal map that is converted needs the tangents of a primitive.

@@ -3,10 +3,17 @@
 #include <algorithm>
 #include <cassert>
 #include <iterator>
+#include <string>
 
 namespace cotan {
 
 namespace {
+
+// A field may be added within a version. One that goes, is renamed, or changes its type or meaning, raises it.
+struct ReportFormat {
+    std::string_view name;
+    int version = 1;
+};
 
 constexpr ReportFormat kFormats[] = {
     {"cotan-accuracy"},
@@ -37,15 +44,6 @@ constexpr ReportFormat kFormats[] = {
 
 } // namespace
 
-std::span<const ReportFormat> reportFormats() { return kFormats; }
-
-std::string formatOfCommand(std::string_view command)
-{
-    std::string name = "cotan-" + std::string(command);
-    std::ranges::replace(name, ' ', '-');
-    return name;
-}
-
 Json versioned(std::string_view format, const Json& report)
 {
     const auto* const known = std::ranges::find(kFormats, format, &ReportFormat::name);
@@ -60,7 +58,9 @@ Json versioned(const Json& report)
     const auto& members = std::get<Json::Object>(report.value());
     const auto command = std::ranges::find(members, "command", &Json::Object::value_type::first);
     assert(command != members.end());
-    return versioned(formatOfCommand(std::get<std::string>(command->second.value())), report);
+    std::string format = "cotan-" + std::get<std::string>(command->second.value()); // "cotan-map-detect"
+    std::ranges::replace(format, ' ', '-');
+    return versioned(format, report);
 }
 
 } // namespace cotan

@@ -1,7 +1,6 @@
 #include "files/sandbox/confine.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cerrno>
 #include <cmath>
 #include <csignal>

@@ -1,7 +1,5 @@
 #include "clip.hpp"
 
-#include <cmath>
-
 #include <glm/geometric.hpp>
 
 #include "cotan/vector.hpp"

@@ -1,7 +1,6 @@
 #include "pixel.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include <glm/geometric.hpp>

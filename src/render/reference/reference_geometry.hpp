@@ -1,7 +1,6 @@
 // Vertices in world space, relative to the eye.
 #pragma once
 
-#include <cstdint>
 #include <vector>
 
 #include <glm/mat3x3.hpp>

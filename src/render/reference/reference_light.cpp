@@ -4,7 +4,6 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
-#include <optional>
 
 #include <glm/geometric.hpp>
 

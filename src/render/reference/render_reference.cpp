@@ -1,8 +1,6 @@
 #include "cotan/render.hpp"
 
-#include <algorithm>
 #include <array>
-#include <memory>
 #include <new>
 #include <optional>
 #include <span>

@@ -1,7 +1,5 @@
 #include "surface.hpp"
 
-#include <cmath>
-
 #include <glm/geometric.hpp>
 
 #include "cotan/frame.hpp"

@@ -1,7 +1,6 @@
 #include "tile.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 #include "cotan/portable.hpp"
 

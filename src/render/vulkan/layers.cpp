@@ -1,7 +1,6 @@
 #include "layers.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cstring>
 
 #include "gpu_structs.hpp"

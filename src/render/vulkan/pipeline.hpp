@@ -5,7 +5,6 @@
 #include <compare>
 #include <future>
 #include <map>
-#include <optional>
 #include <vector>
 
 #include "cotan/view.hpp"

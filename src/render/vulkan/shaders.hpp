@@ -34,8 +34,6 @@ enum class Shader {
     shadowFrag,
 };
 
-inline constexpr int kShaderCount = 22;
-
 // SPIR-V words.
 std::span<const std::uint32_t> spirv(Shader shader);
 

@@ -1,6 +1,5 @@
 #include "octahedral.hpp"
 
-#include <algorithm>
 #include <cmath>
 
 #include <glm/geometric.hpp>

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstddef>
-#include <cstdint>
 
 #include "cotan/view.hpp"
 #include "scene/environment_map.hpp"

@@ -28,8 +28,6 @@ namespace cotan {
 
 // ---- statistics of a weighted set ----------------------------------------------------------
 
-// A weighted set of numbers, in short.
-
 // Of an empty set, or one without weight, the count is 0 and the rest NaN: no comparison with a limit holds.
 struct ValueSummary {
     std::size_t count = 0; // of the values that count
@@ -40,9 +38,6 @@ struct ValueSummary {
 };
 
 // ---- the report ----------------------------------------------------------------------------
-
-// How far off a model's normal maps will be without stored tangents, told before anything is
-// drawn. All angles in degrees, areas of the world, shares of the primitive's area in [0,1].
 
 inline constexpr double kStretched = 1.2; // the longer gradient over the shorter: an orthonormal frame is 2 degrees off
 inline constexpr double kSheared = 10;    // degrees between the gradients of u and v and a right angle

@@ -18,8 +18,7 @@ namespace cotan {
 
 // ---- by name -------------------------------------------------------------------------------
 
-// Frames by name, and their evaluation. The mathematics is the portable text (shaders/cotan/frame.h); this is its
-// C++ front door.
+// The mathematics is the portable text (shaders/cotan/frame.h); this is how C++ reaches it.
 
 // All frames, from the table cotan/frames.inc. The numbers are those of the GPU's specialisation constant COTAN_FRAME.
 enum class Frame {
@@ -40,14 +39,23 @@ enum class FrameSource {
     tangents,    // a tangent and a sign made per vertex and interpolated: evaluateTangents()
 };
 
+// Who makes the interpolated normal unit.
+enum class FrameNormal {
+    frame,  // the frame itself: it takes a normal of any length
+    caller, // whoever asks for the frame, which takes a unit normal
+    nobody, // the frame is of the normal as interpolated, and so is what it perturbs
+};
+
 struct FrameInfo {
     Frame frame;
     std::string_view name; // as on the command line
     std::string_view word; // in the portable text: cotan_frame_WORD
     FrameSource source;
-    bool total;               // no input gives NaN; otherwise degenerate input may
-    bool dependsOnView;       // changes with where it is seen from, or with the way that the target's rows run
+    bool total;         // no input gives NaN; otherwise degenerate input may
+    bool dependsOnView; // changes with where it is seen from, or with the way that the target's rows run
+    FrameNormal normal;
     bool fused;               // there is also cotan_perturb_WORD: frame and texel in one step
+    std::string_view after;   // a reference beside the chapter of 2006 and the follow-up of 2013; may be empty
     std::string_view summary; // one line
 };
 
@@ -66,6 +74,13 @@ inline bool dependsOnView(Frame frame) { return info(frame).dependsOnView; }
 inline bool readsTangents(Frame frame) { return info(frame).source == FrameSource::tangents; }
 inline bool readsCotangents(Frame frame) { return info(frame).source == FrameSource::cotangents; }
 inline bool readsVertices(Frame frame) { return readsTangents(frame) || readsCotangents(frame); }
+
+// Whether the fused form of a frame reads two vectors that are constant on a triangle (cotan/triangle.hpp), which an
+// earlier stage makes.
+inline bool readsTriangleVectors(Frame frame)
+{
+    return info(frame).source == FrameSource::triangle && info(frame).fused;
+}
 
 // The frame of that name; nothing if there is none.
 std::optional<Frame> frameFromName(std::string_view name);
@@ -91,8 +106,6 @@ f32::cotan_frame evaluateTangents(Frame frame, f32::cotan_vec3 n, f32::cotan_vec
 f64::cotan_frame evaluateTangents(Frame frame, f64::cotan_vec3 n, f64::cotan_vec3 t, double alongV);
 
 // ---- typed ---------------------------------------------------------------------------------
-
-// The typed frame: three covectors, and what may be done with them.
 
 // Differences along any two directions: screen derivatives, triangle edges, a uv raster's steps.
 template<class Real> struct Differences {

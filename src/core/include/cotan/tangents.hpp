@@ -43,7 +43,7 @@ struct MeshView {
 // none the tangent is (1,0,0), whatever the normal, and w = +1 (the source's -1; its v runs up). Where tangents
 // cancel out, xyz is zero. Input that is not finite: as without neighbours.
 // Source: M. Mikkelsen, Simulation of Wrinkled Surfaces Revisited (2008), and the behaviour of
-// mikktspace.h with its default angular threshold of 180 degrees, mended as in three.js 0.187: every shared
+// mikktspace.h with its default angular threshold of 180 degrees, fixed as in three.js 0.187: every shared
 // edge joins its triangles, where mikktspace.c leaves the edges of the last vertex unsorted (BuildNeighborsFast)
 // and so takes some for borders; corners at that vertex of few meshes differ.
 // threads: how many to use for large meshes, 0: all cores; the result does not depend on it.

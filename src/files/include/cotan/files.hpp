@@ -60,8 +60,6 @@ Sandbox defaultSandbox();
 
 // ---- limits --------------------------------------------------------------------------------
 
-// How much a file may ask for, and where it is.
-
 struct Image;
 
 // Which images of a model are decoded. Images without pixels have a name and no size.

@@ -34,8 +34,6 @@ namespace cotan {
 
 // ---- to a scene ----------------------------------------------------------------------------
 
-// glTF files to Scene.
-
 // Reads .gltf and .glb. What was odd but usable is said in Scene::warnings. Missing normals are flat ones, as
 // glTF asks. Only files inside the model's own folder are opened.
 // Errors: ErrorKind::input with one line: file, field, expected, found. Never throws for bad input.

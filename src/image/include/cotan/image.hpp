@@ -25,8 +25,6 @@ namespace cotan {
 
 // ---- whole images --------------------------------------------------------------------------
 
-// Files to Image and back, through OpenImageIO.
-
 // Whether a file of these first bytes is a PNG or a JPEG, the formats that glTF asks every reader to know.
 bool isPng(std::span<const std::byte> bytes);
 bool isJpeg(std::span<const std::byte> bytes);
@@ -113,8 +111,6 @@ Result<std::unique_ptr<RowWriter>> createRows(const std::filesystem::path& file,
 
 // ---- animations ----------------------------------------------------------------------------
 
-// Pictures one after another in one file.
-
 struct AnimationFormat {
     int width = 0, height = 0;
     std::size_t pictures = 1;
@@ -146,8 +142,6 @@ Result<std::unique_ptr<AnimationWriter>> createAnimation(const std::filesystem::
                                                          const AnimationFormat& format);
 
 // ---- the format of another file ------------------------------------------------------------
-
-// A picture written in the format that another file has.
 
 struct EncodedLike {
     std::vector<std::byte> bytes;

@@ -7,8 +7,8 @@
 //         return fail(compared.error().message);
 //     std::printf("%s\n", toText(*compared).c_str());
 //     cotan::writeImage("difference.png", compared->difference);
-//     for (const cotan::HotSpot& spot : cotan::hotSpots(scene))
-//         std::printf("%s\n", spot.text.c_str());
+//     for (const cotan::ProblemArea& area : cotan::problemAreas(scene))
+//         std::printf("%s\n", area.text.c_str());
 #pragma once
 
 #include <array>
@@ -84,8 +84,6 @@ void drawEdges(Image& picture, const Image& depth, const Camera& camera, std::sp
 
 // ---- what is at a pixel --------------------------------------------------------------------
 
-// What of a scene is at a pixel.
-
 struct PickedPoint {
     int instance = 0, mesh = 0; // indices into the scene
     std::size_t triangle = 0;   // of the mesh
@@ -138,11 +136,11 @@ View inspectionView(View view);
 
 // Where on a model to look: the worst places of what lint takes shares of.
 
-struct HotSpot {
+struct ProblemArea {
     std::string text; // "sheared over 10 degrees: 12.3 % of body, here 63"
     std::size_t mesh = 0;
-    double share = 0;   // of the mesh's area, as lint has it
-    double badness = 0; // what the list is sorted by
+    double share = 0;    // of the mesh's area, as lint has it
+    double severity = 0; // what the list is sorted by
     Camera camera; // looks at the worst triangle of its kind along its normal, with an eighth of the model around it
     std::array<glm::vec3, 3> corners{}; // of that triangle, world
     std::string_view view;              // the view of `cotan view` and `render` that shows what is wrong
@@ -153,20 +151,16 @@ struct HotSpot {
 // without area, stretched over kStretched, sheared over kSheared; w of stored tangents against the uv, stored tangents
 // turned over kTurned. The worst first; at most `most`. Where something stands between the camera and its triangle, the
 // camera is nearer, if the triangle fits into the picture from there.
-std::vector<HotSpot> hotSpots(const Scene& scene, std::size_t most = 50);
+std::vector<ProblemArea> problemAreas(const Scene& scene, std::size_t most = 50);
 
 // ---- faults of maps ------------------------------------------------------------------------
 
-// What is wrong with the normal maps of a scene as files.
-
 // A sentence for each normal map that was saved as a colour, has channels exchanged or is broken otherwise, by name,
-// with the command that mends it; green that points down where it is declared up counts, too. Empty where all are good.
+// with the command that fixes it; green that points down where it is declared up counts, too. Empty where all are good.
 // Each map is looked at once: a second for 4096 x 4096 texels.
 std::vector<std::string> mapFaults(const Scene& scene);
 
 // ---- what a comparison gives ---------------------------------------------------------------
-
-// What drawing something twice and comparing the normals gives.
 
 // Seen from one side. The degrees are angles between the two normals of a pixel, over the pixels that show the
 // inside of a surface in both: those whose eight neighbours show one, too. The pictures are square, unorm8.
@@ -228,8 +222,6 @@ Result<DrawnSides> drawSides(Renderer& renderer, ModelInFrame model, std::vector
 Result<ComparedViews> compareSides(const DrawnSides& before, const DrawnSides& after);
 
 // ---- one frame against another -------------------------------------------------------------
-
-// One view of a loaded scene drawn with two frames, and what they differ by.
 
 // Whether a view of a scene shows normal maps, so that the frame has a part in the normals.
 bool showsNormalMaps(const Scene& scene, const View& view);

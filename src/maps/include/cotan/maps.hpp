@@ -69,7 +69,7 @@ struct NormalStatistics {
     double belowHorizon = 0;      // share with z < -0.02
     double outsideDisc = 0;       // share with x^2 + y^2 > 1.02
     double meanLength = 0;        // of the valid ones, read with the centre found (exact if unknown)
-    double lengthSpread = 0;      // root mean square of (length - 1)
+    double lengthDeviation = 0;   // root mean square of (length - 1)
     double shortened = 0;         // share of length under 0.9
     std::array<double, 3> mean{}; // of x, y, z in picture space, green up
     std::array<double, 3> lowest{}, highest{}; // stored components
@@ -108,8 +108,6 @@ std::string describe(Content content);
 
 // ---- which way green points ----------------------------------------------------------------
 
-// Which way green points, from the map alone.
-//
 // The slopes a = dh/dx and b = dh/dy of a height h satisfy da/dy = db/dx. A map whose green is
 // negated satisfies da/dy = -db/dx instead, and one with red and green exchanged has them in each
 // other's place. What cannot be told: whether bumps are dents. (x,-y) and (-x,y) are the same
@@ -147,7 +145,7 @@ GreenVerdict greenOf(const Image& image); // sampled in the same way; needs pixe
 
 // ---- faults --------------------------------------------------------------------------------
 
-// What is wrong with a normal map as a file, and how to mend it.
+// What is wrong with a normal map as a file, and how to fix it.
 
 struct Fault {
     enum class Kind { srgb, linearised, redAndBlue, redAndGreen, tooShort, tooLong, eightBitsIn16, greenDown };
@@ -161,7 +159,7 @@ const char* name(Fault::Kind kind); // srgb, linearised, bgr, grb, washed_out, t
 // same map, for the green channel too; null: without it.
 std::vector<Fault> faultsOf(const NormalStatistics& statistics, const GreenVerdict* green = nullptr);
 
-// The options of `cotan map convert` that mend them all, such as "--from directx,srgb --to gltf"; empty without faults.
+// The options of `cotan map convert` that fix them all, such as "--from directx,srgb --to gltf"; empty without faults.
 // A map whose zero is 127.5 keeps it: green that is turned about 128 would lean by 0.45 degrees.
 std::string fixOptions(const std::vector<Fault>& faults, const NormalStatistics& statistics);
 
@@ -186,8 +184,6 @@ void undo(const Damage& damage, Image& image);
 
 // ---- to another convention -----------------------------------------------------------------
 
-// From one way of storing a normal map to another.
-
 struct RecodeSettings {
     Convention from{}, to{};
     PixelType type = PixelType::unorm8; // of the result
@@ -209,8 +205,6 @@ Image recode(const Image& map, const RecodeSettings& settings, RecodeCounts& cou
 
 // ---- blending ------------------------------------------------------------------------------
 
-// Combines a base map and a detail map.
-
 enum class BlendMode { reoriented, whiteout, udn, slopes, linear }; // cotan/blend.h says what each does
 
 struct BlendSettings {
@@ -231,8 +225,6 @@ Image blend(const Image& base, const Image& detail, const BlendSettings& setting
 
 // ---- heights -------------------------------------------------------------------------------
 
-// Heights to normals and back.
-//
 // Units: the solvers know heights in texels (a slope of 1 rises one texel's width per texel). What a
 // texel is in metres, and what white is, is a factor that the caller applies.
 
@@ -297,7 +289,7 @@ std::size_t heightWorkBytes(int width, int height);
 // The mean of unit vectors that spread has a length R below 1. Normalising it loses the spread, and
 // a rough surface seen from afar turns smooth. The spread goes into the roughness instead.
 
-enum class SpreadModel {
+enum class VarianceModel {
     toksvig, // variance (1-R)/R on Blinn-Phong's exponent; M. Toksvig, Mipmapping Normal Maps, 2005
     vmf,     // 2/kappa added, kappa = (3R - R^3)/(1 - R^2); C. Han et al., Frequency Domain Normal Map Filtering, 2007
     lean     // the variance of the slopes themselves; M. Olano, D. Baker, LEAN Mapping, 2010
@@ -306,7 +298,7 @@ enum class SpreadModel {
 struct MipSettings {
     Convention from{}, to{};
     bool keepLengths = false; // three channels: store the mean vector, not its direction
-    SpreadModel model = SpreadModel::lean;
+    VarianceModel model = VarianceModel::lean;
     double roughness = 0.3; // of the material, perceptual: alpha is its square; in [0,1]
     PixelType type = PixelType::unorm8;
 };
@@ -321,8 +313,8 @@ struct MipLevel {
 // The roughness, perceptual, of a surface of that roughness whose unit normals have a mean of length
 // R, or whose slopes have this variance (of x and y together). Each in its valid range: roughness
 // [0,1], R [0,1], variance from 0. The result is at most 1.
-double roughnessFromLength(double roughness, double length, SpreadModel model); // toksvig, vmf
-double roughnessFromVariance(double roughness, double variance);                // lean
+double roughnessFromLength(double roughness, double length, VarianceModel model); // toksvig, vmf
+double roughnessFromVariance(double roughness, double variance);                  // lean
 
 // Levels 0 (the map itself, re-encoded) to 1 x 1. Each texel is the mean over its area of the level
 // before, also where sizes are odd. Texels that are no direction do not count; slopes are held at
@@ -330,8 +322,6 @@ double roughnessFromVariance(double roughness, double variance);                
 std::vector<MipLevel> mipChain(const Image& map, const MipSettings& settings);
 
 // ---- comparison ----------------------------------------------------------------------------
-
-// How far two normal maps are apart.
 
 // Per texel the angle in degrees between two maps of the same size, each read with its own
 // convention; -1 where one of the two is not a direction (not finite, or of no length).

@@ -20,8 +20,6 @@ namespace cotan {
 
 // ---- to a scene ----------------------------------------------------------------------------
 
-// Files to Scene.
-
 // Reads a model: .gltf and .glb, .obj, everything else (.ply .stl .dae .fbx .3ds)
 // through Assimp; all but glTF in a process of its own where limits.sandbox says so. What comes from limits.readFile is
 // glTF. What was odd but usable is said

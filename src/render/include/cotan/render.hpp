@@ -25,8 +25,6 @@ namespace cotan {
 
 // ---- one image -----------------------------------------------------------------------------
 
-// One picture of a scene, in one call.
-
 // Draws the view of the scene on the device of that name, as openRenderer takes it.
 // Tangents or cotangents that view.frame reads at the vertices are made where the scene has none; pass a
 // scene that is no longer needed by std::move. The picture is as view.output says, in View's size.
@@ -95,8 +93,6 @@ Result<std::unique_ptr<Renderer>> openRenderer(const std::string& device = "auto
 
 // ---- exposure ------------------------------------------------------------------------------
 
-// Exposure by the picture itself.
-
 // The exposure for a view of the renderer's scene, by what a small picture of it shows without what is behind: the
 // logarithms' mean of the brightness of the scene's pixels goes part of the way to a middle grey, so that white stays
 // bright and black dark, and the brightest fiftieth stays below what tone curves burn out. Rounded to 1/32 of a stop,
@@ -106,8 +102,6 @@ Result<std::unique_ptr<Renderer>> openRenderer(const std::string& device = "auto
 Result<float> meterExposure(Renderer& renderer, View view);
 
 // ---- cameras as text -----------------------------------------------------------------------
-
-// A camera as people write it.
 
 // "fit": the whole scene from the front, a little from above; "front": the same, as near as its vertices allow; both
 // frame all of an animation (Scene::reach);

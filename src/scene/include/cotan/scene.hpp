@@ -32,8 +32,6 @@ namespace cotan {
 
 // ---- images --------------------------------------------------------------------------------
 
-// A picture in memory. Plain data, no files.
-
 enum class PixelType { unorm8, unorm16, float32 };
 
 constexpr std::size_t bytesPerComponent(PixelType type)
@@ -103,8 +101,6 @@ inline Image makeImage(int width, int height, PixelType type, std::string name =
 }
 
 // ---- the scene -----------------------------------------------------------------------------
-
-// What there is to draw. Plain data, no files, no GPU. World space is right-handed, y up, metres.
 
 enum class Wrap { repeat, mirror, clamp };
 enum class Filter { nearest, linear };

@@ -137,8 +137,6 @@ struct View {
 
 // ---- cameras and lights --------------------------------------------------------------------
 
-// Cameras that fill the image with a scene.
-
 // From the front, a little from the right and above, with a lens of 30 degrees: as near as all vertices stay inside
 // the picture less a margin of 4 % on each side, with equal room on both sides; in an
 // animation (Scene::reach) at all of its moments. Beyond 16 million vertices,
@@ -156,8 +154,6 @@ Camera orbitCamera(const Scene& scene, double azimuth, double elevation, int wid
 std::vector<Light> defaultLights();
 
 // ---- environments --------------------------------------------------------------------------
-
-// Environment as light: from a picture, or by a formula.
 
 // Linear radiance from a unit direction, world, y up. Called from several threads. Values that are not finite or
 // negative count as 0, larger ones than 65504 as that.

@@ -153,9 +153,9 @@ Found findOn(const MappedSurface& surface)
 
 } // namespace
 
-std::vector<HotSpot> hotSpots(const Scene& scene, std::size_t most)
+std::vector<ProblemArea> problemAreas(const Scene& scene, std::size_t most)
 {
-    std::vector<HotSpot> spots;
+    std::vector<ProblemArea> areas;
     const Bounds box = bounds(scene);
     const float whole = glm::length(box.high - box.low);
     std::vector<const Instance*> firstOf(scene.meshes.size()); // instances
@@ -184,15 +184,15 @@ std::vector<HotSpot> hotSpots(const Scene& scene, std::size_t most)
             const std::string text = fmt::format("{}: {:.1f} % of {}", kind.words, share * 100, name)
                 + fmt::format(fmt::runtime(kind.here), worst.value);
             const auto corners = cornersOf(*instance, mesh, worst.triangle);
-            spots.push_back({text, m, share, kind.bad * worst.value * share, lookingAt(whole, *instance, corners),
+            areas.push_back({text, m, share, kind.bad * worst.value * share, lookingAt(whole, *instance, corners),
                              corners, kind.view, kind.storedTangents});
         }
     }
-    std::ranges::stable_sort(spots, std::greater(), &HotSpot::badness);
-    spots.resize(std::min(spots.size(), most));
-    for (HotSpot& spot : spots)
-        getPastOthers(scene, spot.corners, spot.camera);
-    return spots;
+    std::ranges::stable_sort(areas, std::greater(), &ProblemArea::severity);
+    areas.resize(std::min(areas.size(), most));
+    for (ProblemArea& area : areas)
+        getPastOthers(scene, area.corners, area.camera);
+    return areas;
 }
 
 } // namespace cotan

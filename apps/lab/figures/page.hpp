@@ -41,12 +41,6 @@ struct Page {
     std::string footer;
 };
 
-// Text that HTML shows as it is, inside elements and quoted attributes.
-std::string escapeHtml(std::string_view text);
-
-// RFC 4648 base64, with padding.
-std::string toBase64(std::string_view bytes);
-
 // The page. Every picture is inside it once, as a data URI; before and after are compared with a
 // slider, which a few lines of script make from two of the pictures: without script they stand side by side.
 std::string toHtml(const Page& page);
