@@ -1,5 +1,5 @@
 // BC5 and BC4, read back by the definition of their blocks.
-#include "map_files/block.hpp"
+#include "maps/block.hpp"
 
 #include <algorithm>
 #include <array>

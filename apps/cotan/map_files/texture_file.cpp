@@ -8,11 +8,11 @@
 
 #include <fmt/format.h>
 
-#include "block.hpp"
 #include "files/output.hpp"
 #include "image/dds.hpp"
 #include "image/format_table.hpp"
 #include "image/frame_key.hpp"
+#include "maps/block.hpp"
 
 namespace cotan::maps {
 

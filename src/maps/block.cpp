@@ -1,4 +1,4 @@
-#include "block.hpp"
+#include "maps/block.hpp"
 
 #include <algorithm>
 #include <array>
