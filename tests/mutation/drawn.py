@@ -36,7 +36,6 @@ TESTS = {
     "src/render": "reference_test draw_test render_test figures_test",
     "src/scene": "geometry_test shapes_test gltf_test reference_test environment_test",
     "src/shader_text": "shader_text_test frame_table_test",
-    "src/terminal": "words_test help_test command_line cli_test",
 }
 ENDINGS = (".cpp", ".hpp", ".h", ".py", ".js")
 BROKEN = WORK / "not_compiling.txt"  # so that another run over the same sources does not try them again
