@@ -289,6 +289,18 @@ TEST(PictureWords, aSizeThatIsNoneIsWhatTheCommandEndsWith)
     }
 }
 
+TEST(OptionNames, aFieldOfOptionsIsAnOptionAndMemoryIsNamedOnce)
+{
+    const auto named = [](const Error& error) { return withOptionNames(error).message; };
+    EXPECT_EQ(named(about("options.maxDistance", usageError("expected 0"))), "--max-distance: expected 0");
+    EXPECT_EQ(named(about("options.bake.frame", usageError("expected 0"))), "--bake.frame: expected 0");
+    EXPECT_EQ(named(about("high.maps", usageError("expected none"))), "high.maps: expected none");
+    EXPECT_EQ(named(inputError("options.glb: 5 x 5 pixels, the limit is 1 MiB")),
+              "options.glb: 5 x 5 pixels, the limit is 1 MiB"); // a file of that name
+    EXPECT_EQ(named(withOptionNames(memoryError("a.png: too large"))), "a.png: too large (--memory raises it)");
+    EXPECT_EQ(withOptionNames(memoryError("")).kind, ErrorKind::input);
+}
+
 TEST(PictureWords, lightingThatDoesNotGoTogetherIsToldInItsWords)
 {
     PictureOptions options;
