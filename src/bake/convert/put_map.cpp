@@ -14,7 +14,7 @@ namespace cotan {
 
 namespace {
 
-using Json = nlohmann::ordered_json;
+using gltf::Json;
 
 std::size_t appendTo(Json& root, const char* collection, Json item)
 {
