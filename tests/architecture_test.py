@@ -7,8 +7,8 @@ import sys
 
 ROOT = pathlib.Path(sys.argv[1])
 SRC = ROOT / "src"
-MOST_FOLDERS, MOST_ARROWS, MOST_HEADERS, MOST_LINES = 14, 80, 30, 58_500
-WITHOUT_HEADER = {"c", "terminal"}  # cotan.h; what only the tool and the C API use
+MOST_FOLDERS, MOST_ARROWS, MOST_HEADERS, MOST_LINES = 13, 80, 30, 58_500
+WITHOUT_HEADER = {"c"}  # it has cotan.h
 INCLUDE = re.compile(r'^\s*#\s*include\s+[<"]([^">]+)[">]', re.M)
 
 parts = sorted(p.name for p in SRC.iterdir() if p.is_dir())

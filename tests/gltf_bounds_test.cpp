@@ -158,11 +158,13 @@ TEST(GltfBounds, imagesOfAllAndOfOneAreHeldToTheirBytes)
         EXPECT_EQ(refusalOf(g, limits), "") << row.enough;
         limits.*row.field = row.enough - 1;
         EXPECT_NE(refusalOf(g, limits), "") << row.enough;
+        EXPECT_TRUE(g.load(limits).error().memory) << row.enough;
     }
     LoadLimits limits;
     limits.imageSide = 2;
     EXPECT_EQ(refusalOf(g, limits), "");
     limits.imageSide = 1;
+    EXPECT_FALSE(g.load(limits).error().memory);
     EXPECT_NE(refusalOf(g, limits).find("images[0]"), std::string::npos);
     limits = {};
     limits.pixels = cotan::Pixels::none; // then none is decoded

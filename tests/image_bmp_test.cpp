@@ -68,6 +68,7 @@ TEST_F(PictureFile, bmpOfRunsOfMorePixelsThanTheLimitIsRefusedBeforeTheyAreRead)
     EXPECT_TRUE(decodeImage(bytesOf(makeBmp(8, 1)), "a.bmp", limits));
     for (const std::string& height : {std::string("\0\1\0\0", 4), std::string("\0\xff\xff\xff", 4)}) { // 256, -256
         const std::string runs = makeBmp(8, 1).replace(22, 4, height);
+        EXPECT_TRUE(decodeImage(bytesOf(runs), "a.bmp", limits).error().memory);
         EXPECT_NE(
             messageOf(decodeImage(bytesOf(runs), "a.bmp", limits)).find("2 x 256 pixels of a byte, the limit is 16"),
             std::string::npos)

@@ -73,7 +73,9 @@ TEST_F(PictureFile, coefficientsOfAProgressiveJpegCountAgainstTheLimit)
 {
     LoadLimits limits;
     limits.imageBytes = 20000;
-    EXPECT_FALSE(decodeImage(bytesOf(makeJpeg(64, 64, true)), "a.jpg", limits));
+    const auto progressive = decodeImage(bytesOf(makeJpeg(64, 64, true)), "a.jpg", limits);
+    ASSERT_FALSE(progressive);
+    EXPECT_TRUE(progressive.error().memory);
     EXPECT_TRUE(decodeImage(bytesOf(makeJpeg(64, 64, false)), "a.jpg", limits));
     limits.imageBytes = 24576;
     EXPECT_TRUE(decodeImage(bytesOf(makeJpeg(64, 64, true)), "a.jpg", limits));

@@ -76,6 +76,11 @@ TEST_F(MapFiles, workOnASmallFileIsHeldToItsSize)
     ASSERT_FALSE(mips);
     EXPECT_NE(height.error().message.find("the solver takes"), std::string::npos) << height.error().message;
     EXPECT_NE(mips.error().message.find("the chain takes"), std::string::npos) << mips.error().message;
+    EXPECT_TRUE(height.error().memory && mips.error().memory);
+    files.limits.imageBytes = 1;
+    const auto rows = maps::surveyFile(flat, files); // a PNG is opened whatever its rows take, and refused then
+    ASSERT_FALSE(rows);
+    EXPECT_TRUE(rows.error().memory) << rows.error().message;
     EXPECT_FALSE(fs::exists(out));
 }
 

@@ -289,6 +289,18 @@ TEST(PictureWords, aSizeThatIsNoneIsWhatTheCommandEndsWith)
     }
 }
 
+TEST(OptionNames, aFieldOfOptionsIsAnOptionAndMemoryIsNamedOnce)
+{
+    const auto named = [](const Error& error) { return withOptionNames(error).message; };
+    EXPECT_EQ(named(about("options.maxDistance", usageError("expected 0"))), "--max-distance: expected 0");
+    EXPECT_EQ(named(about("options.bake.frame", usageError("expected 0"))), "--bake.frame: expected 0");
+    EXPECT_EQ(named(about("high.maps", usageError("expected none"))), "high.maps: expected none");
+    EXPECT_EQ(named(inputError("options.glb: 5 x 5 pixels, the limit is 1 MiB")),
+              "options.glb: 5 x 5 pixels, the limit is 1 MiB"); // a file of that name
+    EXPECT_EQ(named(withOptionNames(memoryError("a.png: too large"))), "a.png: too large (--memory raises it)");
+    EXPECT_EQ(withOptionNames(memoryError("")).kind, ErrorKind::input);
+}
+
 TEST(PictureWords, lightingThatDoesNotGoTogetherIsToldInItsWords)
 {
     PictureOptions options;
@@ -300,6 +312,143 @@ TEST(PictureWords, lightingThatDoesNotGoTogetherIsToldInItsWords)
     EXPECT_EQ(done.error().message,
               "--normal-mapping mirror-facet: expected --shading pbr and --lighting world with it; found blinn-phong "
               "and tangent-pixel");
+}
+
+// The options of `render`, as its help has them.
+std::vector<OptionHelp> declaredOptions()
+{
+    PictureOptions options;
+    std::string frame(kAutoFrame);
+    Arguments tool("tool", "", "");
+    addPictureOptions(tool, options);
+    addFrameOption(tool, frame);
+    addShowOption(tool, options.show);
+    return tool.describe().options;
+}
+
+// What the command line says to these words, without naming its help.
+std::string saidByCommandLine(const std::vector<std::string>& words)
+{
+    PictureOptions options;
+    std::string frame(kAutoFrame);
+    Arguments tool("tool", "", "");
+    addPictureOptions(tool, options);
+    addFrameOption(tool, frame);
+    addShowOption(tool, options.show);
+    tool.does([] { return Done{}; });
+    const Status done = tool.run(words, {});
+    const std::string said = done ? "" : done.error().message;
+    return said.substr(0, said.find(" (see tool --help)"));
+}
+
+std::string saidByLibrary(const std::vector<std::string>& words)
+{
+    PictureOptions options;
+    std::string frame(kAutoFrame);
+    const Status done = readPictureWords(words, options, frame);
+    EXPECT_TRUE(done || done.error().kind == ErrorKind::usage);
+    return done ? "" : done.error().message;
+}
+
+TEST(PictureWords, theLibraryTakesAndRefusesWhatTheCommandLineDoes)
+{
+    std::size_t options = 0;
+    for (const OptionHelp& help : declaredOptions()) {
+        const std::string name = help.names.back();
+        if (name == "--help" || name == "--version" || name == "--list-frames" || help.positional)
+            continue;
+        ++options;
+        if (help.value.empty()) {
+            EXPECT_EQ(saidByLibrary({name}), "");
+            continue;
+        }
+        std::vector<std::string> words = {"",    "prb", "-1", "0",     "1",      "3.5",     "16",  "0x10",
+                                          "nan", "1e9", "61", "65537", "100001", "640x480", "a\nb"};
+        words.insert(words.end(), {help.least, help.most});
+        words.insert(words.end(), help.words.begin(), help.words.end());
+        for (const std::string& word : words)
+            EXPECT_EQ(saidByLibrary({name, word}), saidByCommandLine({name, word})) << name << " " << word;
+    }
+    EXPECT_EQ(options, 37u);
+}
+
+TEST(PictureWords, theLibraryReadsTheSameValues)
+{
+    for (const WordRow& row : kWordRows)
+        for (const bool joined : {false, true}) {
+            PictureOptions options;
+            std::string frame;
+            const std::string option = row.option, word = row.word;
+            const std::vector<std::string> words =
+                joined ? std::vector{option + "=" + word} : std::vector{option, word};
+            EXPECT_TRUE(readPictureWords(words, options, frame)) << option << " " << word;
+            EXPECT_TRUE(row.holds(options)) << option << " " << word;
+        }
+    PictureOptions o;
+    std::string frame;
+    const std::vector<std::string> words = {"--memory",
+                                            "0x10",
+                                            "--material=-1",
+                                            "--normal-map",
+                                            "n.png",
+                                            "--convention=directx",
+                                            "--base-color=b=c.png",
+                                            "--metallic-roughness",
+                                            "m.png",
+                                            "--occlusion=",
+                                            "--variant",
+                                            "--",
+                                            "--animation=2",
+                                            "--time",
+                                            "0.1",
+                                            "--camera",
+                                            "-1,2,3,0,0,0",
+                                            "--device=reference",
+                                            "--frame",
+                                            "smooth",
+                                            "--view",
+                                            "uv",
+                                            "--environment=evening",
+                                            "--environment-rotation",
+                                            "-30.5",
+                                            "--environment-intensity",
+                                            "0.1",
+                                            "--shadow-softness=0.5",
+                                            "--no-shadows",
+                                            "--no-normal-maps",
+                                            "--specular-antialiasing",
+                                            "--point-sampled",
+                                            "--",
+                                            "--model"};
+    ASSERT_TRUE(readPictureWords(words, o, frame));
+    EXPECT_EQ(o.memory, 16);
+    EXPECT_EQ(o.maps.material, -1);
+    EXPECT_EQ(o.maps.normal + o.maps.convention + o.maps.baseColor, "n.pngdirectxb=c.png");
+    EXPECT_EQ(o.maps.metallicRoughness + o.maps.occlusion + o.variant + o.animation, "m.png--2");
+    EXPECT_EQ(o.time, 0.1);
+    EXPECT_EQ(o.camera + o.device + frame + o.show, "-1,2,3,0,0,0referencesmoothuv");
+    EXPECT_EQ(o.environment, "evening");
+    EXPECT_EQ(o.environmentRotation, -30.5);
+    EXPECT_EQ(o.environmentIntensity, 0.1f);
+    EXPECT_EQ(o.shadowSoftness, 0.5);
+    EXPECT_TRUE(o.noShadows && o.noNormalMaps && o.specularAntialiasing && o.pointSampled);
+    EXPECT_EQ(o.model, "--model");
+}
+
+TEST(PictureWords, theLibraryRefusesWhatIsNoOptionOfAPicture)
+{
+    for (const auto& [words, said] : {std::pair(std::vector<std::string>{"-o", "a.png"}, "unknown option -o"),
+                                      {{"--help"}, "unknown option --help"},
+                                      {{"--sizes=8"}, "unknown option --sizes"},
+                                      {{"a.glb", "b.glb"}, "unexpected word 'b.glb'"},
+                                      {{"a.glb", "--", "--"}, "unexpected word '--'"},
+                                      {{"--size"}, "--size needs a value"},
+                                      {{"--up=y", "--up", "z"}, "--up is given 2 times; expected once"},
+                                      {{"--no-shadows=\n"}, "--no-shadows takes no value; found ' '"}})
+        EXPECT_EQ(saidByLibrary(words), said);
+    EXPECT_EQ(saidByLibrary({"-"}), ""); // a model
+    EXPECT_EQ(saidByLibrary({"--no-shadows", "--no-shadows"}), "");
+    EXPECT_EQ(saidByLibrary({}), "");
 }
 
 TEST(PictureWords, exposureIsAutoOrAPositiveNumber)

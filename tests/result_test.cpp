@@ -47,6 +47,25 @@ TEST(Result, kindsAreTheExitCodes)
     EXPECT_EQ(int(outputError("").kind), 4);
     EXPECT_EQ(int(ErrorKind::limit), 5);
     EXPECT_EQ(int(Error{}.kind), 2);
+    EXPECT_EQ(int(memoryError("").kind), 2);
+    EXPECT_TRUE(memoryError("").memory);
+    EXPECT_FALSE(inputError("").memory);
+}
+
+TEST(Result, anErrorKnowsTheFieldThatItsMessageBeginsWith)
+{
+    const Error error = about("options.tiles", memoryError("expected fewer"));
+    EXPECT_EQ(error.message, "options.tiles: expected fewer");
+    EXPECT_EQ(error.field, "options.tiles");
+    EXPECT_TRUE(error.memory);
+    const Error outer = about("bake", error);
+    EXPECT_EQ(outer.message, "bake: options.tiles: expected fewer");
+    EXPECT_EQ(outer.field, "bake");
+    const Error other = reworded(error, "a.png: too large");
+    EXPECT_EQ(other.message, "a.png: too large");
+    EXPECT_EQ(other.field, "");
+    EXPECT_EQ(other.kind, ErrorKind::input);
+    EXPECT_TRUE(other.memory);
 }
 
 } // namespace

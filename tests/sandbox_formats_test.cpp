@@ -121,6 +121,29 @@ TEST(SandboxFormats, errorsOfAReaderAreTheSameLine)
               loadScene(folder / "none.obj").error().message);
 }
 
+// So that the tool names the option that raises the limit, whoever has read the file.
+TEST(SandboxFormats, aReaderThatMeetsALimitOfMemorySaysSo)
+{
+    const TemporaryFolder folder;
+    for (const char* name : {"a.tif", "a.exr", "a.tga"}) {
+        ASSERT_TRUE(writeImage(folder / name, gradient(70, 50, PixelType::unorm8)));
+        for (LoadLimits limits : {LoadLimits(), inChild()}) {
+            limits.imageBytes = 1000;
+            const auto whole = readImage(folder / name, limits);
+            ASSERT_FALSE(whole) << name;
+            EXPECT_TRUE(whole.error().memory) << whole.error().message;
+            limits.imageBytes = limits.imageBytesBeyond = 200; // less than a row
+            const auto rows = openRows(folder / name, limits);
+            ASSERT_FALSE(rows) << name;
+            EXPECT_TRUE(rows.error().memory) << rows.error().message;
+        }
+        std::ofstream(folder / name) << "garbage";
+        const auto broken = readImage(folder / name, inChild());
+        ASSERT_FALSE(broken);
+        EXPECT_FALSE(broken.error().memory);
+    }
+}
+
 TEST(SandboxFormats, picturesAndTheirRowsAreTheSameToTheBit)
 {
     const TemporaryFolder folder;

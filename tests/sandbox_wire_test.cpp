@@ -210,6 +210,22 @@ TEST(Wire, everyTextureAndNumberOfAMaterialArrives)
     EXPECT_TRUE(b.doubleSided && b.unlit);
 }
 
+TEST(Wire, anErrorArrivesWithItsKindAndWhetherMemoryWasShort)
+{
+    for (const Error& error : {memoryError("a.png: too large"), unavailableError("not here")}) {
+        const Bytes bytes = written([&](WireOut& out) { exchangeError(out, error); });
+        std::size_t at = 0;
+        WireIn in = arriving(bytes, at, 3);
+        Error back;
+        exchangeError(in, back);
+        ASSERT_TRUE(in.good());
+        EXPECT_EQ(at, bytes.size());
+        EXPECT_EQ(back.kind, error.kind);
+        EXPECT_EQ(back.message, error.message);
+        EXPECT_EQ(back.memory, error.memory);
+    }
+}
+
 TEST(Wire, largeArraysArriveWhole)
 {
     std::vector<std::uint32_t> numbers(9'000'000), back; // over the step in which memory is taken

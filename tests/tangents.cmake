@@ -7,6 +7,9 @@ cotan_test(tangents_gltf_test
   SOURCES tangents_gltf_test.cpp
   LIBRARIES cotan_model cotan_scene)
 
+# Loops as they are without oneTBB, which no part that has it would compile.
+cotan_test(loops_test SOURCES loops_test.cpp LIBRARIES cotan_core)
+
 # Where size_t has 32 bits.
 add_test(NAME Core.isRightWhereSizesHave32Bits
   COMMAND ${CMAKE_COMMAND} -DCXX=${CMAKE_CXX_COMPILER} "-DFLAGS=-m32 -idirafter /usr/include/${CMAKE_LIBRARY_ARCHITECTURE}"

@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include "picture/words.hpp"
+#include "picture_options.hpp"
 #include "session.hpp"
 #include "settings.hpp"
 #include "terminal/arguments.hpp"
@@ -221,7 +221,7 @@ TEST(ViewerSettings, haveTheBoundsAndWordsOfTheCommandLine)
     PictureOptions declared;
     Arguments tool("tool", "", "");
     Arguments command = tool.command("render", "");
-    addPictureOptions(command, declared);
+    app::addPictureOptions(command, declared);
     std::map<std::string, OptionHelp> help;
     const CommandHelp described = tool.describe();
     for (const OptionHelp& o : described.commands.at(0).options)

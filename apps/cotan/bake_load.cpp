@@ -283,7 +283,7 @@ Error withBakeOptionNames(const BakeCommandOptions& o, const Error& error)
         {"document", o.low, ""},
     };
     for (const auto& [field, words, hint] : all)
-        if (error.message.starts_with(std::string(field) + ": "))
+        if (error.field == field)
             return {error.kind, words + error.message.substr(field.size()) + hint};
     return withOptionNames(error);
 }

@@ -6,7 +6,7 @@
 #include <fmt/ranges.h>
 
 #include "core/not_built.hpp"
-#include "picture/words.hpp"
+#include "picture_options.hpp"
 
 namespace cotan::app {
 

@@ -11,19 +11,15 @@ namespace cotan::app {
 Error withOptionNames(const Error& error)
 {
     std::string text = error.message;
-    constexpr std::string_view kField = "options.";
-    if (text.starts_with(kField)) {
+    constexpr std::string_view kOptions = "options.";
+    if (error.field.starts_with(kOptions)) {
         std::string option = "--";
-        const std::size_t end = text.find(':');
-        for (const char c : text.substr(kField.size(), end - kField.size()))
+        for (const char c : error.field.substr(kOptions.size()))
             option += std::isupper(static_cast<unsigned char>(c)) ? std::string("-") + char(std::tolower(c))
                                                                   : std::string(1, c);
-        text = option + text.substr(end);
+        text.replace(0, error.field.size(), option);
     }
-    const auto says = [&](const char* words) { return text.find(words) != std::string::npos; };
-    const bool memory = (says("the limit is") && says("pixels")) || (says(" MiB") && says(", the limit is"))
-        || says("images together take more than the limit");
-    return {error.kind, text + (memory ? " (--memory raises it)" : "")};
+    return {error.kind, text + (error.memory ? " (--memory raises it)" : "")}; // once
 }
 
 Result<Scene> loadSceneWithin(const LoadLimits& limits, const std::filesystem::path& file)

@@ -8,7 +8,7 @@
 #include "cotan/convention.hpp"
 #include "cotan/render.hpp"
 #include "cotan/scene.hpp"
-#include "picture/words.hpp"
+#include "picture_options.hpp"
 
 namespace cotan::app {
 

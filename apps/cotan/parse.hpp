@@ -9,7 +9,7 @@
 #include "cotan/frame.hpp"
 #include "cotan/result.hpp"
 #include "cotan/view.hpp"
-#include "picture/words.hpp"
+#include "picture_options.hpp"
 
 namespace cotan::app {
 

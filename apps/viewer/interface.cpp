@@ -11,7 +11,7 @@
 #include "commands.hpp"
 #include "files.hpp"
 #include "inspect/angles.hpp"
-#include "picture/words.hpp"
+#include "picture/option_words.hpp"
 #include "scene/bounds.hpp"
 #include "settings.hpp"
 

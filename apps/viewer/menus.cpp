@@ -10,7 +10,7 @@
 #include "cotan/view.hpp"
 #include "files.hpp"
 #include "parse.hpp"
-#include "picture/words.hpp"
+#include "picture/option_words.hpp"
 #include "settings.hpp"
 
 namespace cotan::viewer {

@@ -4,7 +4,7 @@
 
 #include "cotan/render.hpp"
 #include "parse.hpp"
-#include "picture/words.hpp"
+#include "picture/option_words.hpp"
 
 namespace cotan::viewer {
 

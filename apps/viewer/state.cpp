@@ -10,7 +10,7 @@
 #include "cotan/render.hpp"
 #include "files.hpp"
 #include "image/format_table.hpp"
-#include "picture/words.hpp"
+#include "picture/option_words.hpp"
 #include "scene/bounds.hpp"
 #include "settings.hpp"
 

@@ -24,14 +24,16 @@ glm::ivec2 squareOf(int udim)
 Result<BakedMap> bakeTile(const BakeSetup& setup, int tile, const Progress& progress)
 {
     if (tile < kFirstUdim)
-        return usageError(fmt::format("options.tiles: expected numbers from {} on; found {}", kFirstUdim, tile));
+        return about("options.tiles",
+                     usageError(fmt::format("expected numbers from {} on; found {}", kFirstUdim, tile)));
     BakeOptions options = setup.options.bake;
     options.tile = squareOf(tile);
     auto baked = bake(setup.low, setup.high, options, progress);
     if (!baked)
         return baked.error();
     if (baked->statistics.covered + baked->statistics.touched == 0)
-        return inputError(fmt::format("options.tiles: no triangle lies on tile {} of the texture coordinates", tile));
+        return about("options.tiles",
+                     inputError(fmt::format("no triangle lies on tile {} of the texture coordinates", tile)));
     const auto start = std::chrono::steady_clock::now();
     if (setup.options.padding >= 0)
         padCharts(*baked, setup.options.padding);

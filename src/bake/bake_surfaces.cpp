@@ -238,10 +238,11 @@ Result<Baked> bake(const LowSurface& low, const HighSurface& high, const BakeOpt
         return inputError(fmt::format("cage: expected {} vertices, as many as the low mesh has; found {}",
                                       low.positions.size(), options.cage.size()));
     if (options.frame != low.frame)
-        return usageError(fmt::format("options.frame: expected {}, which the low surface was made for; found {}",
-                                      name(low.frame), name(options.frame)));
+        return about("options.frame",
+                     usageError(fmt::format("expected {}, which the low surface was made for; found {}",
+                                            name(low.frame), name(options.frame))));
     if (options.starts && options.starts->directions.size() != low.positions.size())
-        return usageError("options.starts: made for another low surface");
+        return about("options.starts", usageError("made for another low surface"));
     const auto start = std::chrono::steady_clock::now();
     Baked out;
     out.width = options.width;

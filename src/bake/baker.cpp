@@ -7,6 +7,8 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
+#include "core/other_axis.hpp"
+
 namespace cotan {
 
 namespace {
@@ -232,8 +234,7 @@ std::size_t Baker::valuesOf(const LowPoints& points, const Probes& probes, const
 // Cosine-weighted directions of a golden-ratio spiral around n, turned by the texel's own angle.
 float Baker::openness(glm::vec3 where, glm::vec3 face, glm::vec3 n, std::uint32_t pattern) const
 {
-    const glm::vec3 side = std::abs(n.x) < 0.7f ? glm::vec3(1, 0, 0) : glm::vec3(0, 1, 0);
-    const glm::vec3 t = glm::normalize(glm::cross(side, n)), b = glm::cross(n, t);
+    const glm::vec3 t = glm::normalize(glm::cross(otherAxis(n), n)), b = glm::cross(n, t);
     const float length = glm::length(face);
     const glm::vec3 origin = where + (length > 0 ? face / length : n) * lift_;
     const double turn = double(pattern * 2654435769u) / 4294967296.0 * 2 * std::numbers::pi;

@@ -7,6 +7,7 @@
 #include <glm/geometric.hpp>
 
 #include "core/loops.hpp"
+#include "core/other_axis.hpp"
 
 namespace cotan {
 
@@ -61,18 +62,13 @@ struct Fit {
     }
 };
 
-glm::dvec3 acrossFrom(const glm::dvec3& n)
-{
-    return glm::normalize(glm::cross(std::abs(n.x) < 0.7 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0), n));
-}
-
 ShapeOperator fitted(std::span<const glm::vec3> positions, std::span<const glm::vec3> normals, std::uint32_t v,
                      std::span<const std::uint32_t> neighbours)
 {
     const glm::dvec3 p(positions[v]), n(normals[v]);
     if (!(glm::dot(n, n) > 0.5))
         return {};
-    const glm::dvec3 e1 = acrossFrom(n), e2 = glm::cross(n, e1);
+    const glm::dvec3 e1 = glm::normalize(glm::cross(otherAxis(n), n)), e2 = glm::cross(n, e1);
     double size2 = 0; // lengths are measured in it
     for (const std::uint32_t j : neighbours)
         size2 = std::max(size2, glm::dot(glm::dvec3(positions[j]) - p, glm::dvec3(positions[j]) - p));

@@ -25,37 +25,44 @@ Status checkRanges(const Scene& low, const HighModel& high, const BakeModelOptio
 {
     const BakeOptions& b = options.bake;
     if (b.width < 1 || b.height < 1 || b.width > kLargestSide || b.height > kLargestSide)
-        return usageError(fmt::format("options.bake: expected a width and a height from 1 to {}; found {}x{}",
-                                      kLargestSide, b.width, b.height));
+        return about("options.bake",
+                     usageError(fmt::format("expected a width and a height from 1 to {}; found {}x{}", kLargestSide,
+                                            b.width, b.height)));
     if (b.samples != 1 && b.samples != 2 && b.samples != 4)
-        return usageError(
-            fmt::format("options.bake: expected 1, 2 or 4 samples a texel and axis; found {}", b.samples));
+        return about("options.bake",
+                     usageError(fmt::format("expected 1, 2 or 4 samples a texel and axis; found {}", b.samples)));
     if (!isFrame(int(b.frame)) || !isFrame(int(options.highFrame)))
-        return usageError(fmt::format("options.{}: expected 0 to {}; found {}",
-                                      isFrame(int(b.frame)) ? "highFrame" : "bake.frame", kFrameCount - 1,
-                                      int(isFrame(int(b.frame)) ? options.highFrame : b.frame)));
+        return about(isFrame(int(b.frame)) ? "options.highFrame" : "options.bake.frame",
+                     usageError(fmt::format("expected 0 to {}; found {}", kFrameCount - 1,
+                                            int(isFrame(int(b.frame)) ? options.highFrame : b.frame))));
     if (options.tiles.empty())
-        return usageError("options.tiles: expected one tile or more; found none");
+        return about("options.tiles", usageError("expected one tile or more; found none"));
     if (b.occlusionRays < 1 || b.occlusionRays > kMaxOcclusionRays)
-        return usageError(fmt::format("options.bake: expected 1 to {} rays for occlusion; found {}", kMaxOcclusionRays,
-                                      b.occlusionRays));
+        return about("options.bake",
+                     usageError(fmt::format("expected 1 to {} rays for occlusion; found {}", kMaxOcclusionRays,
+                                            b.occlusionRays)));
     if (!(b.maxDistance >= 0 && b.maxDistance <= kFarthest))
-        return usageError(fmt::format("options.maxDistance: expected 0 to {:g}; found {:g}", kFarthest, b.maxDistance));
+        return about("options.maxDistance",
+                     usageError(fmt::format("expected 0 to {:g}; found {:g}", kFarthest, b.maxDistance)));
     if (!(b.cageReach >= 0 && b.cageReach <= kFarthest))
-        return usageError(fmt::format("options.cageReach: expected 0 to {:g}; found {:g}", kFarthest, b.cageReach));
+        return about("options.cageReach",
+                     usageError(fmt::format("expected 0 to {:g}; found {:g}", kFarthest, b.cageReach)));
     if (!(b.extrusion >= 0 && b.extrusion <= kFarthest))
-        return usageError(fmt::format("options.extrusion: expected 0 to {:g}; found {:g}", kFarthest, b.extrusion));
+        return about("options.extrusion",
+                     usageError(fmt::format("expected 0 to {:g}; found {:g}", kFarthest, b.extrusion)));
     if (options.cage && (b.search == BakeSearch::nearest || b.extrusion > 0))
-        return usageError(fmt::format("options.{}: a cage says already where rays start, and the first surface counts",
-                                      b.extrusion > 0 ? "extrusion" : "search"));
+        return about(b.extrusion > 0 ? "options.extrusion" : "options.search",
+                     usageError("a cage says already where rays start, and the first surface counts"));
     if (b.search == BakeSearch::nearest && b.extrusion > 0)
-        return usageError("options.extrusion: the search nearest looks both ways from the low surface");
+        return about("options.extrusion", usageError("the search nearest looks both ways from the low surface"));
     if (options.material >= int(low.materials.size()))
-        return usageError(fmt::format("options.material: expected 0 to {}; found {}", int(low.materials.size()) - 1,
-                                      options.material));
+        return about(
+            "options.material",
+            usageError(fmt::format("expected 0 to {}; found {}", int(low.materials.size()) - 1, options.material)));
     if (high.maps.size() > 1 && high.maps.size() != high.scenes.size())
-        return usageError(fmt::format("high.maps: expected none, one, or one for each of the {} scenes; found {}",
-                                      high.scenes.size(), high.maps.size()));
+        return about("high.maps",
+                     usageError(fmt::format("expected none, one, or one for each of the {} scenes; found {}",
+                                            high.scenes.size(), high.maps.size())));
     return Done{};
 }
 
@@ -82,8 +89,9 @@ Result<std::vector<glm::vec3>> cagePositions(const Scene& cage, const LowSurface
             corners.push_back(glm::vec3(instance.toWorld * glm::vec4(mesh.positions[i], 1)));
     }
     if (corners.size() != low.indices.size())
-        return inputError(fmt::format("options.cage: expected a cage of {} triangles, as the low mesh has; found {}",
-                                      low.triangleCount(), corners.size() / 3));
+        return about("options.cage",
+                     inputError(fmt::format("expected a cage of {} triangles, as the low mesh has; found {}",
+                                            low.triangleCount(), corners.size() / 3)));
     std::vector<glm::vec3> positions(low.positions.size());
     for (std::size_t i = 0; i < corners.size(); ++i)
         positions[low.indices[i]] = corners[i];
@@ -96,8 +104,9 @@ Status checkPlaces(const std::vector<glm::vec3>& points, const char* what)
     for (const glm::vec3& p : points)
         for (const float x : {p.x, p.y, p.z})
             if (!(std::abs(x) <= kFarthest))
-                return inputError(
-                    fmt::format("{}: expected positions up to {:g} from the origin; found {:g}", what, kFarthest, x));
+                return about(
+                    what,
+                    inputError(fmt::format("expected positions up to {:g} from the origin; found {:g}", kFarthest, x)));
     return Done{};
 }
 
@@ -229,7 +238,8 @@ Result<std::vector<std::int64_t>> matches(const Scene& low, const HighSurface& h
         const auto found =
             std::find_if(names.begin(), names.end(), [&](const std::string& n) { return stem(n) == stem(name); });
         if (found == names.end())
-            return inputError(fmt::format("options.matchByName: no high mesh is named like the low mesh '{}'", name));
+            return about("options.matchByName",
+                         inputError(fmt::format("no high mesh is named like the low mesh '{}'", name)));
         result.push_back(found - names.begin());
     }
     return result;

@@ -96,7 +96,7 @@ inline std::string_view word(const char* text, const char* name)
 template<class T> T valueOf(Result<T> result, const char* name)
 {
     if (!result)
-        fail(result.error().kind, std::string(name) + ": " + result.error().message);
+        throw Failure{about(name, result.error())};
     return *std::move(result);
 }
 

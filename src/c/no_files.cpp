@@ -7,10 +7,7 @@ using namespace cotan::c;
 
 namespace {
 
-Error noFiles()
-{
-    return notBuiltWith("files", "libcli11-dev, libfmt-dev, nlohmann-json3-dev, libpng-dev and libjpeg-dev");
-}
+Error noFiles() { return notBuiltWith("files", "libfmt-dev, nlohmann-json3-dev, libpng-dev and libjpeg-dev"); }
 
 } // namespace
 

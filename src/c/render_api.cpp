@@ -5,7 +5,7 @@
 #include "inspect/statistics.hpp"
 #include "json_text.hpp"
 #include "model_files.hpp"
-#include "picture/words.hpp"
+#include "picture/option_words.hpp"
 #include "scene/meant_frame.hpp"
 
 using namespace cotan;
@@ -22,19 +22,11 @@ struct Wanted {
 Wanted readWords(const cotan_render_options& o)
 {
     Wanted wanted;
-    Arguments a("render", "", "");
-    addPictureOptions(a, wanted.picture);
-    addFrameOption(a, wanted.frame);
-    addShowOption(a, wanted.picture.show);
-    a.does([] { return Done{}; });
     require(o.word_count == 0 || o.words, "options.words: expected an array, found null");
     std::vector<std::string> words;
     for (std::size_t i = 0; i < o.word_count; ++i)
         words.emplace_back(word(o.words[i], "options.words"));
-    const auto print = [](const std::string&) {
-        fail(ErrorKind::usage, "options.words: expected what is to be drawn, found --help or --version");
-    };
-    if (const Status read = a.run(std::move(words), print); !read)
+    if (const Status read = readPictureWords(words, wanted.picture, wanted.frame); !read)
         throw Failure{read.error()};
     wanted.picture.use = wanted.picture.show != "shaded" ? PictureUse::data
         : o.floats != 0                                  ? PictureUse::radiance

@@ -1,10 +1,14 @@
-// Loops that may run on several threads: by oneTBB where the library is built with it, one step after the other where
-// not. Which thread does what never shows in a result.
+// Loops that may run on several threads: by oneTBB where the library is built with it, by core/parallel.hpp where not.
+// Which thread does what never shows in a result. How many they use, withThreads says, for all that is called inside.
 #pragma once
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
 #include <utility>
+#include <vector>
+
+#include "core/parallel.hpp"
 
 #ifdef COTAN_WITH_TBB
 #include <oneapi/tbb/blocked_range.h>
@@ -24,9 +28,15 @@ template<class Index, class Work> void parallelRanges(Index first, Index last, I
         oneapi::tbb::blocked_range<Index>(first, last, std::size_t(grain)),
         [&](const oneapi::tbb::blocked_range<Index>& range) { work(range.begin(), range.end()); });
 #else
-    static_cast<void>(grain);
-    if (first < last)
-        work(first, last);
+    if (!(first < last))
+        return;
+    const auto count = std::size_t(last - first);
+    const std::size_t threads = threadsFor(SIZE_MAX, 1);
+    // Some parts a thread, so that one that is held up does not keep the others waiting.
+    const std::size_t parts = threads == 1 ? 1 : std::clamp<std::size_t>(count / std::size_t(grain), 1, 8 * threads);
+    runTasks(parts, threads, [&](std::size_t i) {
+        work(Index(first + Index(partBegin(count, i, parts))), Index(first + Index(partBegin(count, i + 1, parts))));
+    });
 #endif
 }
 
@@ -42,11 +52,11 @@ template<class Index, class Work> void parallelFor(Index first, Index last, cons
 // What work() returns, its loops run on at most that many threads; 0: as many as the caller may use, else all cores.
 template<class Work> auto withThreads(int threads, const Work& work)
 {
+    const ThreadLimit limit(threads > 0 ? threads : threadLimit);
 #ifdef COTAN_WITH_TBB
     if (threads > 0)
         return oneapi::tbb::task_arena(threads).execute(work);
 #endif
-    static_cast<void>(threads);
     return work();
 }
 
@@ -56,7 +66,7 @@ inline int loopThreads()
 #ifdef COTAN_WITH_TBB
     return oneapi::tbb::this_task_arena::max_concurrency();
 #else
-    return 1;
+    return int(threadsFor(SIZE_MAX, 1));
 #endif
 }
 
@@ -84,10 +94,17 @@ void pipeline(std::size_t most, const Read& read, const Work& work, const Give& 
                                & tbb::make_filter<Item, Item>(tbb::filter_mode::parallel, stage)
                                & tbb::make_filter<Item, void>(tbb::filter_mode::serial_in_order, sink));
 #else
-    static_cast<void>(most);
-    while (Item item = read()) {
-        work(item);
-        give(item);
+    for (bool more = true; more;) {
+        std::vector<Item> items;
+        while (items.size() < std::max<std::size_t>(most, 1) && more) {
+            Item item = read();
+            more = bool(item);
+            if (more)
+                items.push_back(std::move(item));
+        }
+        parallelFor(std::size_t(0), items.size(), [&](std::size_t i) { work(items[i]); });
+        for (const Item& item : items)
+            give(item);
     }
 #endif
 }

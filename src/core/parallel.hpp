@@ -1,4 +1,8 @@
-// Loops over several threads. Which thread does what never shows in a result.
+// Loops over several threads, by std::thread. Which thread does what never shows in a result.
+//
+// This is all that there is where the library is built without oneTBB, and the core is: its packages need GLM and
+// nothing else. Other parts include core/loops.hpp, whose loops are oneTBB's where it is there, because they lie inside
+// one another and are many: its threads are started once and help each other.
 #pragma once
 
 #include <algorithm>
@@ -9,6 +13,7 @@
 #include <mutex>
 #include <system_error>
 #include <thread>
+#include <utility>
 #include <vector>
 
 namespace cotan {
@@ -19,18 +24,36 @@ inline constexpr bool kHasThreads = false;
 inline constexpr bool kHasThreads = true;
 #endif
 
+// How many threads a loop that is started on this thread may use; 0: as many as there are cores.
+inline thread_local int threadLimit = 0;
+
+// Another limit while it lives.
+class ThreadLimit {
+public:
+    explicit ThreadLimit(int threads) : before_(std::exchange(threadLimit, threads)) {}
+    ~ThreadLimit() { threadLimit = before_; }
+    ThreadLimit(const ThreadLimit&) = delete;
+    ThreadLimit& operator=(const ThreadLimit&) = delete;
+
+private:
+    int before_;
+};
+
 // How many threads are worth starting for `count` items, of which one thread should get at least
-// `least`. wanted 0: all cores.
-inline std::size_t threadsFor(std::size_t count, std::size_t least, int wanted)
+// `least`. wanted 0: as many as this thread may use.
+inline std::size_t threadsFor(std::size_t count, std::size_t least, int wanted = 0)
 {
     if (!kHasThreads)
         return 1;
-    const std::size_t most = wanted > 0 ? std::size_t(wanted) : std::max(1u, std::thread::hardware_concurrency());
+    const std::size_t most = wanted > 0 ? std::size_t(wanted)
+        : threadLimit > 0               ? std::size_t(threadLimit)
+                                        : std::max(1u, std::thread::hardware_concurrency());
     return std::clamp<std::size_t>(count / least, 1, most);
 }
 
 // Calls run(i) for all i < tasks, on `threads` threads, this one among them. Where a thread cannot
-// be started the others do its work. Throws what a task has thrown, after all threads have ended.
+// be started the others do its work. Loops inside of tasks share the threads that are left over.
+// Throws what a task has thrown, after all threads have ended.
 template<class Run> void runTasks(std::size_t tasks, std::size_t threads, const Run& run)
 {
     if constexpr (!kHasThreads) {
@@ -41,7 +64,9 @@ template<class Run> void runTasks(std::size_t tasks, std::size_t threads, const 
     std::atomic<std::size_t> next{0};
     std::exception_ptr problem;
     std::mutex guard;
+    const std::size_t used = std::clamp<std::size_t>(threads, 1, std::max<std::size_t>(tasks, 1));
     const auto work = [&] {
+        const ThreadLimit inside(int(std::max<std::size_t>(threads / used, 1)));
         try {
             for (std::size_t i; (i = next.fetch_add(1)) < tasks;)
                 run(i);
@@ -51,9 +76,9 @@ template<class Run> void runTasks(std::size_t tasks, std::size_t threads, const 
         }
     };
     std::vector<std::thread> others;
-    others.reserve(threads);
+    others.reserve(used);
     try {
-        for (std::size_t i = 1; i < std::min(threads, tasks); ++i)
+        for (std::size_t i = 1; i < used; ++i)
             others.emplace_back(work);
     } catch (const std::system_error&) {
         // no more threads to be had

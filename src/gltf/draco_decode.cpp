@@ -174,7 +174,7 @@ try {
         meshes.push_back(decode(job));
     return meshes;
 } catch (const GltfProblem& problem) {
-    return inputError(problem.message);
+    return inputError(problem.error.message);
 } catch (const std::bad_alloc&) {
     return inputError("not enough memory for a Draco stream");
 }

@@ -103,7 +103,7 @@ Result<std::vector<std::byte>> gltfImageBytes(const GltfDocument& document, std:
             return std::move(resource.bytes);
         return readGltfResource(document.source->file, resource.file, limits);
     } catch (const GltfProblem& problem) {
-        return inputError(document.source->path.string() + ": " + problem.message);
+        return inputError(document.source->path.string() + ": " + problem.error.message);
     }
 }
 

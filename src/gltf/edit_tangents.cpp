@@ -133,7 +133,7 @@ Result<std::size_t> setGltfTangents(GltfDocument& document, std::span<const Gltf
             added += setGroup(document, group);
         return added;
     } catch (const GltfProblem& problem) {
-        return inputError(document.source->path.string() + ": " + problem.message);
+        return inputError(document.source->path.string() + ": " + problem.error.message);
     } catch (const Error& error) {
         return error;
     }

@@ -179,7 +179,7 @@ GltfFile openGltf(const fs::path& path, const LoadLimits& limits, GltfWarnings& 
     file.readFile = limits.readFile;
     Result<std::vector<std::byte>> bytes = readGltfResource(file, path, limits);
     if (!bytes)
-        throw GltfProblem{bytes.error().message};
+        throw GltfProblem{inputError(bytes.error().message)};
     file.bytes = std::move(*bytes);
     file.size = file.bytes.size();
     if (!file.readFile)

@@ -48,7 +48,7 @@ std::vector<std::byte> readImageFile(const GltfFile& model, const fs::path& file
 {
     Result<std::vector<std::byte>> bytes = readGltfResource(model, file, limits);
     if (!bytes)
-        throw GltfProblem{bytes.error().message};
+        throw GltfProblem{inputError(bytes.error().message)};
     return std::move(*bytes);
 }
 
@@ -72,7 +72,7 @@ Image decode(const GltfFile& model, ImageSource source, const LoadLimits& limits
         failGltf("expected PNG or JPEG data in {}", source.name);
     Result<Image> image = decodeImage(source.bytes, source.name, limits);
     if (!image)
-        throw GltfProblem{image.error().message, image.error().kind};
+        throw GltfProblem{image.error()};
     return std::move(*image);
 }
 
@@ -99,7 +99,8 @@ public:
         std::size_t left = left_.load();
         do {
             if (bytes > left)
-                failGltf("all images together take more than the limit of {} bytes", all_);
+                throw GltfProblem{
+                    memoryError(fmt::format("all images together take more than the limit of {} bytes", all_))};
         } while (!left_.compare_exchange_weak(left, left - bytes));
     }
 
@@ -157,14 +158,14 @@ void GltfMaterials::decodeImages()
             budget.take(decoded.data.size());
             scene_.images[static_cast<std::size_t>(slot)] = std::move(decoded);
         } catch (const GltfProblem& problem) {
-            problems[i] = {imageField(image) + ": " + problem.message, problem.kind};
+            problems[i] = {reworded(problem.error, imageField(image) + ": " + problem.error.message)};
         }
     };
     // What is not ours may not like threads.
     const bool ours = !model_.limits.decode && !model_.file.readFile;
     withThreads(ours ? 0 : 1, [&] { parallelFor(std::size_t(0), jobs.size(), decodeOne); });
     for (const GltfProblem& problem : problems) // the first in the file, whichever came first
-        if (!problem.message.empty())
+        if (!problem.error.message.empty())
             throw problem;
     for (const Material& material : scene_.materials)
         if (material.normalMap.image >= 0)
@@ -212,7 +213,7 @@ void GltfMaterials::checkUnusedImages() const
         } catch (const GltfProblem& problem) {
             if (used || scene_.instances.empty()) // or the images are all that there is
                 throw;
-            model_.warnings.add(problem.message, "nothing uses this image, it is left out");
+            model_.warnings.add(problem.error.message, "nothing uses this image, it is left out");
         }
     }
 }

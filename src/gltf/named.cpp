@@ -17,11 +17,10 @@ std::size_t findNamed(const std::vector<std::string>& names, const std::string& 
     std::size_t number = 0;
     if (parseNumber(std::string_view(wanted), number) && number < names.size())
         return number;
-    throw GltfProblem{names.empty()
-                          ? fmt::format("expected a model with {} for \"{}\", it has none", what, wanted)
-                          : fmt::format("expected one of its {} {} by number or name ({}), found \"{}\"", names.size(),
-                                        what, oneLine(fmt::format("{}", fmt::join(names, ", "))), wanted),
-                      ErrorKind::usage};
+    throw GltfProblem{usageError(
+        names.empty() ? fmt::format("expected a model with {} for \"{}\", it has none", what, wanted)
+                      : fmt::format("expected one of its {} {} by number or name ({}), found \"{}\"", names.size(),
+                                    what, oneLine(fmt::format("{}", fmt::join(names, ", "))), wanted))};
 }
 
 } // namespace cotan

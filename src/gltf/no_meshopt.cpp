@@ -7,8 +7,8 @@ namespace cotan::gltf {
 
 std::vector<std::byte> decodeMeshopt(const MeshoptView&, const std::string& field)
 {
-    throw GltfProblem{field + ": " + notBuiltWith("meshoptimizer", "libmeshoptimizer-dev").message,
-                      ErrorKind::unavailable};
+    const Error missing = notBuiltWith("meshoptimizer", "libmeshoptimizer-dev");
+    throw GltfProblem{reworded(missing, field + ": " + missing.message)};
 }
 
 } // namespace cotan::gltf

@@ -18,13 +18,12 @@ namespace cotan {
 // Thrown by the parts of the glTF reader, caught by caughtGltf alone, which turns it into an Error.
 // The message says field, expected, found; caughtGltf puts the file in front.
 struct GltfProblem {
-    std::string message;
-    ErrorKind kind = ErrorKind::input;
+    Error error;
 };
 
 template<class... Args> [[noreturn]] void failGltf(fmt::format_string<Args...> text, Args&&... args)
 {
-    throw GltfProblem{fmt::format(text, std::forward<Args>(args)...), ErrorKind::input};
+    throw GltfProblem{inputError(fmt::format(text, std::forward<Args>(args)...))};
 }
 
 // For files of glTF 1.0, whose structure is another one. field: where that shows.
@@ -58,18 +57,18 @@ std::string oneLine(const std::string& text);
 // What load() returns, and what it throws as an error: one line with the file's name in front, once.
 template<class Load> auto caughtGltf(const std::filesystem::path& file, Load load) -> Result<decltype(load())>
 {
-    const auto failed = [&](const std::string& what, ErrorKind kind = ErrorKind::input) {
-        const std::string name = file.string();
-        return Error{kind, oneLine(what.starts_with(name) ? what : name + ": " + what)};
+    const auto failed = [&](const Error& error) {
+        const std::string name = file.string(), &what = error.message;
+        return reworded(error, oneLine(what.starts_with(name) ? what : name + ": " + what));
     };
     try {
         return load();
     } catch (const GltfProblem& problem) {
-        return failed(problem.message, problem.kind);
+        return failed(problem.error);
     } catch (const std::bad_alloc&) {
-        return failed("not enough memory for what the file asks for");
+        return failed(inputError("not enough memory for what the file asks for"));
     } catch (const std::exception& problem) {
-        return failed(problem.what());
+        return failed(inputError(problem.what()));
     }
 }
 

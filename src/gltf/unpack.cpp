@@ -213,7 +213,7 @@ private:
             return;
         auto meshes = decodeDraco(jobs_, "KHR_draco_mesh_compression", limits_);
         if (!meshes)
-            throw GltfProblem{meshes.error().message, meshes.error().kind};
+            throw GltfProblem{meshes.error()};
         std::set<int> filled;
         for (std::size_t i = 0; i < jobs_.size(); ++i) {
             std::vector<std::vector<std::byte>>& arrays = (*meshes)[i].attributes;

@@ -90,7 +90,7 @@ Result<std::unique_ptr<AnimationWriter>> createGif(const std::filesystem::path& 
 {
     const auto formats = imageFormats();
     if (!formats)
-        return Error{formats.error().kind, fmt::format("{}: {}", file.string(), formats.error().message)};
+        return reworded(formats.error(), fmt::format("{}: {}", file.string(), formats.error().message));
     auto output = OutputFile::begin(file);
     if (!output)
         return output.error();

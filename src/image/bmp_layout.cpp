@@ -29,7 +29,8 @@ Problem checkBmp(File& file, const LoadLimits& limits)
         return fmt::format("it has {} bits a pixel, its compression {} has {}", bits, compression, ofRuns);
     // OpenImageIO takes memory for all of them before anybody sees their number.
     if (ofRuns != 0 && height != 0 && width > limits.imageBytes / height)
-        return fmt::format("{} x {} pixels of a byte, the limit is {} bytes", width, height, limits.imageBytes);
+        return tooMuchMemory(
+            fmt::format("{} x {} pixels of a byte, the limit is {} bytes", width, height, limits.imageBytes));
     return std::nullopt;
 }
 

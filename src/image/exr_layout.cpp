@@ -137,14 +137,15 @@ void readExrBlocks(Numbers& numbers, std::string_view name, std::uint64_t start,
 Problem checkExrBlocks(const ExrBlocks& blocks, const LoadLimits& limits)
 {
     if (blocks.width > limits.imageSide || blocks.height > limits.imageSide)
-        return fmt::format("{} x {} pixels, the limit is {} a side", blocks.width, blocks.height, limits.imageSide);
+        return tooMuchMemory(
+            fmt::format("{} x {} pixels, the limit is {} a side", blocks.width, blocks.height, limits.imageSide));
     const std::uint64_t row =
         std::uint64_t(std::max<std::int64_t>(blocks.width, 1)) * std::max<std::uint64_t>(blocks.rows, 1);
     const std::uint64_t tile = blocks.tileWidth * blocks.tileHeight;                  // of 32 bits each
     const std::uint64_t bytes = 4 * std::min<std::uint64_t>(blocks.channels, 0xffff); // of a pixel
     if (std::max(row, tile) > limits.imageBytes / std::max<std::uint64_t>(bytes, 1))
-        return fmt::format("its blocks have {} pixels of {} bytes, the limit is {} bytes", std::max(row, tile), bytes,
-                           limits.imageBytes);
+        return tooMuchMemory(fmt::format("its blocks have {} pixels of {} bytes, the limit is {} bytes",
+                                         std::max(row, tile), bytes, limits.imageBytes));
     return std::nullopt;
 }
 

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include <OpenImageIO/filesystem.h>
 
@@ -12,7 +13,19 @@
 
 namespace cotan::oiio {
 
-using Problem = std::optional<std::string>;
+// What is wrong, without the file's name.
+struct Problem : std::optional<std::string> {
+    using std::optional<std::string>::optional;
+    bool memory = false; // as Error has it
+};
+
+inline Problem tooMuchMemory(std::string text)
+{
+    Problem problem(std::move(text));
+    problem.memory = true;
+    return problem;
+}
+
 using File = OIIO::Filesystem::IOProxy;
 
 inline Numbers numbersOf(File& file, bool bigEndian = false)
@@ -23,7 +36,7 @@ inline Numbers numbersOf(File& file, bool bigEndian = false)
     return {read, file.size(), bigEndian};
 }
 
-// What is wrong, without the file's name. Limits: on what a reader takes for one row, strip or tile.
+// limits: on what a reader takes for one row, strip or tile.
 Problem checkTiff(File& file, const LoadLimits& limits);
 Problem checkExr(File& file, const LoadLimits& limits);
 Problem checkDds(File& file);

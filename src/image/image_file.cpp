@@ -45,7 +45,7 @@ Result<Image> readOther(std::span<const std::byte> bytes, const std::string& nam
 {
     const auto formats = imageFormats();
     if (!formats)
-        return Error{formats.error().kind, fmt::format("{}: {}", name, formats.error().message)};
+        return reworded(formats.error(), fmt::format("{}: {}", name, formats.error().message));
     return (*formats)->read(bytes, name, limits);
 }
 
@@ -112,7 +112,7 @@ Status write(const std::filesystem::path& file, const Image& image, const std::s
         return image.type == PixelType::float32 ? writePng(file, toUnorm8(image), name) : writePng(file, image, name);
     const auto formats = imageFormats();
     if (!formats)
-        return Error{formats.error().kind, fmt::format("{}: {}", name, formats.error().message)};
+        return reworded(formats.error(), fmt::format("{}: {}", name, formats.error().message));
     return (*formats)->write(file, image, name);
 }
 

@@ -123,9 +123,9 @@ std::optional<Error> checkScans(const jpeg_decompress_struct& jpeg, std::span<co
         coefficients += std::size_t(jpeg.comp_info[c].width_in_blocks) * jpeg.comp_info[c].height_in_blocks * DCTSIZE2;
     const bool buffered = jpeg.progressive_mode || scans > 1;
     if (buffered && coefficients * sizeof(JCOEF) > limits.imageBytes)
-        return inputError(fmt::format("{}: its {} scans of {} x {} pixels take {} bytes, the limit is {}", name, scans,
-                                      jpeg.image_width, jpeg.image_height, coefficients * sizeof(JCOEF),
-                                      limits.imageBytes));
+        return memoryError(fmt::format("{}: its {} scans of {} x {} pixels take {} bytes, the limit is {}", name, scans,
+                                       jpeg.image_width, jpeg.image_height, coefficients * sizeof(JCOEF),
+                                       limits.imageBytes));
     return std::nullopt;
 }
 

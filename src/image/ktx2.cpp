@@ -111,9 +111,9 @@ Result<Image> readKtx2(std::span<const std::byte> bytes, const std::string& name
                        Result<Image> (*readDds)(std::span<const std::byte>, const std::string&, const LoadLimits&))
 {
     const auto broken = [&](const Error& error) {
-        return Error{error.kind,
-                     error.kind == ErrorKind::input ? fmt::format("{}: broken ktx2 image: {}", name, error.message)
-                                                    : fmt::format("{}: {}", name, error.message)};
+        return reworded(error,
+                        error.kind == ErrorKind::input ? fmt::format("{}: broken ktx2 image: {}", name, error.message)
+                                                       : fmt::format("{}: {}", name, error.message));
     };
     const auto picture = checkKtx2(bytes);
     if (!picture)

@@ -11,7 +11,7 @@ namespace {
 Error noPng(const std::string& name)
 {
     const Error error = notBuiltWith("libpng", "libpng-dev");
-    return {error.kind, name + ": " + error.message};
+    return reworded(error, name + ": " + error.message);
 }
 
 } // namespace

@@ -11,7 +11,7 @@ bool readsWebp() { return false; }
 Result<Image> readWebp(std::span<const std::byte>, const std::string& name, const LoadLimits&)
 {
     const Error missing = notBuiltWith("libwebp", "libwebp-dev");
-    return Error{missing.kind, fmt::format("{}: {}", name, missing.message)};
+    return reworded(missing, fmt::format("{}: {}", name, missing.message));
 }
 
 std::optional<Result<std::vector<std::byte>>> writeWebpLike(const Image&, std::span<const std::byte>, int&)
@@ -22,7 +22,7 @@ std::optional<Result<std::vector<std::byte>>> writeWebpLike(const Image&, std::s
 Result<std::unique_ptr<AnimationWriter>> createWebpAnimation(const std::filesystem::path& file, const AnimationFormat&)
 {
     const Error missing = notBuiltWith("libwebp", "libwebp-dev");
-    return Error{missing.kind, fmt::format("{}: {}", file.string(), missing.message)};
+    return reworded(missing, fmt::format("{}: {}", file.string(), missing.message));
 }
 
 } // namespace cotan

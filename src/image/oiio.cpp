@@ -177,8 +177,8 @@ std::optional<Error> checkSpec(const OIIO::ImageSpec& spec, const std::string& n
     const double stored =
         std::max(double(spec.width) * double(spec.height), tile) * double(spec.pixel_bytes(/*native=*/true));
     if (stored > double(limits.imageBytes))
-        return inputError(fmt::format("{}: the pixels take {:.0f} bytes as stored, the limit is {}", name, stored,
-                                      limits.imageBytes));
+        return memoryError(fmt::format("{}: the pixels take {:.0f} bytes as stored, the limit is {}", name, stored,
+                                       limits.imageBytes));
     return std::nullopt;
 }
 
@@ -228,8 +228,11 @@ Result<Image> decode(std::span<const std::byte> bytes, const std::string& name, 
         return inputError(fmt::format("{}: broken {} image: {}", name, format, oneLine(why)));
     };
     MemoryFile memory(bytes);
-    if (const auto problem = checkFileLayout(memory, format, limits))
-        return broken(*problem);
+    if (const auto problem = checkFileLayout(memory, format, limits)) {
+        Error error = broken(*problem);
+        error.memory = problem.memory;
+        return error;
+    }
     const auto input = OIIO::ImageInput::create(format);
     if (!input)
         return broken(foundByOiio(OIIO::geterror()));

@@ -124,8 +124,9 @@ std::optional<Error> checkRows(const OIIO::ImageSpec& spec, const std::string& n
     const double stored = std::max(double(spec.width), double(spec.tile_width)) * rows
         * std::max(double(spec.pixel_bytes(/*native=*/true)), 16.0);
     if (spec.width > limits.imageSide || spec.height > limits.imageSide || stored > double(limits.imageBytes))
-        return inputError(fmt::format("{}: {} x {} pixels in rows of {:.0f} bytes, the limit is {} a side and {} bytes",
-                                      name, spec.width, spec.height, stored, limits.imageSide, limits.imageBytes));
+        return memoryError(
+            fmt::format("{}: {} x {} pixels in rows of {:.0f} bytes, the limit is {} a side and {} bytes", name,
+                        spec.width, spec.height, stored, limits.imageSide, limits.imageBytes));
     if (limits.expect)
         limits.expect(std::size_t(stored));
     return std::nullopt;
@@ -142,8 +143,11 @@ Result<std::unique_ptr<RowReader>> openRows(const std::filesystem::path& file, s
     };
     try {
         OIIO::Filesystem::IOFile layout(name, OIIO::Filesystem::IOProxy::Read);
-        if (const auto problem = checkFileLayout(layout, format, limits))
-            return broken(*problem);
+        if (const auto problem = checkFileLayout(layout, format, limits)) {
+            Error error = broken(*problem);
+            error.memory = problem.memory;
+            return error;
+        }
         Input input = OIIO::ImageInput::create(format);
         if (!input)
             return broken(foundByOiio(OIIO::geterror()));

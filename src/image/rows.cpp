@@ -104,7 +104,7 @@ Status checkRows(const RowReader& rows, std::size_t fileBytes, const LoadLimits&
     const double most = double(limits.imageBytes) + 128 * double(fileBytes);
     const double bytes = 4.0 * double(bytesPerComponent(rows.type)) * rows.width * rows.height;
     if (bytes > most)
-        return inputError(
+        return memoryError(
             fmt::format("{}: {} x {} pixels take {:.0f} bytes, the limit is {:.0f} for a file of {} bytes", rows.name,
                         rows.width, rows.height, bytes, most, fileBytes));
     return Done{};
@@ -128,7 +128,7 @@ Result<std::unique_ptr<RowReader>> openAnyRows(const fs::path& file, const LoadL
             return openRowsSandboxed(file, limits);
         const auto formats = imageFormats();
         if (!formats)
-            return Error{formats.error().kind, fmt::format("{}: {}", file.string(), formats.error().message)};
+            return reworded(formats.error(), fmt::format("{}: {}", file.string(), formats.error().message));
         return (*formats)->openRows(file, head, limits);
     }
     return openWhole(file, limits);
@@ -157,7 +157,7 @@ Result<std::unique_ptr<RowWriter>> createRows(const fs::path& file, const RowFor
     if (!writesItself(file)) {
         const auto formats = imageFormats();
         if (!formats)
-            return Error{formats.error().kind, fmt::format("{}: {}", name, formats.error().message)};
+            return reworded(formats.error(), fmt::format("{}: {}", name, formats.error().message));
         auto writer = (*formats)->createRows(output->path(), format, threads, name);
         if (!writer)
             return output->failed(writer.error());

@@ -23,8 +23,8 @@ inline std::optional<Error> checkImageSize(std::int64_t width, std::int64_t heig
                                       limits.imageSide));
     const std::uint64_t bytes = std::uint64_t(width) * std::uint64_t(height) * 4 * bytesPerComponent(type);
     if (bytes > limits.imageBytes)
-        return inputError(fmt::format("{}: {} x {} pixels take {} bytes, the limit is {}", name, width, height, bytes,
-                                      limits.imageBytes));
+        return memoryError(fmt::format("{}: {} x {} pixels take {} bytes, the limit is {}", name, width, height, bytes,
+                                       limits.imageBytes));
     if (limits.expect)
         limits.expect(std::size_t(bytes));
     return std::nullopt;

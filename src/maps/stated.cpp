@@ -17,9 +17,11 @@ Result<Convention> conventionOf(const StatedConvention& stated, const std::strin
     if (channels != 2 || convention.channels != Channels::xyz)
         return convention;
     if (stated.channels)
-        return usageError(option + ": " + file + " stores two channels; found "
-                          + (convention.kind == MapKind::objectSpace ? "object, which needs three"
-                                                                     : "xyz, which are three; leave the word out"));
+        return about(
+            option,
+            usageError(file + " stores two channels; found "
+                       + (convention.kind == MapKind::objectSpace ? "object, which needs three"
+                                                                  : "xyz, which are three; leave the word out")));
     convention.channels = Channels::orthographic;
     return convention;
 }

@@ -14,7 +14,6 @@
 #include "files/extension.hpp"
 #include "files/file_registry.hpp"
 #include "picture/option_words.hpp"
-#include "picture/words.hpp"
 #include "scene/geometry.hpp"
 #include "scene/meant_frame.hpp"
 #include "scene/parts.hpp"

@@ -41,4 +41,30 @@ Result<PictureSize> parsePictureSize(const std::string& text)
                                   fmt::join(sizePresetWords(), ", "), text));
 }
 
+std::vector<std::string> frameWords()
+{
+    std::vector<std::string> names;
+    for (const FrameInfo& f : frames())
+        names.emplace_back(f.name);
+    return names;
+}
+
+std::string frameNames() { return fmt::format("{}", fmt::join(frameWords(), ", ")); }
+
+Result<Frame> parseFrame(const std::string& text, std::string_view field)
+{
+    if (const auto frame = frameFromName(text))
+        return *frame;
+    return usageError(fmt::format("{}: expected one of {}; found '{}'", field, frameNames(), text));
+}
+
+Result<FrameChoice> parseFrameChoice(const std::string& text, std::string_view field)
+{
+    if (text == kAutoFrame)
+        return FrameChoice();
+    if (const auto frame = frameFromName(text))
+        return FrameChoice(*frame);
+    return usageError(fmt::format("{}: expected {} or one of {}; found '{}'", field, kAutoFrame, frameNames(), text));
+}
+
 } // namespace cotan

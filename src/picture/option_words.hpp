@@ -2,12 +2,14 @@
 // what is said of them. What a picture is told in code has types: PictureOptions.
 #pragma once
 
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "core/named_values.hpp"
+#include "cotan/frame.hpp"
 #include "cotan/picture.hpp"
-#include "terminal/named_values.hpp"
 
 namespace cotan {
 
@@ -47,6 +49,8 @@ struct Bounded {
 inline constexpr Bounded kRotations = {-360, 360}; // degrees
 inline constexpr Bounded kSoftnesses = {0, 60};    // degrees
 inline constexpr Bounded kMoments = {0, 1e6};      // seconds
+inline constexpr int kMaxMemory = 1 << 16;         // MiB, at least 1
+inline constexpr int kMaxMaterial = 100000;        // at least -1: all
 
 inline constexpr const char* kAutoExposure = "auto"; // or a factor above 0
 
@@ -58,5 +62,23 @@ Result<PictureSize> parseSize(const std::string& text);
 // The same of a picture, which may also have the size of a preset: "1080p", "square" and others.
 Result<PictureSize> parsePictureSize(const std::string& text);
 std::vector<std::string> sizePresetWords();
+
+// All frame names; the same, separated by commas.
+std::vector<std::string> frameWords();
+std::string frameNames();
+
+// A frame's name; the error lists all of them.
+Result<Frame> parseFrame(const std::string& text, std::string_view field = "frame");
+
+// What the frame that the normal maps mean is called, where pictures are drawn.
+inline constexpr std::string_view kAutoFrame = "auto";
+
+// A frame's name, or kAutoFrame for none; the error lists all of them.
+Result<FrameChoice> parseFrameChoice(const std::string& text, std::string_view field = "frame");
+
+// Sets what the words of the command line of `cotan render` ask for: "--size", "640x480", "--edges=all", and a model
+// behind "--" or by itself. The options for files and the terminal are not among them. Errors: ErrorKind::usage, with
+// the option, what was expected and found.
+Status readPictureWords(std::span<const std::string> words, PictureOptions& options, std::string& frame);
 
 } // namespace cotan

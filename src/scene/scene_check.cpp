@@ -198,7 +198,7 @@ private:
 Status checkScene(const Scene& scene, const std::string& name, const SceneRules& rules)
 {
     if (const Problem problem = Checker(scene, rules).run())
-        return inputError(name + ": " + *problem);
+        return about(name, inputError(*problem));
     return Done{};
 }
 

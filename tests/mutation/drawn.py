@@ -25,7 +25,7 @@ TESTS = {
     "apps/lab": "figures_test lighting_test accuracy_test cost_test report_test",
     "src/bake": "bake_test lint_test judgement_test convert_test auto_frame_test bake_command_test tangents_gltf_test python:bake",
     "src/c": "c_buffers_test c_facts c_api python:geometry python:maps python:bake python:models python:render",
-    "src/core": "core_test tangents_test map_test geometry_test bake_test",
+    "src/core": "core_test tangents_test loops_test map_test geometry_test bake_test",
     "src/files": "files_test sandbox_test report_test assimp_test map_command_test",
     "src/gltf": "gltf_test gltf_bad_test gltf_edit_test gltf_models_test tangents_gltf_test convert_test",
     "src/image": "image_test map_test gltf_test",
@@ -36,7 +36,6 @@ TESTS = {
     "src/render": "reference_test draw_test render_test figures_test",
     "src/scene": "geometry_test shapes_test gltf_test reference_test environment_test",
     "src/shader_text": "shader_text_test frame_table_test",
-    "src/terminal": "words_test help_test command_line cli_test",
 }
 ENDINGS = (".cpp", ".hpp", ".h", ".py", ".js")
 BROKEN = WORK / "not_compiling.txt"  # so that another run over the same sources does not try them again

@@ -16,13 +16,14 @@ Status checkOptions(const ConvertFileOptions& o)
 {
     const bool turns = o.from.convention.kind != o.to.kind;
     if (turns != o.mesh.has_value())
-        return usageError(turns ? "options.mesh: between tangent and object space the mesh is needed; found none"
-                                : "options.mesh: is for maps between tangent and object space; found both in one");
+        return about("options.mesh",
+                     usageError(turns ? "between tangent and object space the mesh is needed; found none"
+                                      : "is for maps between tangent and object space; found both in one"));
     if (turns && o.strength != 1)
-        return usageError(
-            "options.strength: expected 1 between tangent and object space; convert within tangent space for it");
+        return about("options.strength",
+                     usageError("expected 1 between tangent and object space; convert within tangent space for it"));
     if (o.strength == 0)
-        return usageError("options.strength: expected a factor other than 0; found 0");
+        return about("options.strength", usageError("expected a factor other than 0; found 0"));
     return Done{};
 }
 

@@ -109,7 +109,7 @@ Result<ToHeightFile> heightFromNormalsFile(const std::filesystem::path& file, co
         return bits.error();
     const std::size_t work = heightWorkBytes(map->width, map->height), most = workBudget(file, files.limits);
     if (work > most)
-        return inputError(
+        return memoryError(
             fmt::format("{}: the solver takes {} MiB for {} x {}, the limit is {} MiB for a file of this size",
                         file.string(), (work >> 20) + 1, map->width, map->height, most >> 20));
     double unit = 1, aspect = 1;

@@ -40,13 +40,15 @@ Result<Bits> bitsFor(const std::string& wanted, PixelType input, const std::file
     else if (wanted == "float" || wanted == "half")
         type = PixelType::float32;
     else if (wanted != "auto")
-        return usageError(fmt::format("options.bits: expected auto, 8, 16, half or float; found '{}'", wanted));
+        return about("options.bits",
+                     usageError(fmt::format("expected auto, 8, 16, half or float; found '{}'", wanted)));
     else if (!holds(format, type))
         type = format.bits16 ? PixelType::unorm16 : format.bits8 ? PixelType::unorm8 : PixelType::float32;
     const bool half = wanted == "half";
     if (half ? !format.halfs : !holds(format, type))
-        return usageError(
-            fmt::format("options.bits: {} files cannot hold {}", format.endings[0], half ? "half" : bitsName(type)));
+        return about(
+            "options.bits",
+            usageError(fmt::format("{} files cannot hold {}", format.endings[0], half ? "half" : bitsName(type))));
     return Bits{type, half};
 }
 
@@ -61,9 +63,10 @@ Status checkSigned(const Convention& to, const Bits& bits, const std::filesystem
 {
     if (to.expansion == Expansion::signedValues
         && (bits.type != PixelType::float32 || !imageFormatHas(file, &ImageFormat::negative)))
-        return usageError(fmt::format("options.to: signed values need a {} of floats; found {}, {}",
-                                      imageEndings(&ImageFormat::negative, ", ", " or "), file.extension().string(),
-                                      bitsName(bits)));
+        return about("options.to",
+                     usageError(fmt::format("signed values need a {} of floats; found {}, {}",
+                                            imageEndings(&ImageFormat::negative, ", ", " or "),
+                                            file.extension().string(), bitsName(bits))));
     return Done{};
 }
 

@@ -106,7 +106,7 @@ Result<MippedFile> writeMips(const std::filesystem::path& file, const std::files
 {
     MipFileOptions o = asked;
     if (o.compress == "bc5" && o.keepLengths)
-        return usageError("options.keepLengths: bc5 has no channel for lengths");
+        return about("options.keepLengths", usageError("bc5 has no channel for lengths"));
     if (o.to) // before the work
         if (const auto code = codeFor(o.compress, o.bits, *o.to, out); !code)
             return code.error();
@@ -126,7 +126,7 @@ Result<MippedFile> writeMips(const std::filesystem::path& file, const std::files
     const std::size_t work = map->pixelCount() * (8 + 11 * bytesPerComponent(bits->type));
     const std::size_t most = 3 * workBudget(file, files.limits);
     if (work > most)
-        return inputError(
+        return memoryError(
             fmt::format("{}: the chain takes {} MiB for {} x {}, the limit is {} MiB for a file of this size",
                         file.string(), work >> 20, map->width, map->height, most >> 20));
     CountedSteps steps(files.progress, 3); // read, filtered, written

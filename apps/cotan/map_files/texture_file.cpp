@@ -162,20 +162,24 @@ Result<TexelCode> codeFor(const std::string& compress, const std::string& bits, 
                           const std::filesystem::path& file)
 {
     if (compress != "none" && compress != "bc5" && compress != "bc7")
-        return usageError(fmt::format("options.compress: expected none, bc5 or bc7; found '{}'", compress));
+        return about("options.compress", usageError(fmt::format("expected none, bc5 or bc7; found '{}'", compress)));
     if (!isTextureFile(file) && compress != "none")
-        return usageError(fmt::format("options.compress: blocks are for {} files; found '{}'",
-                                      imageEndings(&ImageFormat::texture, ", ", " and "), file.extension().string()));
+        return about(
+            "options.compress",
+            usageError(fmt::format("blocks are for {} files; found '{}'",
+                                   imageEndings(&ImageFormat::texture, ", ", " and "), file.extension().string())));
     if (isTextureFile(file) && bits != "auto" && bits != "8")
-        return usageError(fmt::format("options.bits: expected 8 or auto, as {} files have 8 bits; found '{}'",
-                                      imageFormatOf(file)->endings[0], bits));
+        return about("options.bits",
+                     usageError(fmt::format("expected 8 or auto, as {} files have 8 bits; found '{}'",
+                                            imageFormatOf(file)->endings[0], bits)));
     if (compress == "bc5" && (to.channels == Channels::stereographic || to.channels == Channels::slope))
-        return usageError("options.to: bc5 holds x and y of unit vectors; found another form of two channels");
+        return about("options.to", usageError("bc5 holds x and y of unit vectors; found another form of two channels"));
     if (compress == "bc7" && to.channels != Channels::xyz)
-        return usageError("options.to: bc7 holds x, y and z; found two channels, which bc5 is for");
+        return about("options.to", usageError("bc7 holds x, y and z; found two channels, which bc5 is for"));
     if (isTextureFile(file) && to.expansion == Expansion::signedValues)
-        return usageError(fmt::format("options.to: signed values need a {} of floats",
-                                      imageEndings(&ImageFormat::negative, ", ", " or ")));
+        return about("options.to",
+                     usageError(fmt::format("signed values need a {} of floats",
+                                            imageEndings(&ImageFormat::negative, ", ", " or "))));
     return compress == "bc5" ? TexelCode::bc5 : compress == "bc7" ? TexelCode::bc7 : TexelCode::rgba8;
 }
 

@@ -39,7 +39,8 @@ Result<std::vector<const Row*>> chosenRows(const std::vector<std::string>& names
             std::vector<std::string> known;
             for (const Row& row : rows())
                 known.emplace_back(row.name);
-            return usageError("options.frames: expected one of " + joined(known, ", ") + "; found '" + name + "'");
+            return about("options.frames",
+                         usageError("expected one of " + joined(known, ", ") + "; found '" + name + "'"));
         }
     std::vector<const Row*> chosen;
     for (const Row& row : rows()) {
@@ -69,8 +70,9 @@ Status measure(const PriceOptions& o, CostReport& report)
             return unavailableError("no Vulkan device has '" + joined(o.devices, "' or '") + "' in its name");
     }
     if (!o.name.empty() && report.code.size() > 1)
-        return usageError("options.name: names one device; found " + std::to_string(report.code.size())
-                          + ": say which by options.devices");
+        return about("options.name",
+                     usageError("names one device; found " + std::to_string(report.code.size())
+                                + ": say which by options.devices"));
     if (!o.name.empty() && !report.code.empty())
         report.code.front().family = o.name;
     if (!steps.step())
@@ -110,7 +112,7 @@ Result<CostReport> price(const PriceOptions& options)
     } else {
         auto cards = cardsFromCsv(options.cards);
         if (!cards)
-            return inputError("options.cards: " + cards.error().message);
+            return about("options.cards", inputError(cards.error().message));
         report.code = std::move(*cards);
         report.cardsRead = true;
         report.timingSilence = "the figures of these cards were read from a file";

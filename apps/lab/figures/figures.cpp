@@ -43,8 +43,9 @@ Result<std::vector<FigureInfo>> chosen(const std::vector<std::string>& only)
     std::vector<FigureInfo> figures;
     for (const std::string& word : only)
         if (std::ranges::find(kFigures, word, &FigureInfo::name) == std::end(kFigures))
-            return usageError(
-                fmt::format("options.only: expected names from {}; found '{}'", fmt::join(figureNames(), ", "), word));
+            return about(
+                "options.only",
+                usageError(fmt::format("expected names from {}; found '{}'", fmt::join(figureNames(), ", "), word)));
     for (const FigureInfo& info : kFigures)
         if (only.empty() || std::ranges::find(only, info.name) != only.end())
             figures.push_back(info);

@@ -1,9 +1,8 @@
 #include "tables.hpp"
 
-#include <algorithm>
-#include <atomic>
 #include <iterator>
-#include <thread>
+
+#include "core/parallel.hpp"
 
 namespace cotan {
 
@@ -30,22 +29,13 @@ Result<std::vector<Measurement>> measureTables(const std::vector<const AccuracyT
                                                const Progress& progress)
 {
     std::vector<std::vector<Measurement>> results(tables.size());
-    std::atomic<std::size_t> next = 0;
     CountedSteps steps(progress, tables.size());
-    const auto work = [&] {
-        for (std::size_t i; !steps.stopped() && (i = next++) < tables.size();) {
-            results[i] = tables[i]->measure(selection);
-            steps.step();
-        }
-    };
-    const std::size_t wanted =
-        threads > 0 ? std::size_t(threads) : std::size_t(std::max(1u, std::thread::hardware_concurrency()));
-    std::vector<std::thread> others;
-    for (std::size_t i = 1; i < std::min(wanted, tables.size()); ++i)
-        others.emplace_back(work);
-    work();
-    for (std::thread& t : others)
-        t.join();
+    runTasks(tables.size(), threadsFor(tables.size(), 1, threads), [&](std::size_t i) {
+        if (steps.stopped())
+            return;
+        results[i] = tables[i]->measure(selection);
+        steps.step();
+    });
     if (steps.stopped())
         return stoppedError();
     std::vector<Measurement> rows;

@@ -5,16 +5,8 @@ import os
 import re
 from typing import Any, Optional
 
-# The library says "WHERE: expected THIS, found THAT"; WHERE is a file, a field, or a file and a field. What reads words
-# of the command line for it says the rest.
-_SAYINGS = [
-    re.compile(pattern, re.DOTALL)
-    for pattern in (
-        r"(?:(?P<where>.*?): )?expected (?P<expected>.+?)[,;] found (?P<found>.+)",
-        r"(?P<where>\w+): (?P<found>.*) not in \{(?P<expected>.+)\}",
-        r"(?P<where>\w+): Value (?P<found>.*) not in range (?P<expected>.+)",
-    )
-]
+# The library says "WHERE: expected THIS, found THAT"; WHERE is a file, a field, or a file and a field.
+_SAYING = re.compile(r"(?:(?P<where>.*?): )?expected (?P<expected>.+?)[,;] found (?P<found>.+)", re.DOTALL)
 # Options of the C API that keywords here have other names for.
 _KEYWORDS = {
     "occlusion_rays": "ao_rays",
@@ -118,8 +110,7 @@ def _in_keywords(status, message):
     message = re.sub(r"^options\.(\w+)", _keyword, message)
     if status != UsageError.status:
         return message
-    message = re.sub(r"(?<![\w/.-])--([a-z]+(?:-[a-z]+)*)", lambda m: m[1].replace("-", "_"), message)
-    return message.removesuffix(" (see help)")
+    return re.sub(r"(?<![\w/.-])--([a-z]+(?:-[a-z]+)*)", lambda m: m[1].replace("-", "_"), message)
 
 
 def error_of(status, message, files=()):
@@ -132,7 +123,7 @@ def error_of(status, message, files=()):
             file, rest = str(name), message[len(said) + 2 :]
             break
     field = expected = found = None
-    parts = next((match for saying in _SAYINGS if (match := saying.fullmatch(rest))), None)
+    parts = _SAYING.fullmatch(rest)
     if parts:
         field, expected, found = parts["where"], parts["expected"], parts["found"]
     elif ": " in rest:

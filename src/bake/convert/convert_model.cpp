@@ -90,8 +90,8 @@ private:
     {
         for (const MapJob& job : jobs)
             if (const std::size_t bytes = bytesOf(job, options_.frames); options_.memory > 0 && bytes > options_.memory)
-                return inputError(fmt::format("{}: the triangles that read it take {} MiB, the limit is {} MiB",
-                                              fieldOf(job), bytes >> 20, options_.memory >> 20));
+                return memoryError(fmt::format("{}: the triangles that read it take {} MiB, the limit is {} MiB",
+                                               fieldOf(job), bytes >> 20, options_.memory >> 20));
         return Done{};
     }
 

@@ -11,7 +11,7 @@
 
 namespace cotan {
 
-using Json = nlohmann::ordered_json;
+using gltf::Json;
 
 namespace {
 

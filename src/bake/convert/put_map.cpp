@@ -14,7 +14,7 @@ namespace cotan {
 
 namespace {
 
-using Json = nlohmann::ordered_json;
+using gltf::Json;
 
 std::size_t appendTo(Json& root, const char* collection, Json item)
 {
@@ -29,8 +29,9 @@ Result<std::size_t> materialNamed(const Json& root, const std::string& name)
         if (root["materials"][m].value("name", "") == name)
             found.push_back(m);
     if (found.size() != 1)
-        return inputError(fmt::format("document: expected one material of the name '{}' to put the map in; found {}",
-                                      name, found.size()));
+        return about("document",
+                     inputError(fmt::format("expected one material of the name '{}' to put the map in; found {}", name,
+                                            found.size())));
     return found.front();
 }
 

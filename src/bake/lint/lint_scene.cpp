@@ -276,8 +276,8 @@ Result<LintReport> lintScene(const Scene& scene, const LintOptions& options, con
         return report;
     }
     if (const std::size_t bytes = lintBytes(scene); options.memory > 0 && bytes > options.memory)
-        return inputError(fmt::format("{}: its triangles take {} MiB to judge, the limit is {} MiB", scene.name,
-                                      bytes >> 20, options.memory >> 20));
+        return memoryError(fmt::format("{}: its triangles take {} MiB to judge, the limit is {} MiB", scene.name,
+                                       bytes >> 20, options.memory >> 20));
     report.distance = options.distance > 0 ? options.distance : fittingDistance(scene);
     std::vector<MapUse> uses;
     std::vector<CoatUse> coats;

@@ -140,7 +140,7 @@ Status ReaderProcess::await()
                 answer_.refuse();
             if (!answer_.good())
                 return failure();
-            return Error{error.kind, printable(std::move(error.message), 4096)};
+            return reworded(error, printable(error.message, 4096));
         }
     }
 }

@@ -16,7 +16,7 @@ namespace cotan {
 
 inline constexpr char kReaderWord[] = "read-for-parent"; // the reader's only argument
 inline constexpr int kNoMemoryCode = 71;                 // its exit code where memory ended
-inline constexpr std::uint32_t kReaderVersion = 3;       // of what is said; both are the same program, or should be
+inline constexpr std::uint32_t kReaderVersion = 4;       // of what is said; both are the same program, or should be
 
 // The most that the reader may take.
 struct ReaderBudget {
@@ -87,6 +87,7 @@ template<class W, class T> void exchangeError(W& w, T& error)
 {
     w.number(error.kind);
     w.text(error.message);
+    w.flag(error.memory);
 }
 
 } // namespace cotan

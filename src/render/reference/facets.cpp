@@ -10,6 +10,7 @@
 
 #include <glm/geometric.hpp>
 
+#include "core/other_axis.hpp"
 #include "facet_material.hpp"
 #include "scene/environment_map.hpp"
 
@@ -30,7 +31,7 @@ struct Axes {
 // x towards `towards`, as far as it is across z.
 Axes axesAround(glm::vec3 z, glm::vec3 towards)
 {
-    const glm::vec3 other = std::abs(z.x) < 0.7f ? glm::vec3(1, 0, 0) : glm::vec3(0, 1, 0);
+    const glm::vec3 other = otherAxis(z);
     const glm::vec3 spare = glm::normalize(other - z * glm::dot(z, other));
     const glm::vec3 across = towards - z * glm::dot(z, towards);
     const glm::vec3 x = glm::dot(across, across) > 1e-10f ? glm::normalize(across) : spare;

@@ -2,11 +2,10 @@
 
 #include <algorithm>
 #include <array>
-#include <atomic>
 #include <bit>
 #include <memory>
-#include <thread>
 
+#include "core/parallel.hpp"
 #include "gpu_structs.hpp"
 #include "scene/sample_places.hpp"
 #include "scene_upload.hpp"
@@ -242,23 +241,16 @@ vk::raii::Pipeline Pipelines::make(const PipelineKey& key, const Stages& modules
 
 void Pipelines::begin(const std::vector<PipelineKey>& keys)
 {
-    struct Work {
-        std::vector<std::packaged_task<vk::raii::Pipeline()>> tasks;
-        std::atomic<std::size_t> next = 0;
-    };
-    const auto work = std::make_shared<Work>();
+    const auto tasks = std::make_shared<std::vector<std::packaged_task<vk::raii::Pipeline()>>>();
     for (const PipelineKey& key : keys) {
         if (entries_.contains(key))
             continue;
-        work->tasks.emplace_back([this, key, modules = stagesOf(key)] { return make(key, modules); });
-        entries_[key].making = work->tasks.back().get_future();
+        tasks->emplace_back([this, key, modules = stagesOf(key)] { return make(key, modules); });
+        entries_[key].making = tasks->back().get_future();
     }
-    const std::size_t threads =
-        std::min<std::size_t>(work->tasks.size(), std::max(1u, std::thread::hardware_concurrency()));
-    for (std::size_t i = 0; i < threads; ++i)
-        workers_.push_back(std::async(std::launch::async, [work] {
-            for (std::size_t k = work->next++; k < work->tasks.size(); k = work->next++)
-                work->tasks[k]();
+    if (!tasks->empty())
+        workers_.push_back(std::async(std::launch::async, [tasks, threads = threadsFor(tasks->size(), 1)] {
+            runTasks(tasks->size(), threads, [&](std::size_t i) { (*tasks)[i](); });
         }));
 }
 

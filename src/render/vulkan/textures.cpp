@@ -2,10 +2,9 @@
 
 #include <algorithm>
 #include <array>
-#include <atomic>
-#include <exception>
-#include <mutex>
-#include <thread>
+#include <cmath>
+
+#include "core/parallel.hpp"
 
 namespace cotan {
 
@@ -40,32 +39,6 @@ vk::SamplerAddressMode addressMode(Wrap wrap)
 }
 
 vk::Filter filterOf(Filter filter) { return filter == Filter::nearest ? vk::Filter::eNearest : vk::Filter::eLinear; }
-
-// Calls work(0) ... work(count - 1) on all cores, in no order; passes the first exception on.
-template<class Work> void onAllCores(std::size_t count, Work work)
-{
-    std::atomic<std::size_t> next{0};
-    std::exception_ptr failure;
-    std::mutex mutex;
-    const auto run = [&] {
-        try {
-            for (std::size_t i = next++; i < count; i = next++)
-                work(i);
-        } catch (...) {
-            const std::lock_guard lock(mutex);
-            failure = std::current_exception();
-        }
-    };
-    const std::size_t cores = std::max(std::thread::hardware_concurrency(), 1u);
-    {
-        std::vector<std::jthread> threads;
-        for (std::size_t i = 1; i < std::min(cores, count); ++i)
-            threads.emplace_back(run);
-        run();
-    }
-    if (failure)
-        std::rethrow_exception(failure);
-}
 
 // Of all levels of a chain, as the device holds them.
 std::size_t chainBytes(const MipRequest& r) { return r.image->pixelCount() * bytesPerTexel(r.format) / 3 * 4; }
@@ -187,7 +160,8 @@ void Textures::load(const Scene& scene, Uploader& uploader)
              end < missing.size() && (end == first || bytes + chainBytes(missing[end]) <= kBatchBytes); ++end)
             bytes += chainBytes(missing[end]);
         std::vector<MipChain> chains(end - first);
-        onAllCores(chains.size(), [&](std::size_t i) { chains[i] = buildMips(missing[first + i]); });
+        runTasks(chains.size(), threadsFor(chains.size(), 1),
+                 [&](std::size_t i) { chains[i] = buildMips(missing[first + i]); });
         for (const MipChain& chain : chains)
             textures_.push_back(upload(chain, uploader));
         first = end;

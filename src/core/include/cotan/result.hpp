@@ -27,6 +27,8 @@ enum class ErrorKind {
 struct Error {
     ErrorKind kind = ErrorKind::input;
     std::string message; // one line, no newline
+    bool memory = false; // a limit of memory that the caller gave stopped it: it may go on with more
+    std::string field{}; // of what the caller gave, where the message begins with it: "options.maxDistance"
 };
 
 // A value or an Error. Check with `if (!result)` before `*result`.
@@ -55,6 +57,23 @@ inline Error inputError(std::string message) { return {ErrorKind::input, std::mo
 inline Error usageError(std::string message) { return {ErrorKind::usage, std::move(message)}; }
 inline Error unavailableError(std::string message) { return {ErrorKind::unavailable, std::move(message)}; }
 inline Error outputError(std::string message) { return {ErrorKind::output, std::move(message)}; }
+inline Error memoryError(std::string message) { return {ErrorKind::input, std::move(message), true}; }
+
+// The error about that field, which its message then begins with: "options.maxDistance: expected ...".
+inline Error about(std::string field, Error error)
+{
+    error.message = field + ": " + error.message;
+    error.field = std::move(field);
+    return error;
+}
+
+// The same error in other words, which begin with no field.
+inline Error reworded(Error error, std::string message)
+{
+    error.message = std::move(message);
+    error.field.clear();
+    return error;
+}
 
 // ---- progress ------------------------------------------------------------------------------
 

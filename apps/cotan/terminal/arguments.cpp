@@ -6,10 +6,10 @@
 
 #include <CLI/CLI.hpp>
 
+#include "core/value_checks.hpp"
 #include "parse_errors.hpp"
 #include "terminal/command_words.hpp"
 #include "terminal/help_text.hpp"
-#include "value_checks.hpp"
 
 namespace cotan {
 

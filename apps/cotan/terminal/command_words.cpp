@@ -70,14 +70,6 @@ bool asksForHelp(const CommandNames& tool, std::span<const std::string> words)
         && std::ranges::find(tool.commands, "help", &CommandNames::name) != tool.commands.end();
 }
 
-std::string eitherOf(const std::vector<std::string>& words)
-{
-    std::string text;
-    for (std::size_t i = 0; i < words.size(); ++i)
-        text += (i == 0 ? "" : i + 1 == words.size() ? " or " : ", ") + words[i];
-    return text;
-}
-
 std::vector<std::string> withoutEquals(std::vector<std::string> words)
 {
     for (std::size_t i = 0; i < words.size() && words[i] != "--"; ++i)

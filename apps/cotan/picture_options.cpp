@@ -1,24 +1,14 @@
-#include "picture/words.hpp"
+#include "picture_options.hpp"
 
 #include <cstdlib>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "core/named_values.hpp"
 #include "cotan/convention.hpp"
-#include "terminal/command_words.hpp"
 
-namespace cotan {
-
-std::vector<std::string> frameWords()
-{
-    std::vector<std::string> names;
-    for (const FrameInfo& f : frames())
-        names.emplace_back(f.name);
-    return names;
-}
-
-std::string frameNames() { return fmt::format("{}", fmt::join(frameWords(), ", ")); }
+namespace cotan::app {
 
 std::string usefulFrameNames()
 {
@@ -55,22 +45,6 @@ void addListOfFrames(Arguments& a)
               listOfFrames);
 }
 
-Result<Frame> parseFrame(const std::string& text, std::string_view field)
-{
-    if (const auto frame = frameFromName(text))
-        return *frame;
-    return usageError(fmt::format("{}: expected one of {}; found '{}'", field, frameNames(), text));
-}
-
-Result<FrameChoice> parseFrameChoice(const std::string& text, std::string_view field)
-{
-    if (text == kAutoFrame)
-        return FrameChoice();
-    if (const auto frame = frameFromName(text))
-        return FrameChoice(*frame);
-    return usageError(fmt::format("{}: expected {} or one of {}; found '{}'", field, kAutoFrame, frameNames(), text));
-}
-
 void addMemoryOption(Arguments& a, int& memory, const std::string& also)
 {
     a.option(
@@ -78,7 +52,7 @@ void addMemoryOption(Arguments& a, int& memory, const std::string& also)
          "largest image to hold in memory" + also
              + ", in MiB; all images together may take 192 MiB (above 640: the given MiB) and 128 times the size of "
                "their files")
-        .within(1, 1 << 16)
+        .within(1, kMaxMemory)
         .in("MIB")
         .under(HelpGroup::general);
 }
@@ -170,7 +144,7 @@ void addOwnNormalMap(Arguments& a, OwnMaps& maps)
         .offers(conventionWordList())
         .under(HelpGroup::input);
     a.option("--material", maps.material, "number of the material that gets this image; -1: all")
-        .within(-1, 100000)
+        .within(-1, kMaxMaterial)
         .in("N")
         .under(HelpGroup::input);
 }
@@ -296,4 +270,4 @@ void addPictureOptions(Arguments& a, PictureOptions& o)
     a.flag("--point-sampled", o.pointSampled, "read the nearest texel of the finest level, for comparing devices");
 }
 
-} // namespace cotan
+} // namespace cotan::app

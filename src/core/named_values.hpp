@@ -41,4 +41,13 @@ std::optional<Value> valueOf(const Named<Value> (&all)[count], std::string_view 
     return std::nullopt;
 }
 
+// "a, b or c".
+inline std::string eitherOf(const std::vector<std::string>& words)
+{
+    std::string text;
+    for (std::size_t i = 0; i < words.size(); ++i)
+        text += (i == 0 ? "" : i + 1 == words.size() ? " or " : ", ") + words[i];
+    return text;
+}
+
 } // namespace cotan

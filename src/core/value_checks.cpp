@@ -1,11 +1,11 @@
-#include "value_checks.hpp"
+#include "core/value_checks.hpp"
 
 #include <algorithm>
 #include <cstdlib>
 #include <sstream>
 #include <utility>
 
-#include "terminal/command_words.hpp"
+#include "core/named_values.hpp"
 
 namespace cotan {
 

@@ -8,10 +8,10 @@
 #include <string>
 #include <vector>
 
+#include "core/named_values.hpp"
 #include "cotan/result.hpp"
 #include "terminal/command_help.hpp"
 #include "terminal/help_text.hpp"
-#include "terminal/named_values.hpp"
 
 namespace CLI {
 class App;

@@ -6,8 +6,8 @@
 
 #include <CLI/CLI.hpp>
 
+#include "core/named_values.hpp"
 #include "terminal/command_words.hpp"
-#include "value_checks.hpp"
 
 namespace cotan {
 

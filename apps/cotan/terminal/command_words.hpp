@@ -29,9 +29,6 @@ std::vector<std::string> withoutEquals(std::vector<std::string> words);
 // Letters to insert, leave out, exchange with another or with their neighbour until one word is the other.
 std::size_t editDistance(std::string_view a, std::string_view b);
 
-// "a, b or c".
-std::string eitherOf(const std::vector<std::string>& words);
-
 // A path as a word of a shell's command line.
 std::string quoted(const std::string& path);
 

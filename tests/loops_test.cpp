@@ -1,0 +1,126 @@
+// The loops of core/loops.hpp where there is no oneTBB: on several threads all the same.
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <chrono>
+#include <condition_variable>
+#include <memory>
+#include <mutex>
+#include <stdexcept>
+#include <vector>
+
+#include "core/loops.hpp"
+
+#ifdef COTAN_WITH_TBB
+#error "this test is for the loops without oneTBB"
+#endif
+
+namespace cotan {
+namespace {
+
+// Calls of meet() wait for each other.
+class Meeting {
+public:
+    explicit Meeting(int size) : missing_(size) {}
+
+    // Whether the others have come, too.
+    bool meet()
+    {
+        std::unique_lock lock(mutex_);
+        --missing_;
+        all_.notify_all();
+        return all_.wait_for(lock, std::chrono::seconds(20), [this] { return missing_ <= 0; });
+    }
+
+private:
+    std::mutex mutex_;
+    std::condition_variable all_;
+    int missing_;
+};
+
+TEST(LoopsByThreads, everyIndexIsMetOnceInPartsOfTheGrainOrMore)
+{
+    for (const int threads : {1, 2, 5})
+        for (const int last : {3, 4, 10, 999})
+            for (const int grain : {1, 7, 2000}) {
+                std::vector<std::atomic<int>> visits(std::size_t(last) + 1);
+                withThreads(threads, [&] {
+                    parallelRanges(3, last, grain, [&](int begin, int end) {
+                        EXPECT_GE(end - begin, std::min(grain, last - 3));
+                        for (int i = begin; i < end; ++i)
+                            ++visits[std::size_t(i)];
+                    });
+                });
+                for (int i = 0; i <= last; ++i)
+                    ASSERT_EQ(visits[std::size_t(i)], i >= 3 && i < last) << i << " of " << last;
+            }
+    parallelFor(5, 2, [](int) { FAIL(); });
+}
+
+TEST(LoopsByThreads, asManyThreadsWorkAsTheCallerSays)
+{
+    Meeting meeting(3);
+    std::atomic<int> met{0}, working{0}, most{0};
+    withThreads(3, [&] {
+        EXPECT_EQ(loopThreads(), 3);
+        parallelFor(0, 3, [&](int) { met += meeting.meet(); });
+        parallelFor(0, 100, [&](int) {
+            const int now = ++working;
+            for (int before = most; now > before && !most.compare_exchange_weak(before, now);) {
+            }
+            --working;
+        });
+    });
+    EXPECT_EQ(met, 3); // at the same time
+    EXPECT_LE(most, 3);
+    EXPECT_EQ(loopThreads(), std::max(1, int(std::thread::hardware_concurrency())));
+    EXPECT_EQ(withThreads(2, [] { return withThreads(0, [] { return loopThreads(); }); }), 2);
+    withThreads(1, [&] {
+        const auto here = std::this_thread::get_id();
+        parallelFor(0, 10, [&](int) { EXPECT_EQ(std::this_thread::get_id(), here); });
+    });
+}
+
+TEST(LoopsByThreads, loopsInsideShareTheThreadsThatAreLeft)
+{
+    withThreads(5, [&] {
+        parallelFor(0, 1, [](int) { EXPECT_EQ(loopThreads(), 5); });
+        parallelFor(0, 2, [](int) { EXPECT_EQ(loopThreads(), 2); });
+        parallelFor(0, 9, [](int) { EXPECT_EQ(loopThreads(), 1); });
+        EXPECT_EQ(loopThreads(), 5);
+    });
+}
+
+TEST(LoopsByThreads, whatIsThrownArrives)
+{
+    const auto throwing = [](int i) {
+        if (i == 7)
+            throw std::runtime_error("seven");
+    };
+    for (const int threads : {1, 3})
+        EXPECT_THROW(withThreads(threads, [&] { parallelFor(0, 50, throwing); }), std::runtime_error);
+}
+
+TEST(LoopsByThreads, aPipelineReadsAndGivesInOrderAndWorksOnSeveralAtOnce)
+{
+    for (const std::size_t most : {0u, 1u, 3u}) {
+        int read = 0, given = 0;
+        std::atomic<int> met{0};
+        Meeting meeting{int(most)};
+        const auto next = [&]() -> std::shared_ptr<int> {
+            EXPECT_LE(read - given, std::max(int(most), 1) - 1);
+            return read < 10 ? std::make_shared<int>(read++) : nullptr;
+        };
+        const auto work = [&](const std::shared_ptr<int>& item) {
+            met += *item < int(most) && meeting.meet();
+            *item *= 2;
+        };
+        const auto give = [&](const std::shared_ptr<int>& item) { EXPECT_EQ(*item, 2 * given++); };
+        withThreads(3, [&] { pipeline(most, next, work, give); });
+        EXPECT_EQ(given, 10);
+        EXPECT_EQ(met, int(most));
+    }
+}
+
+} // namespace
+} // namespace cotan

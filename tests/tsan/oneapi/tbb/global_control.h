@@ -1,1 +1,0 @@
-#include "tbb_by_threads.hpp" // see there
