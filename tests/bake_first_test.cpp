@@ -251,27 +251,36 @@ TEST(BakeFirst, whereRaysStartCanBeToldAndLimited)
     }
 }
 
+// The unit square of so many cells a side, facing upwards.
+Mesh cellsOf(std::uint32_t cells)
+{
+    Mesh mesh;
+    for (std::uint32_t j = 0; j <= cells; ++j)
+        for (std::uint32_t i = 0; i <= cells; ++i) {
+            const glm::vec2 c(float(i) / float(cells), float(j) / float(cells));
+            mesh.positions.emplace_back(c.x, c.y, 0);
+            mesh.normals.emplace_back(0, 0, 1);
+            mesh.texcoords[0].emplace_back(c.x, 1 - c.y);
+        }
+    for (std::uint32_t j = 0; j < cells; ++j)
+        for (std::uint32_t i = 0; i < cells; ++i) {
+            const std::uint32_t a = j * (cells + 1) + i, b = a + 1, d = a + cells + 1, c = d + 1;
+            mesh.indices.insert(mesh.indices.end(), {a, b, c, a, c, d});
+        }
+    return mesh;
+}
+
+// Two triangles that stand 0.05 off over many: most of the low ones are far from the plate's corners, and where they
+// are finer than the points that are asked of the plate, far from every point of it. What lies under the plate belongs
+// to all.
 TEST(BakeFirst, aPlateOverAFineLowMeshIsInAllOfIt)
 {
-    // Two triangles that stand 0.05 off over 2,048: most of the low ones are far from the plate's corners.
-    Mesh low, high;
-    constexpr int kCells = 32;
-    for (int j = 0; j <= kCells; ++j)
-        for (int i = 0; i <= kCells; ++i) {
-            const glm::vec2 c(float(i) / kCells, float(j) / kCells);
-            low.positions.emplace_back(c.x, c.y, 0);
-            low.normals.emplace_back(0, 0, 1);
-            low.texcoords[0].emplace_back(c.x, 1 - c.y);
-        }
-    for (std::uint32_t j = 0; j < kCells; ++j)
-        for (std::uint32_t i = 0; i < kCells; ++i) {
-            const std::uint32_t a = j * (kCells + 1) + i, b = a + 1, d = a + kCells + 1, c = d + 1;
-            low.indices.insert(low.indices.end(), {a, b, c, a, c, d});
-        }
-    addSquare(high, kUpwards, {0.5f, 0.5f, 0}, {0.6f, 0.6f});
-    addSquare(high, kUpwards, {0.5f, 0.5f, 0.05f}, {0.6f, 0.6f});
-    for (const glm::vec3& v : valuesOf(bakeOf(setupOf({low, high}, BakeKind::height))))
-        EXPECT_NEAR(v.x, 0.05, 1e-5);
+    for (const auto& [cells, under] : {std::pair(32u, 1u), {220u, 1u}, {220u, 300u}, {330u, 37u}}) {
+        Mesh high = cellsOf(under);
+        addSquare(high, kUpwards, {0.5f, 0.5f, 0.05f}, {0.6f, 0.6f});
+        for (const glm::vec3& v : valuesOf(bakeOf(setupOf({cellsOf(cells), high}, BakeKind::height))))
+            ASSERT_NEAR(v.x, 0.05, 1e-5) << cells << " over " << under;
+    }
 }
 
 TEST(BakeFirst, missesSayWhetherSomethingIsFurtherAway)

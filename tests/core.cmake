@@ -47,6 +47,11 @@ if(Python3_FOUND)
   endforeach()
 endif()
 
+# A frame, an image format and a shader language, added to a copy of the sources.
+if(Python3_FOUND AND TARGET cotan_image AND TARGET OpenImageIO::OpenImageIO)
+  add_test(NAME Extending.addsOneOfEachByTwoPlaces
+    COMMAND ${Python3_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/extending_test.py ${PROJECT_SOURCE_DIR})
+endif()
 if(Python3_FOUND)
   add_test(NAME PublicHeaders.beginWithExamplesThatCompile
     COMMAND ${Python3_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/header_examples.py ${PROJECT_SOURCE_DIR} ${place}/examples.cpp

@@ -51,6 +51,28 @@ TEST(GltfBounds, limitsAreReachedAndNotPassed)
     EXPECT_NE(refusalOf(g, limits).find("nodes: the limit is 2, found 3"), std::string::npos);
 }
 
+// The last vertex may be named, the one behind it may not: by indices of each width.
+TEST(GltfBounds, anIndexIsBelowTheNumberOfVertices)
+{
+    for (const int type : {kUByte, kUShort, kUInt})
+        for (const int index : {3, 4}) {
+            Gltf g = square();
+            const std::vector<std::uint32_t> order = {0, 1, 2, 0, 2, std::uint32_t(index)};
+            primitive(g)["indices"] = type == kUInt ? g.accessor(order, "SCALAR", kUInt)
+                : type == kUShort
+                ? g.accessor(std::vector<std::uint16_t>(order.begin(), order.end()), "SCALAR", kUShort)
+                : g.accessor(std::vector<std::uint8_t>(order.begin(), order.end()), "SCALAR", kUByte);
+            const std::string said = refusalOf(g, {});
+            if (index < 4) {
+                EXPECT_EQ(said, "") << type;
+            } else {
+                EXPECT_NE(said.find("meshes[0].primitives[0].indices: index 5 is 4, but there are 4 vertices"),
+                          std::string::npos)
+                    << type << said;
+            }
+        }
+}
+
 // Vertices of zeros, which cost the file nothing: one accessor of each type stands for all attributes of that type.
 struct Zeros {
     explicit Zeros(std::size_t vertices) : count(vertices)

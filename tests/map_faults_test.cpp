@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <random>
 #include <sstream>
 
@@ -179,6 +180,32 @@ TEST(MapFaults, greenOfAMapThatIsMadeFor2cMinus1IsTurnedAbout127AndAHalf)
     const auto mended = readImage(folder / "mended.png");
     ASSERT_TRUE(mended);
     EXPECT_TRUE(std::equal(sound.bytes8(), sound.bytes8() + 4 * sound.pixelCount(), mended->bytes8()));
+}
+
+// Each texel by itself, in images that are wider than high and higher than wide.
+TEST(MapFaults, damageIsUndoneTexelByTexel)
+{
+    std::mt19937 dice(3);
+    for (const glm::ivec2 size : {glm::ivec2(7, 3), {2, 9}, {1, 5}}) {
+        Image map = makeImage(size.x, size.y, PixelType::unorm16, "map");
+        for (std::size_t i = 0; i < map.data.size() / 2; ++i) {
+            const auto value = std::uint16_t(dice());
+            std::memcpy(&map.data[2 * i], &value, 2);
+        }
+        for (const char* words : {"gltf,srgb", "gltf,bgr"}) {
+            const auto stated = parseStatedConvention(words);
+            ASSERT_TRUE(stated) << words;
+            Image whole = map;
+            maps::undo(stated->damage, whole);
+            EXPECT_NE(whole.data, map.data) << words;
+            for (std::size_t i = 0; i < map.pixelCount(); ++i) {
+                Image one = makeImage(1, 1, PixelType::unorm16, "one");
+                std::memcpy(one.data.data(), &map.data[8 * i], 8);
+                maps::undo(stated->damage, one);
+                EXPECT_EQ(std::memcmp(one.data.data(), &whole.data[8 * i], 8), 0) << words << ' ' << i;
+            }
+        }
+    }
 }
 
 // A rendered picture, or a photograph, has no channels to exchange and no curve to undo.

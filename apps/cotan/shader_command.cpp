@@ -155,7 +155,7 @@ Status run(const ShaderCommandOptions& o)
 void declare(Arguments& a, ShaderCommandOptions& o)
 {
     a.find("--threads").unlisted(); // accepted by all commands, listed where it is used
-    a.option("--lang", o.language, "glsl, essl, hlsl, wgsl, msl, cpp or godot (a whole spatial shader)")
+    a.option("--lang", o.language, shader_text::languageNames() + "; godot is a whole spatial shader")
         .required()
         .in("NAME")
         .main();

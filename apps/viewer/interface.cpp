@@ -58,8 +58,7 @@ std::vector<Slider> slidersOf(const State& s)
         {"exposure", "set exposure", "", s.picture.exposure.value_or(s.metered), 0.05, 20, true},
         {"light rotation", "set environment-rotation", "degrees", number("environment-rotation"), -180, 180},
         {"light intensity", "set environment-intensity", "", number("environment-intensity"), 0.05, 20, true},
-        {"shadow softness", "set shadow-softness", "degrees",
-         s.picture.shadowSoftness.value_or(s.picture.environment == "evening" ? 3 : 10), 0, 60},
+        {"shadow softness", "set shadow-softness", "degrees", shadowSoftnessOf(s.picture), 0, 60},
     };
     if (s.compare == Compare::divider)
         sliders.push_back({"divider", "divider", "", s.divider, 0, 1});

@@ -199,13 +199,23 @@ public:
             raise(below.triangle, below.b1, below.b2, below.distance, normal);
     }
 
-    // Vertices that nothing belongs to: of all, or of every second, third and so on.
-    void addRays(std::size_t every)
+    // Vertices that nothing belongs to, and those whose triangles are all smaller than the points of large triangles
+    // are apart: a surface underneath may belong to them, while no point of the one above does. Of all, or of every
+    // second, third and so on.
+    void addRays(float spacing, std::size_t every)
     {
+        std::vector<float> longest(groups_.count, 0); // edge at the vertex, squared
+        for (std::size_t i = 0; i < low_.indices.size(); ++i) {
+            const std::uint32_t a = low_.indices[i], b = low_.indices[i % 3 == 2 ? i - 2 : i + 1];
+            const glm::vec3 edge = low_.positions[b] - low_.positions[a];
+            for (const std::uint32_t g : {groups_.of[a], groups_.of[b]})
+                longest[g] = std::max(longest[g], glm::dot(edge, edge));
+        }
         std::vector<std::uint32_t> open;
         std::vector<std::uint8_t> asked(groups_.count, 0);
+        const auto isOpen = [&](std::uint32_t g) { return !reached_[g] || longest[g] < 4 * spacing * spacing; };
         for (std::size_t i = 0; i < low_.indices.size(); ++i)
-            if (const std::uint32_t g = groups_.of[low_.indices[i]]; !reached_[g] && !asked[g]) {
+            if (const std::uint32_t g = groups_.of[low_.indices[i]]; !asked[g] && isOpen(g)) {
                 asked[g] = 1;
                 open.push_back(std::uint32_t(i));
             }
@@ -358,7 +368,7 @@ Result<std::size_t> measure(const HighSurface& high, float spacing, Measuring& m
         });
         before += part.indices.size() / 3;
     }
-    measuring.addRays(every);
+    measuring.addRays(spacing, every);
     return every;
 }
 

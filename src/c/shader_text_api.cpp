@@ -16,7 +16,7 @@ cotan_status cotan_shader_text(const char* language, const char* frame, const ch
         const auto known = shader_text::languageFromName(word(language, "language"));
         if (!known)
             fail(ErrorKind::usage,
-                 "language: expected glsl, essl, hlsl, wgsl, msl, cpp or godot, found '" + std::string(language) + "'");
+                 "language: expected " + shader_text::languageNames() + ", found '" + std::string(language) + "'");
         const std::string_view words = word(frame, "frame"), name = words.substr(0, words.find(','));
         const auto which = frameFromName(name);
         if (!which)

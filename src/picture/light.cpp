@@ -114,6 +114,11 @@ Result<std::shared_ptr<const EnvironmentMap>> openEnvironmentMap(const PictureOp
     return std::shared_ptr<const EnvironmentMap>(std::make_shared<const EnvironmentMap>(std::move(*map)));
 }
 
+double shadowSoftnessOf(const PictureOptions& options)
+{
+    return options.shadowSoftness.value_or(options.environment == "evening" ? 3 : 10);
+}
+
 Status lightPicture(const PictureOptions& options, View& view)
 {
     view.exposure = options.exposure.value_or(1.0f);
@@ -126,8 +131,7 @@ Status lightPicture(const PictureOptions& options, View& view)
                                                                              : "environment-intensity"));
     view.toneMapping = options.toneMapping;
     view.shadows = !options.noShadows;
-    const double softness = options.shadowSoftness.value_or(options.environment == "evening" ? 3 : 10);
-    view.shadowSoftness = float(std::tan(softness * kRadians / 2));
+    view.shadowSoftness = float(std::tan(shadowSoftnessOf(options) * kRadians / 2));
     view.background = background != Background::none;
     if (view.background)
         view.backdrop = backdropOf(background);

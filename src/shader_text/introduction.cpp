@@ -3,25 +3,11 @@
 #include "entry.hpp"
 #include "fill.hpp"
 #include "godot.hpp"
-#include "print.hpp"
+#include "languages.hpp"
 
 namespace cotan::shader_text {
 
 namespace {
-
-std::string_view title(Language language)
-{
-    switch (language) {
-    case Language::glsl: return "GLSL 3.30 and later";
-    case Language::essl: return "GLSL ES 3.00 (WebGL 2)";
-    case Language::hlsl: return "HLSL, shader model 5 and later";
-    case Language::wgsl: return "WGSL";
-    case Language::msl: return "Metal shading language";
-    case Language::godot: return "Godot 3.2 and later and Godot 4";
-    case Language::cpp: break;
-    }
-    return "C++17";
-}
 
 std::string_view channelsText(Channels c)
 {
@@ -45,57 +31,41 @@ std::string_view expansionText(Expansion e)
     return "signed values as sampled";
 }
 
-std::string_view sample(Language language)
-{
-    switch (language) {
-    case Language::glsl:
-    case Language::essl:
-    case Language::godot: return "texture(normal_map, uv).xyz";
-    case Language::hlsl: return "normal_map.Sample(map_sampler, uv).xyz";
-    case Language::wgsl: return "textureSample(normal_map, map_sampler, uv).xyz";
-    case Language::msl: return "normal_map.sample(map_sampler, uv).xyz";
-    case Language::cpp: break;
-    }
-    return "texel";
-}
-
 std::string declared(Language language, const std::string& value)
 {
-    if (language == Language::wgsl)
-        return "let n = " + value + ";";
-    return (language == Language::cpp ? "cotan_shader::cotan_vec3" : wordOf(language, "cotan_vec3")) + " n = " + value
-        + ";";
+    const LanguageInfo& info = infoOf(language);
+    return (info.grammar.typesAfterNames ? "let" : std::string(info.scope) + wordOf(language, "cotan_vec3"))
+        + " n = " + value + ";";
 }
 
 std::string call(const Choice& choice, Form form)
 {
     const Language l = choice.language;
-    const std::string scope = l == Language::cpp ? "cotan_shader::" : "";
+    const std::string scope(infoOf(l).scope), sample(infoOf(l).sample);
     if (readsVertices(choice.frame))
         return declared(l,
                         scope + entryOf(choice.frame)
                             + (readsCotangents(choice.frame) ? "(normal, cotangent, cobitangent, "
                                                              : "(normal, tangent.xyz, tangent.w, ")
-                            + std::string(sample(l)) + ")");
+                            + sample + ")");
     if (readsTriangleVectors(choice.frame) && l == Language::godot && form == Form::fused)
-        return declared(l, "cotan_perturb_normal_on_triangle(normal, u, v, " + std::string(sample(l)) + ")");
+        return declared(l, "cotan_perturb_normal_on_triangle(normal, u, v, " + sample + ")");
     if (readsTriangleVectors(choice.frame) && form == Form::fused && choice.stage != Stage::compute) {
         const std::string make = "words = " + scope + "cotan_make_triangle(p0, p1, p2, uv0, uv1, uv2, n0, n1, n2);";
         const std::string pixel =
-            declared(l, scope + "cotan_perturb_normal_on_triangle(normal, words, " + std::string(sample(l)) + ")");
+            declared(l, scope + "cotan_perturb_normal_on_triangle(normal, words, " + sample + ")");
         return choice.stage == Stage::fragment ? pixel
             : choice.stage == Stage::all       ? make + "   (vertex or mesh stage)\n//   " + pixel + "   (pixels)"
                                                : make;
     }
     if (info(choice.frame).source == FrameSource::triangle)
-        return declared(
-            l, scope + kEdgeEntry + "(normal, p1 - p0, p2 - p0, uv1 - uv0, uv2 - uv0, " + std::string(sample(l)) + ")");
+        return declared(l, scope + kEdgeEntry + "(normal, p1 - p0, p2 - p0, uv1 - uv0, uv2 - uv0, " + sample + ")");
     const bool screen = hasScreenEntry(choice);
     std::string arguments = screen ? "normal, position" : "normal, dpdx, dpdy";
     for (int k = 0; k < choice.uvSets; ++k) {
         const std::string set = choice.uvSets == 1 ? "" : std::to_string(k);
         arguments += screen ? ", uv" + set : ", duv" + set + "dx, duv" + set + "dy";
-        arguments += choice.uvSets == 1 ? ", " + std::string(sample(l)) : ", texel" + set;
+        arguments += choice.uvSets == 1 ? ", " + sample : ", texel" + set;
     }
     if (form == Form::seen)
         arguments += ", side";
@@ -112,7 +82,7 @@ std::string needs(const Choice& choice)
                    "//   the corners of the triangle that this vertex provokes: its own position, uv and normal, "
                    "and those\n"
                    "//   of the other two, read from ")
-            + (choice.language == Language::essl ? "data textures" : "storage buffers")
+            + std::string(infoOf(choice.language).cornersIn)
             + ". Hand the three words on without interpolation (flat).\n"
               "//   An index buffer in which every triangle owns its provoking vertex, the first (in OpenGL and WebGL\n"
               "//   the last): cotan convert --provoking, or provokingMesh of cotan/gpu_meshes.hpp.\n";
@@ -139,30 +109,11 @@ std::string needs(const Choice& choice)
             "//   uv         as the normal map is sampled with\n";
     if (hasScreenEntry(choice))
         return text
-            + fill("//   derivatives of position and uv: taken here by {} and {}\n", namesOf(choice.language).ddx,
-                   namesOf(choice.language).ddy);
+            + fill("//   derivatives of position and uv: taken here by {} and {}\n",
+                   infoOf(choice.language).grammar.ddx, infoOf(choice.language).grammar.ddy);
     return text
         + "//   derivatives of position and uv: yours, along any two directions, the same for both\n"
           "//              (screen derivatives, ray differentials, neighbours in a raster)\n";
-}
-
-std::string_view languageNote(Language language)
-{
-    switch (language) {
-    case Language::essl: return "//   The shader must say: precision highp float; precision highp int;\n";
-    case Language::wgsl:
-        return "//   WGSL lets an implementation assume that no number is NaN or infinite: the guards against\n"
-               "//   non-finite input are then not sure to hold. Those against zeros and empty areas do.\n";
-    case Language::msl:
-        return "//   Fast mathematics, Metal's default, may drop the guards against non-finite input; compile\n"
-               "//   with -fno-fast-math where these matter. Those against zeros and empty areas stay.\n";
-    case Language::cpp: return "//   Change cotan_real to double for double precision.\n";
-    case Language::godot:
-        return "//   GLES2 on phones may compute with 16 bits, which is too little for positions: use GLES3 there.\n"
-               "//   Whether guards against non-finite input hold is up to the driver.\n";
-    default: break;
-    }
-    return "";
 }
 
 std::string_view formText(Form form)
@@ -231,7 +182,7 @@ std::string limits(const Choice& choice, Form form)
                 "//   edges"
             + std::string(choice.frame == Frame::cotangent ? " (a sphere of 32 segments: 1.1 degrees in the mean).\n"
                                                            : ".\n");
-    return text + std::string(languageNote(choice.language));
+    return text + std::string(infoOf(choice.language).limits);
 }
 
 bool hasSet(const Choice& choice, Set set) { return std::ranges::find(choice.sets, set) != choice.sets.end(); }
@@ -279,14 +230,14 @@ std::string credits(const Choice& choice)
 std::string introduction(const Choice& choice, Form form)
 {
     const Convention& c = choice.convention;
-    const bool halfs = readsTriangleVectors(choice.frame) && form == Form::fused; // packHalf2x16
+    const LanguageInfo& language = infoOf(choice.language);
+    const bool halfs = readsTriangleVectors(choice.frame) && form == Form::fused && !language.titleWithHalfs.empty();
     return fill("// Normal mapping, frame `{}` ({}), for {}.\n"
                 "// Written by cotan shader from the portable text of Cotan; MIT licence.\n"
                 "//\n"
                 "// Normal map: {}, {}, green {} increasing v.\n"
                 "//\n{}//\n// Call:\n//   {}\n// It returns {}.\n//\n{}//\n{}{}\n",
-                name(choice.frame), formText(form),
-                halfs && choice.language == Language::glsl ? "GLSL 4.20 and later" : title(choice.language),
+                name(choice.frame), formText(form), halfs ? language.titleWithHalfs : language.title,
                 channelsText(c.channels), expansionText(c.expansion), greenAlongV(c) ? "along" : "against",
                 needs(choice), call(choice, form),
                 choice.stage == Stage::vertex || choice.stage == Stage::mesh

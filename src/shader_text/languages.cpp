@@ -1,103 +1,10 @@
-#include "print.hpp"
+#include "languages.hpp"
+
+#include <array>
 
 namespace cotan::shader_text {
 
 namespace {
-
-const Names kGlsl = {{{"cotan_real", "float"},
-                      {"cotan_vec2", "vec2"},
-                      {"cotan_vec3", "vec3"},
-                      {"cotan_vec4", "vec4"},
-                      {"cotan_uint", "uint"},
-                      {"cotan_inversesqrt", "inversesqrt"},
-                      {"cotan_mix", "mix"},
-                      {"cotan_float_bits", "floatBitsToUint"},
-                      {"cotan_bits_float", "uintBitsToFloat"},
-                      {"cotan_real_of", "float"},
-                      {"cotan_pack_half", "packHalf2x16"},
-                      {"cotan_unpack_half", "unpackHalf2x16"},
-                      {"cotan_ddx", "dFdx"},
-                      {"cotan_ddy", "dFdy"}},
-                     "",
-                     "",
-                     "dFdx",
-                     "dFdy",
-                     false,
-                     false,
-                     false};
-
-const Names kHlsl = {{{"cotan_real", "float"},
-                      {"cotan_vec2", "float2"},
-                      {"cotan_vec3", "float3"},
-                      {"cotan_vec4", "float4"},
-                      {"cotan_uint", "uint"},
-                      {"cotan_inversesqrt", "rsqrt"},
-                      {"cotan_mix", "lerp"},
-                      {"cotan_float_bits", "asuint"},
-                      {"cotan_bits_float", "asfloat"},
-                      {"cotan_real_of", "float"},
-                      {"cotan_ddx", "ddx_fine"},
-                      {"cotan_ddy", "ddy_fine"}},
-                     "",
-                     "",
-                     "ddx_fine",
-                     "ddy_fine",
-                     false,
-                     false,
-                     false};
-
-const Names kWgsl = {{{"cotan_real", "f32"},
-                      {"cotan_vec2", "vec2f"},
-                      {"cotan_vec3", "vec3f"},
-                      {"cotan_vec4", "vec4f"},
-                      {"cotan_uint", "u32"},
-                      {"int", "i32"},
-                      {"cotan_inversesqrt", "inverseSqrt"},
-                      {"cotan_mix", "mix"},
-                      {"cotan_float_bits", "bitcast<u32>"},
-                      {"cotan_bits_float", "bitcast<f32>"},
-                      {"cotan_real_of", "f32"},
-                      {"cotan_pack_half", "pack2x16float"},
-                      {"cotan_unpack_half", "unpack2x16float"},
-                      {"cotan_ddx", "dpdxFine"},
-                      {"cotan_ddy", "dpdyFine"},
-                      {"target", "target_normal"}}, // a reserved word
-                     "",
-                     "",
-                     "dpdxFine",
-                     "dpdyFine",
-                     false,
-                     false,
-                     true};
-
-const Names kMsl = {{{"cotan_real", "float"},
-                     {"cotan_vec2", "float2"},
-                     {"cotan_vec3", "float3"},
-                     {"cotan_vec4", "float4"},
-                     {"cotan_uint", "uint"},
-                     {"cotan_inversesqrt", "rsqrt"},
-                     {"cotan_mix", "mix"},
-                     {"cotan_float_bits", "as_type<uint>"},
-                     {"cotan_bits_float", "as_type<float>"},
-                     {"cotan_real_of", "float"},
-                     {"cotan_ddx", "dfdx"},
-                     {"cotan_ddy", "dfdy"}},
-                    "f",
-                    "inline ",
-                    "dfdx",
-                    "dfdy",
-                    false,
-                    false,
-                    false};
-
-// What Godot 3 and 4 share: GLSL's words, but no structs; and in OpenGL ES 2 no bits of floats, which lang.h sees to.
-const Names kGodot = [] {
-    Names names = kGlsl;
-    names.structs = false;
-    return names;
-}();
-
-const Names kCpp = {{}, "", "inline ", "", "", true, true, false};
 
 constexpr std::string_view kMslPrelude = R"(#include <metal_stdlib>
 using namespace metal;
@@ -222,11 +129,152 @@ inline cotan_vec2 cotan_unpack_half(cotan_uint word)
 
 )";
 
-constexpr std::string_view kNames[] = {"glsl", "essl", "hlsl", "wgsl", "msl", "cpp", "godot"};
+// In the order of Language.
+const std::array<LanguageInfo, std::size(kLanguages)> kInfos = [] {
+    LanguageInfo glsl;
+    glsl.name = "glsl";
+    glsl.title = "GLSL 3.30 and later";
+    glsl.titleWithHalfs = "GLSL 4.20 and later"; // packHalf2x16
+    glsl.branch = "COTAN_LANG_GLSL";
+    glsl.sample = "texture(normal_map, uv).xyz";
+    glsl.cornersIn = "storage buffers";
+    glsl.grammar.words = {{"cotan_real", "float"},
+                          {"cotan_vec2", "vec2"},
+                          {"cotan_vec3", "vec3"},
+                          {"cotan_vec4", "vec4"},
+                          {"cotan_uint", "uint"},
+                          {"cotan_inversesqrt", "inversesqrt"},
+                          {"cotan_mix", "mix"},
+                          {"cotan_float_bits", "floatBitsToUint"},
+                          {"cotan_bits_float", "uintBitsToFloat"},
+                          {"cotan_real_of", "float"},
+                          {"cotan_pack_half", "packHalf2x16"},
+                          {"cotan_unpack_half", "unpackHalf2x16"},
+                          {"cotan_ddx", "dFdx"},
+                          {"cotan_ddy", "dFdy"}};
+    glsl.grammar.ddx = "dFdx";
+    glsl.grammar.ddy = "dFdy";
+
+    LanguageInfo essl = glsl;
+    essl.name = "essl";
+    essl.title = "GLSL ES 3.00 (WebGL 2)";
+    essl.titleWithHalfs = {};
+    essl.cornersIn = "data textures";
+    essl.limits = "//   The shader must say: precision highp float; precision highp int;\n";
+
+    LanguageInfo hlsl;
+    hlsl.name = "hlsl";
+    hlsl.title = "HLSL, shader model 5 and later";
+    hlsl.branch = glsl.branch;
+    hlsl.sample = "normal_map.Sample(map_sampler, uv).xyz";
+    hlsl.cornersIn = glsl.cornersIn;
+    hlsl.halfs = kHlslHalfs;
+    hlsl.grammar.words = {{"cotan_real", "float"},    {"cotan_vec2", "float2"},       {"cotan_vec3", "float3"},
+                          {"cotan_vec4", "float4"},   {"cotan_uint", "uint"},         {"cotan_inversesqrt", "rsqrt"},
+                          {"cotan_mix", "lerp"},      {"cotan_float_bits", "asuint"}, {"cotan_bits_float", "asfloat"},
+                          {"cotan_real_of", "float"}, {"cotan_ddx", "ddx_fine"},      {"cotan_ddy", "ddy_fine"}};
+    hlsl.grammar.ddx = "ddx_fine";
+    hlsl.grammar.ddy = "ddy_fine";
+
+    LanguageInfo wgsl;
+    wgsl.name = "wgsl";
+    wgsl.title = "WGSL";
+    wgsl.branch = glsl.branch;
+    wgsl.sample = "textureSample(normal_map, map_sampler, uv).xyz";
+    wgsl.cornersIn = glsl.cornersIn;
+    wgsl.limits = "//   WGSL lets an implementation assume that no number is NaN or infinite: the guards against\n"
+                  "//   non-finite input are then not sure to hold. Those against zeros and empty areas do.\n";
+    wgsl.grammar.words = {{"cotan_real", "f32"},
+                          {"cotan_vec2", "vec2f"},
+                          {"cotan_vec3", "vec3f"},
+                          {"cotan_vec4", "vec4f"},
+                          {"cotan_uint", "u32"},
+                          {"int", "i32"},
+                          {"cotan_inversesqrt", "inverseSqrt"},
+                          {"cotan_mix", "mix"},
+                          {"cotan_float_bits", "bitcast<u32>"},
+                          {"cotan_bits_float", "bitcast<f32>"},
+                          {"cotan_real_of", "f32"},
+                          {"cotan_pack_half", "pack2x16float"},
+                          {"cotan_unpack_half", "unpack2x16float"},
+                          {"cotan_ddx", "dpdxFine"},
+                          {"cotan_ddy", "dpdyFine"},
+                          {"target", "target_normal"}}; // a reserved word
+    wgsl.grammar.ddx = "dpdxFine";
+    wgsl.grammar.ddy = "dpdyFine";
+    wgsl.grammar.typesAfterNames = true;
+
+    LanguageInfo msl;
+    msl.name = "msl";
+    msl.title = "Metal shading language";
+    msl.branch = glsl.branch;
+    msl.sample = "normal_map.sample(map_sampler, uv).xyz";
+    msl.cornersIn = glsl.cornersIn;
+    msl.limits = "//   Fast mathematics, Metal's default, may drop the guards against non-finite input; compile\n"
+                 "//   with -fno-fast-math where these matter. Those against zeros and empty areas stay.\n";
+    msl.prelude = kMslPrelude;
+    msl.halfs = kMslHalfs;
+    msl.grammar.words = {{"cotan_real", "float"},
+                         {"cotan_vec2", "float2"},
+                         {"cotan_vec3", "float3"},
+                         {"cotan_vec4", "float4"},
+                         {"cotan_uint", "uint"},
+                         {"cotan_inversesqrt", "rsqrt"},
+                         {"cotan_mix", "mix"},
+                         {"cotan_float_bits", "as_type<uint>"},
+                         {"cotan_bits_float", "as_type<float>"},
+                         {"cotan_real_of", "float"},
+                         {"cotan_ddx", "dfdx"},
+                         {"cotan_ddy", "dfdy"}};
+    msl.grammar.floatSuffix = "f";
+    msl.grammar.functionPrefix = "inline ";
+    msl.grammar.ddx = "dfdx";
+    msl.grammar.ddy = "dfdy";
+
+    LanguageInfo cpp;
+    cpp.name = "cpp";
+    cpp.title = "C++17";
+    cpp.branch = "COTAN_LANG_CPP";
+    cpp.sample = "texel";
+    cpp.scope = "cotan_shader::";
+    cpp.cornersIn = glsl.cornersIn;
+    cpp.limits = "//   Change cotan_real to double for double precision.\n";
+    cpp.prelude = kCppPrelude;
+    cpp.halfs = kCppHalfs;
+    cpp.postlude = "\n} // namespace cotan_shader\n";
+    cpp.grammar.functionPrefix = "inline ";
+    cpp.grammar.realCalls = cpp.grammar.braces = true;
+
+    // What Godot 3 and 4 share: GLSL's words, but no structs; and in OpenGL ES 2 no bits of floats, which lang.h sees
+    // to.
+    LanguageInfo godot = glsl;
+    godot.name = "godot";
+    godot.title = "Godot 3.2 and later and Godot 4";
+    godot.titleWithHalfs = {};
+    godot.branch = "COTAN_LANG_GODOT";
+    godot.limits =
+        "//   GLES2 on phones may compute with 16 bits, which is too little for positions: use GLES3 there.\n"
+        "//   Whether guards against non-finite input hold is up to the driver.\n";
+    godot.grammar.structs = false;
+
+    return std::array{glsl, essl, hlsl, wgsl, msl, cpp, godot};
+}();
 
 } // namespace
 
-std::string_view name(Language language) { return kNames[int(language)]; }
+const LanguageInfo& infoOf(Language language) { return kInfos[std::size_t(language)]; }
+
+std::string_view name(Language language) { return infoOf(language).name; }
+
+std::string languageNames()
+{
+    std::string text;
+    for (const LanguageInfo& info : kInfos) {
+        text += text.empty() ? "" : &info == &kInfos.back() ? " or " : ", ";
+        text += info.name;
+    }
+    return text;
+}
 
 std::optional<Language> languageFromName(std::string_view text)
 {
@@ -256,44 +304,9 @@ std::optional<Stage> stageFromName(std::string_view text)
     return std::nullopt;
 }
 
-const Names& namesOf(Language language)
-{
-    switch (language) {
-    case Language::glsl:
-    case Language::essl: return kGlsl;
-    case Language::hlsl: return kHlsl;
-    case Language::wgsl: return kWgsl;
-    case Language::msl: return kMsl;
-    case Language::godot: return kGodot;
-    case Language::cpp: break;
-    }
-    return kCpp;
-}
-
-std::string_view prelude(Language language)
-{
-    return language == Language::msl ? kMslPrelude : language == Language::cpp ? kCppPrelude : std::string_view();
-}
-
-std::string_view halfs(Language language)
-{
-    switch (language) {
-    case Language::hlsl: return kHlslHalfs;
-    case Language::msl: return kMslHalfs;
-    case Language::cpp: return kCppHalfs;
-    default: break;
-    }
-    return {}; // GLSL and WGSL have them; Godot's text packs nothing
-}
-
-std::string_view postlude(Language language)
-{
-    return language == Language::cpp ? std::string_view("\n} // namespace cotan_shader\n") : std::string_view();
-}
-
 std::string wordOf(Language language, const std::string& portable)
 {
-    const auto& words = namesOf(language).words;
+    const auto& words = infoOf(language).grammar.words;
     const auto word = words.find(portable);
     return word == words.end() ? portable : word->second;
 }

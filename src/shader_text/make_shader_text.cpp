@@ -6,6 +6,7 @@
 #include "entry.hpp"
 #include "fill.hpp"
 #include "godot.hpp"
+#include "languages.hpp"
 #include "parse.hpp"
 #include "portable_parts.hpp"
 #include "print.hpp"
@@ -15,24 +16,15 @@ namespace cotan::shader_text {
 
 namespace {
 
-std::string_view branchOf(Language language)
-{
-    switch (language) {
-    case Language::cpp: return "COTAN_LANG_CPP";
-    case Language::godot: return "COTAN_LANG_GODOT";
-    default: break;
-    }
-    return "COTAN_LANG_GLSL";
-}
-
 // All of the portable text, and `extra` after it.
 Module parseAll(Language language, std::string_view extra)
 {
     Module module;
     std::map<std::string, Expression> constants;
+    const std::string_view branch = infoOf(language).branch;
     for (const PortablePart& part : portableParts())
-        parsePart(module, constants, part.name, part.text, branchOf(language));
-    parsePart(module, constants, "entry", extra, branchOf(language));
+        parsePart(module, constants, part.name, part.text, branch);
+    parsePart(module, constants, "entry", extra, branch);
     return module;
 }
 

@@ -3,6 +3,7 @@
 #include <set>
 
 #include "flatten.hpp"
+#include "languages.hpp"
 
 namespace cotan::shader_text {
 
@@ -41,17 +42,17 @@ std::string wrapped(std::string line, std::size_t indent)
 
 class Printer {
 public:
-    explicit Printer(Language language) : language_(language), names_(namesOf(language)) {}
+    explicit Printer(Language language) : language_(language), grammar_(infoOf(language).grammar) {}
 
     std::string structure(const Struct& s) const
     {
-        std::string text = comments(s.comments, 0) + "struct " + s.name + (names_.wgsl ? " {\n" : "\n{\n");
+        std::string text = comments(s.comments, 0) + "struct " + s.name + (grammar_.typesAfterNames ? " {\n" : "\n{\n");
         for (const Variable& f : s.fields) {
             const std::string field =
-                names_.wgsl ? f.name + ": " + word(f.type) + "," : word(f.type) + " " + f.name + ";";
+                grammar_.typesAfterNames ? f.name + ": " + word(f.type) + "," : word(f.type) + " " + f.name + ";";
             text += "    " + field + (f.comment.empty() ? "" : " " + f.comment) + '\n';
         }
-        return text + (names_.wgsl ? "}\n" : "};\n");
+        return text + (grammar_.typesAfterNames ? "}\n" : "};\n");
     }
 
     std::string function(const Function& f)
@@ -61,17 +62,19 @@ public:
         std::string parameters, copies;
         for (const Variable& p : f.parameters) {
             const std::string own = word(p.name);
-            // WGSL's parameters cannot be assigned to.
-            const bool copy = names_.wgsl && changed_.count(p.name) > 0;
+            // Parameters cannot be assigned to there.
+            const bool copy = grammar_.typesAfterNames && changed_.count(p.name) > 0;
             const std::string outer = copy ? own + "_in" : own;
             parameters += (parameters.empty() ? "" : ", ")
-                + (names_.wgsl ? outer + ": " + word(p.type) : (p.out ? "out " : "") + word(p.type) + " " + outer);
+                + (grammar_.typesAfterNames ? outer + ": " + word(p.type)
+                                            : (p.out ? "out " : "") + word(p.type) + " " + outer);
             if (copy)
                 copies += "    var " + own + " = " + outer + ";\n";
         }
-        std::string head = names_.wgsl ? "fn " + f.name + "(" + parameters + ") -> " + word(f.type) + " {"
-                                       : names_.functionPrefix + word(f.type) + " " + f.name + "(" + parameters + ")";
-        head = wrapped(head, 0) + (names_.wgsl ? "\n" : "\n{\n");
+        std::string head = grammar_.typesAfterNames
+            ? "fn " + f.name + "(" + parameters + ") -> " + word(f.type) + " {"
+            : grammar_.functionPrefix + word(f.type) + " " + f.name + "(" + parameters + ")";
+        head = wrapped(head, 0) + (grammar_.typesAfterNames ? "\n" : "\n{\n");
         return comments(f.comments, 0) + head + copies + body(f.body, 4) + "}\n";
     }
 
@@ -125,7 +128,7 @@ private:
     std::string declaration(const Statement& s) const
     {
         const std::string name = word(s.name);
-        if (!names_.wgsl)
+        if (!grammar_.typesAfterNames)
             return word(s.type) + " " + name + (s.hasValue ? " = " + expression(s.value) : "");
         if (!s.hasValue)
             return "var " + name + ": " + word(s.type);
@@ -146,14 +149,14 @@ private:
             const Expression& inside = e.children[0];
             bool variable = false; // converted; what is left is a literal
             visitAll(inside, [&](const Expression& x) { variable |= x.kind == Kind::name; });
-            if (names_.realCalls || variable)
+            if (grammar_.realCalls || variable)
                 return word(e.text) + "(" + expression(inside) + ")";
             if (inside.kind == Kind::number && !isReal(inside.text))
                 return number(inside.text + ".0");
             return inside.kind == Kind::binary ? "(" + expression(inside) + ")" : expression(inside);
         }
         const bool vector = e.text.rfind("cotan_vec", 0) == 0;
-        const bool braces = vector && names_.braces;
+        const bool braces = vector && grammar_.braces;
         return word(e.text) + (braces ? "{" : "(") + arguments(e.children) + (braces ? "}" : ")");
     }
 
@@ -162,7 +165,7 @@ private:
         return text.rfind("0x", 0) != 0 && text.find_first_of(".e") != std::string::npos;
     }
 
-    std::string number(const std::string& text) const { return isReal(text) ? text + names_.floatSuffix : text; }
+    std::string number(const std::string& text) const { return isReal(text) ? text + grammar_.floatSuffix : text; }
 
     std::string expression(const Expression& e) const
     {
@@ -178,12 +181,12 @@ private:
         }
         const std::string condition = expression(e.children[0]), yes = expression(e.children[1]),
                           no = expression(e.children[2]);
-        return names_.wgsl ? "select(" + no + ", " + yes + ", " + condition + ")"
-                           : condition + " ? " + yes + " : " + no;
+        return grammar_.typesAfterNames ? "select(" + no + ", " + yes + ", " + condition + ")"
+                                        : condition + " ? " + yes + " : " + no;
     }
 
     Language language_;
-    const Names& names_;
+    const Grammar& grammar_;
     std::set<std::string> changed_; // variables that are assigned to after their declaration
 };
 
@@ -199,18 +202,19 @@ bool callsAny(const Module& module, const std::set<std::string>& names)
 
 std::string print(const Module& whole, Language language)
 {
-    const Module module = namesOf(language).structs ? whole : withoutStructs(whole);
+    const LanguageInfo& info = infoOf(language);
+    const Module module = info.grammar.structs ? whole : withoutStructs(whole);
     Printer printer(language);
-    std::string text(prelude(language));
+    std::string text(info.prelude);
     if (callsAny(module, {"cotan_pack_half", "cotan_unpack_half"}))
-        text += halfs(language);
+        text += info.halfs;
     for (const Struct& s : module.structs)
         text += printer.structure(s) + '\n';
     for (std::size_t i = 0; i < module.functions.size(); ++i) {
         text += i ? "\n" : "";
         text += printer.function(module.functions[i]);
     }
-    return text + std::string(postlude(language));
+    return text + std::string(info.postlude);
 }
 
 } // namespace cotan::shader_text

@@ -241,11 +241,11 @@ cotan_status cotan_map_mips(const cotan_picture* map, const char* convention, do
 
 /* ---- shader text ------------------------------------------------------------------------------------------------- */
 
-/* The function that perturbs the normal with that frame, self-contained, with a zero at its end. `language`: "glsl",
- * "essl", "hlsl", "wgsl", "msl", "cpp" or "godot", which is a whole spatial shader. `frame`: its name; for "triangle" a
- * stage may follow, whose part is all that is given then: "triangle,fragment", "triangle,vertex", "triangle,mesh" or
- * "triangle,compute". text_size: of the buffer; afterwards what the text takes. A buffer that is too small, or null, is
- * left alone and is no error. */
+/* The function that perturbs the normal with that frame, self-contained, with a zero at its end. `language`: a name
+ * that `cotan shader --lang` takes, such as "hlsl"; the text of "godot" is a whole spatial shader. `frame`: its name;
+ * for "triangle" a stage may follow, whose part is all that is given then: "triangle,fragment", "triangle,vertex",
+ * "triangle,mesh" or "triangle,compute". text_size: of the buffer; afterwards what the text takes. A buffer that is too
+ * small, or null, is left alone and is no error. */
 cotan_status cotan_shader_text(const char* language, const char* frame, const char* convention, char* text,
                                size_t* text_size, char* message, size_t message_size);
 

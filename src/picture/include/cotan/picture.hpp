@@ -105,7 +105,7 @@ struct PictureOptions {
     ToneMapping toneMapping = ToneMapping::neutral;
     std::optional<float> exposure;        // factor; none: found by metering
     bool ground = true;                   // the model stands on one, which only shows its shadow
-    std::optional<double> shadowSoftness; // degrees that the light covers; none: that of the environment's lamp
+    std::optional<double> shadowSoftness; // degrees; none: by the environment (shadowSoftnessOf)
     bool rowsUpward = false;              // as View has it
     Derivatives derivatives = Derivatives::fine;
     int memory = kDefaultMemory;
@@ -214,6 +214,10 @@ Status layEdges(Renderer& renderer, View view, const PictureOptions& options, st
 // The environment that the options name; null for none. Errors: those of readImage and environmentOfPicture;
 // ErrorKind::usage for a name that is none.
 Result<std::shared_ptr<const EnvironmentMap>> openEnvironmentMap(const PictureOptions& options);
+
+// Degrees that the light which casts shadows covers: what the options say, else 3 in the environment `evening`, whose
+// sun is small, and 10 in all others.
+double shadowSoftnessOf(const PictureOptions& options);
 
 // Sets what else the view has of light, by the options; all but the lights and the ground, which the scene has a part
 // in. Errors: ErrorKind::usage for options that need an environment where there is none.

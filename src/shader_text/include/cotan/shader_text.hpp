@@ -33,6 +33,8 @@ enum class Language {
 inline constexpr Language kLanguages[] = {Language::glsl, Language::essl, Language::hlsl, Language::wgsl,
                                           Language::msl,  Language::cpp,  Language::godot};
 std::string_view name(Language language);
+// All of them, as an error or a help text lists them: "glsl, essl ... or godot".
+std::string languageNames();
 std::optional<Language> languageFromName(std::string_view name);
 
 // How the perturbed normal is computed.

@@ -1,0 +1,45 @@
+// What is peculiar to a language. The table in languages.cpp is the only place that a further one needs, beside its
+// name in Language.
+#pragma once
+
+#include <map>
+#include <string>
+#include <string_view>
+
+#include "cotan/shader_text.hpp"
+
+namespace cotan::shader_text {
+
+// Words and grammar.
+struct Grammar {
+    std::map<std::string, std::string> words; // portable name of a type or function to the language's
+    std::string floatSuffix;                  // after a literal, such as 1.0f
+    std::string functionPrefix;               // before a function, such as "inline "
+    std::string ddx, ddy;                     // screen derivatives; empty where there are none
+    bool realCalls = false;                   // literals stay in cotan_real(...)
+    bool braces = false;                      // vectors are made with {} instead of ()
+    bool typesAfterNames = false;             // declarations the other way round, no ?:
+    bool structs = true;                      // else their parts are variables of their own
+};
+
+struct LanguageInfo {
+    std::string_view name;           // as the command line and the C API take it
+    std::string_view title;          // as people call it
+    std::string_view titleWithHalfs; // where the text packs halfs; empty: the same
+    std::string_view branch;         // the macro of lang.h whose branch is printed
+    std::string_view sample;         // an expression that samples the normal map
+    std::string_view scope;          // before our names where they are called, such as "cotan_shader::"
+    std::string_view cornersIn;      // where a vertex stage can read the corners of its triangle
+    std::string_view limits;         // whole lines of the introduction; may be empty
+    std::string_view prelude;        // before the structs, such as C++'s vectors
+    std::string_view halfs;          // what packs and unpacks halfs, where the language has no function for it
+    std::string_view postlude;       // after the functions
+    Grammar grammar;
+};
+
+const LanguageInfo& infoOf(Language language);
+
+// The word of the language for a portable name; the name itself if it has none.
+std::string wordOf(Language language, const std::string& portable);
+
+} // namespace cotan::shader_text
