@@ -14,6 +14,7 @@ PROGRAM = r"""
 #include <cstring>
 #include <filesystem>
 
+#include "cost/scalar_count.hpp"
 #include "cotan/frame.hpp"
 #include "cotan/image.hpp"
 #include "cotan/shader_text.hpp"
@@ -39,6 +40,8 @@ int main()
             const auto made = text::makeShaderText({.language = language, .frame = *frame});
             expect(made && made->text.find("cotan_frame_planted") != std::string::npos, "the frame is printed");
         }
+        const int operations = cost::operationsOfRow("planted").total();
+        expect(operations > 0 && operations == cost::operationsOfRow("unit").total(), "the frame's cost is counted");
     }
     const auto language = text::languageFromName("slang");
     expect(bool(language) && text::languageNames().find("slang") != std::string::npos, "the language has a name");
@@ -124,14 +127,20 @@ with tempfile.TemporaryDirectory() as folder:
     (copy / "added.cpp").write_text(PROGRAM)
     (copy / "two.ppm").write_bytes(b"P6\n2 1\n255\n" + bytes([10, 20, 30, 40, 50, 60]))
     with open(copy / "CMakeLists.txt", "a") as text:
-        text.write("add_executable(added added.cpp)\n"
+        text.write("add_executable(added added.cpp apps/lab/cost/scalar_count.cpp)\n"
+                   "target_include_directories(added PRIVATE apps/lab shaders)\n"
                    "target_link_libraries(added PRIVATE cotan_image cotan_shader_text cotan_core)\n")
     build = pathlib.Path(folder) / "build"
     options = ["-DCMAKE_BUILD_TYPE=Debug", "-DCMAKE_CXX_FLAGS_DEBUG=-O0", "-DCOTAN_TESTS=OFF", "-DCOTAN_INSTALL=OFF", "-DCOTAN_WHOLE=ON"]
-    for command in (["cmake", "-G", "Ninja", "-S", copy, "-B", build, *options],
-                    ["cmake", "--build", build, "--target", "added"], [build / "added"]):
+    def run(command):
         done = subprocess.run(command, capture_output=True, text=True)
         if done.returncode:
             print(done.stdout[-6000:], done.stderr[-3000:], sep="\n")
             sys.exit(f"{command[0]}: exit code {done.returncode}")
+
+    run(["cmake", "-G", "Ninja", "-S", copy, "-B", build, *options])
+    pixel_shader = "apps/lab/cost/frame_planted.h" # of its cost; only where there is a compiler of shaders
+    shaders = [pixel_shader] if f"{pixel_shader}:" in (build / "build.ninja").read_text().replace(" ", ":") else []
+    run(["cmake", "--build", build, "--target", "added", *shaders])
+    run([build / "added"])
     print("a frame, an image format and a shader language are added by two places each")
