@@ -56,6 +56,19 @@ TEST(Statistics, ofNothingAreNoNumbers)
     EXPECT_TRUE(std::isnan(shareOpposed({-1, -1})));
 }
 
+TEST(Statistics, ofOneAngleAreThatAngle)
+{
+    AngleCounter counter;
+    counter.add(3.0f);
+    for (const AngleStatistics& s : {counter.statistics(), angleStatistics({3.0f})}) {
+        EXPECT_EQ(s.count, 1u);
+        for (const double x : {s.mean, s.median, s.percentile95, s.percentile99, s.maximum})
+            EXPECT_EQ(x, 3);
+        EXPECT_EQ(s.over1, 1);
+        EXPECT_EQ(s.over5, 0);
+    }
+}
+
 TEST(Statistics, areWrittenUnderTheirNames)
 {
     const AngleStatistics s = angleStatistics({0.5f, 0.25f, 2, 8});
