@@ -155,8 +155,10 @@ CornersOfTriangle cornersOf(const Mesh& mesh, std::size_t first)
     CornersOfTriangle t;
     for (std::size_t k = 0; k < 3; ++k)
         t.at[k] = mesh.positions[mesh.indices[first + k]];
-    const auto least = std::ranges::min_element(t.at, {}, [](const glm::vec3& p) { return std::tuple(p.x, p.y, p.z); });
-    std::rotate(t.at.begin(), least, t.at.end());
+    const auto isLess = [](const glm::vec3& a, const glm::vec3& b) {
+        return std::tuple(a.x, a.y, a.z) < std::tuple(b.x, b.y, b.z);
+    };
+    std::rotate(t.at.begin(), std::min_element(t.at.begin(), t.at.end(), isLess), t.at.end());
     return t;
 }
 
