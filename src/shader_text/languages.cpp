@@ -129,8 +129,59 @@ inline cotan_vec2 cotan_unpack_half(cotan_uint word)
 
 )";
 
+constexpr Word kGlslWords[] = {{"cotan_real", "float"},
+                               {"cotan_vec2", "vec2"},
+                               {"cotan_vec3", "vec3"},
+                               {"cotan_vec4", "vec4"},
+                               {"cotan_uint", "uint"},
+                               {"cotan_inversesqrt", "inversesqrt"},
+                               {"cotan_mix", "mix"},
+                               {"cotan_float_bits", "floatBitsToUint"},
+                               {"cotan_bits_float", "uintBitsToFloat"},
+                               {"cotan_real_of", "float"},
+                               {"cotan_pack_half", "packHalf2x16"},
+                               {"cotan_unpack_half", "unpackHalf2x16"},
+                               {"cotan_ddx", "dFdx"},
+                               {"cotan_ddy", "dFdy"}};
+
+constexpr Word kHlslWords[] = {
+    {"cotan_real", "float"},    {"cotan_vec2", "float2"},       {"cotan_vec3", "float3"},
+    {"cotan_vec4", "float4"},   {"cotan_uint", "uint"},         {"cotan_inversesqrt", "rsqrt"},
+    {"cotan_mix", "lerp"},      {"cotan_float_bits", "asuint"}, {"cotan_bits_float", "asfloat"},
+    {"cotan_real_of", "float"}, {"cotan_ddx", "ddx_fine"},      {"cotan_ddy", "ddy_fine"}};
+
+constexpr Word kWgslWords[] = {{"cotan_real", "f32"},
+                               {"cotan_vec2", "vec2f"},
+                               {"cotan_vec3", "vec3f"},
+                               {"cotan_vec4", "vec4f"},
+                               {"cotan_uint", "u32"},
+                               {"int", "i32"},
+                               {"cotan_inversesqrt", "inverseSqrt"},
+                               {"cotan_mix", "mix"},
+                               {"cotan_float_bits", "bitcast<u32>"},
+                               {"cotan_bits_float", "bitcast<f32>"},
+                               {"cotan_real_of", "f32"},
+                               {"cotan_pack_half", "pack2x16float"},
+                               {"cotan_unpack_half", "unpack2x16float"},
+                               {"cotan_ddx", "dpdxFine"},
+                               {"cotan_ddy", "dpdyFine"},
+                               {"target", "target_normal"}}; // a reserved word
+
+constexpr Word kMslWords[] = {{"cotan_real", "float"},
+                              {"cotan_vec2", "float2"},
+                              {"cotan_vec3", "float3"},
+                              {"cotan_vec4", "float4"},
+                              {"cotan_uint", "uint"},
+                              {"cotan_inversesqrt", "rsqrt"},
+                              {"cotan_mix", "mix"},
+                              {"cotan_float_bits", "as_type<uint>"},
+                              {"cotan_bits_float", "as_type<float>"},
+                              {"cotan_real_of", "float"},
+                              {"cotan_ddx", "dfdx"},
+                              {"cotan_ddy", "dfdy"}};
+
 // In the order of Language.
-const std::array<LanguageInfo, std::size(kLanguages)> kInfos = [] {
+constexpr std::array<LanguageInfo, std::size(kLanguages)> kInfos = [] {
     LanguageInfo glsl;
     glsl.name = "glsl";
     glsl.title = "GLSL 3.30 and later";
@@ -138,20 +189,7 @@ const std::array<LanguageInfo, std::size(kLanguages)> kInfos = [] {
     glsl.branch = "COTAN_LANG_GLSL";
     glsl.sample = "texture(normal_map, uv).xyz";
     glsl.cornersIn = "storage buffers";
-    glsl.grammar.words = {{"cotan_real", "float"},
-                          {"cotan_vec2", "vec2"},
-                          {"cotan_vec3", "vec3"},
-                          {"cotan_vec4", "vec4"},
-                          {"cotan_uint", "uint"},
-                          {"cotan_inversesqrt", "inversesqrt"},
-                          {"cotan_mix", "mix"},
-                          {"cotan_float_bits", "floatBitsToUint"},
-                          {"cotan_bits_float", "uintBitsToFloat"},
-                          {"cotan_real_of", "float"},
-                          {"cotan_pack_half", "packHalf2x16"},
-                          {"cotan_unpack_half", "unpackHalf2x16"},
-                          {"cotan_ddx", "dFdx"},
-                          {"cotan_ddy", "dFdy"}};
+    glsl.grammar.words = kGlslWords;
     glsl.grammar.ddx = "dFdx";
     glsl.grammar.ddy = "dFdy";
 
@@ -169,10 +207,7 @@ const std::array<LanguageInfo, std::size(kLanguages)> kInfos = [] {
     hlsl.sample = "normal_map.Sample(map_sampler, uv).xyz";
     hlsl.cornersIn = glsl.cornersIn;
     hlsl.halfs = kHlslHalfs;
-    hlsl.grammar.words = {{"cotan_real", "float"},    {"cotan_vec2", "float2"},       {"cotan_vec3", "float3"},
-                          {"cotan_vec4", "float4"},   {"cotan_uint", "uint"},         {"cotan_inversesqrt", "rsqrt"},
-                          {"cotan_mix", "lerp"},      {"cotan_float_bits", "asuint"}, {"cotan_bits_float", "asfloat"},
-                          {"cotan_real_of", "float"}, {"cotan_ddx", "ddx_fine"},      {"cotan_ddy", "ddy_fine"}};
+    hlsl.grammar.words = kHlslWords;
     hlsl.grammar.ddx = "ddx_fine";
     hlsl.grammar.ddy = "ddy_fine";
 
@@ -184,22 +219,7 @@ const std::array<LanguageInfo, std::size(kLanguages)> kInfos = [] {
     wgsl.cornersIn = glsl.cornersIn;
     wgsl.limits = "//   WGSL lets an implementation assume that no number is NaN or infinite: the guards against\n"
                   "//   non-finite input are then not sure to hold. Those against zeros and empty areas do.\n";
-    wgsl.grammar.words = {{"cotan_real", "f32"},
-                          {"cotan_vec2", "vec2f"},
-                          {"cotan_vec3", "vec3f"},
-                          {"cotan_vec4", "vec4f"},
-                          {"cotan_uint", "u32"},
-                          {"int", "i32"},
-                          {"cotan_inversesqrt", "inverseSqrt"},
-                          {"cotan_mix", "mix"},
-                          {"cotan_float_bits", "bitcast<u32>"},
-                          {"cotan_bits_float", "bitcast<f32>"},
-                          {"cotan_real_of", "f32"},
-                          {"cotan_pack_half", "pack2x16float"},
-                          {"cotan_unpack_half", "unpack2x16float"},
-                          {"cotan_ddx", "dpdxFine"},
-                          {"cotan_ddy", "dpdyFine"},
-                          {"target", "target_normal"}}; // a reserved word
+    wgsl.grammar.words = kWgslWords;
     wgsl.grammar.ddx = "dpdxFine";
     wgsl.grammar.ddy = "dpdyFine";
     wgsl.grammar.typesAfterNames = true;
@@ -214,18 +234,7 @@ const std::array<LanguageInfo, std::size(kLanguages)> kInfos = [] {
                  "//   with -fno-fast-math where these matter. Those against zeros and empty areas stay.\n";
     msl.prelude = kMslPrelude;
     msl.halfs = kMslHalfs;
-    msl.grammar.words = {{"cotan_real", "float"},
-                         {"cotan_vec2", "float2"},
-                         {"cotan_vec3", "float3"},
-                         {"cotan_vec4", "float4"},
-                         {"cotan_uint", "uint"},
-                         {"cotan_inversesqrt", "rsqrt"},
-                         {"cotan_mix", "mix"},
-                         {"cotan_float_bits", "as_type<uint>"},
-                         {"cotan_bits_float", "as_type<float>"},
-                         {"cotan_real_of", "float"},
-                         {"cotan_ddx", "dfdx"},
-                         {"cotan_ddy", "dfdy"}};
+    msl.grammar.words = kMslWords;
     msl.grammar.floatSuffix = "f";
     msl.grammar.functionPrefix = "inline ";
     msl.grammar.ddx = "dfdx";
@@ -306,9 +315,10 @@ std::optional<Stage> stageFromName(std::string_view text)
 
 std::string wordOf(Language language, const std::string& portable)
 {
-    const auto& words = infoOf(language).grammar.words;
-    const auto word = words.find(portable);
-    return word == words.end() ? portable : word->second;
+    for (const Word& word : infoOf(language).grammar.words)
+        if (word.portable == portable)
+            return std::string(word.own);
+    return portable;
 }
 
 } // namespace cotan::shader_text

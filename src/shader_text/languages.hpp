@@ -2,7 +2,7 @@
 // name in Language.
 #pragma once
 
-#include <map>
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -10,16 +10,21 @@
 
 namespace cotan::shader_text {
 
+// What a language calls a type or function of the portable text.
+struct Word {
+    std::string_view portable, own;
+};
+
 // Words and grammar.
 struct Grammar {
-    std::map<std::string, std::string> words; // portable name of a type or function to the language's
-    std::string floatSuffix;                  // after a literal, such as 1.0f
-    std::string functionPrefix;               // before a function, such as "inline "
-    std::string ddx, ddy;                     // screen derivatives; empty where there are none
-    bool realCalls = false;                   // literals stay in cotan_real(...)
-    bool braces = false;                      // vectors are made with {} instead of ()
-    bool typesAfterNames = false;             // declarations the other way round, no ?:
-    bool structs = true;                      // else their parts are variables of their own
+    std::span<const Word> words;
+    std::string_view floatSuffix;    // after a literal, such as 1.0f
+    std::string_view functionPrefix; // before a function, such as "inline "
+    std::string_view ddx, ddy;       // screen derivatives; empty where there are none
+    bool realCalls = false;          // literals stay in cotan_real(...)
+    bool braces = false;             // vectors are made with {} instead of ()
+    bool typesAfterNames = false;    // declarations the other way round, no ?:
+    bool structs = true;             // else their parts are variables of their own
 };
 
 struct LanguageInfo {

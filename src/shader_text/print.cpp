@@ -73,7 +73,7 @@ public:
         }
         std::string head = grammar_.typesAfterNames
             ? "fn " + f.name + "(" + parameters + ") -> " + word(f.type) + " {"
-            : grammar_.functionPrefix + word(f.type) + " " + f.name + "(" + parameters + ")";
+            : std::string(grammar_.functionPrefix) + word(f.type) + " " + f.name + "(" + parameters + ")";
         head = wrapped(head, 0) + (grammar_.typesAfterNames ? "\n" : "\n{\n");
         return comments(f.comments, 0) + head + copies + body(f.body, 4) + "}\n";
     }
@@ -165,7 +165,10 @@ private:
         return text.rfind("0x", 0) != 0 && text.find_first_of(".e") != std::string::npos;
     }
 
-    std::string number(const std::string& text) const { return isReal(text) ? text + grammar_.floatSuffix : text; }
+    std::string number(const std::string& text) const
+    {
+        return isReal(text) ? text + std::string(grammar_.floatSuffix) : text;
+    }
 
     std::string expression(const Expression& e) const
     {
