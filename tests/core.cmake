@@ -40,7 +40,7 @@ add_test(NAME PublicHeaders.compileWhereThereIsNoJsonLibrary
 
 # The parts: how many, who includes whom, one header each.
 if(Python3_FOUND)
-  foreach(fact hasFewFolders hasFewLines hasFewArrows hasNoCircle partsIncludeWhatTheyLink eachPartHasOnePublicHeader
+  foreach(fact hasFewFolders hasFewLines everySourceIsBuilt hasFewArrows hasNoCircle partsIncludeWhatTheyLink eachPartHasOnePublicHeader
       noTwoFilesHaveOneName judgesAreIndependent)
     add_test(NAME Architecture.${fact}
       COMMAND ${Python3_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/architecture_test.py ${PROJECT_SOURCE_DIR} ${fact})
