@@ -16,6 +16,15 @@ using namespace cotan::test;
 using cotan::Cotangents;
 using cotan::smoothCotangents;
 
+Arrays splitBy(const cotan::VertexSplit& split, const Arrays& a)
+{
+    Arrays b;
+    for (const std::uint32_t i : split.sources)
+        b.add(a.positions[i], a.normals[i], a.texcoords[i]);
+    b.indices = split.indices;
+    return b;
+}
+
 bool finite(glm::vec3 v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
 
 TEST(SmoothCotangents, areTheGradientsOfAFlatLayout)
@@ -152,11 +161,7 @@ TEST(SmoothCotangents, degenerateTrianglesAddNothing)
 TEST(SmoothCotangents, sidesOfAMirrorLineDoNotCancelOnceSplit)
 {
     Arrays a = gridOf(4, [](float x, float y) { return Vertex{{x, -y, 0}, {0, 0, 1}, {std::abs(x - 0.5f), y}}; });
-    const cotan::VertexSplit split = cotan::splitMirrored(a.view());
-    Arrays b;
-    for (const std::uint32_t i : split.sources)
-        b.add(a.positions[i], a.normals[i], a.texcoords[i]);
-    b.indices = split.indices;
+    const Arrays b = splitBy(cotan::splitMirrored(a.view()), a);
     const Cotangents found = smoothCotangents(b.view());
     for (std::size_t f = 0; f < b.indices.size(); f += 3) {
         float middle = 0;
@@ -189,11 +194,7 @@ TEST(SplitSmoothCotangents, areTheTwoStepsWhicheverSideAVertexMeetsFirst)
         for (std::size_t f = 0; f < order.size(); ++f)
             std::copy_n(old.begin() + std::ptrdiff_t(3 * order[f]), 3, a.indices.begin() + std::ptrdiff_t(3 * f));
         const cotan::VertexSplit split = cotan::splitMirrored(a.view());
-        Arrays b;
-        for (const std::uint32_t i : split.sources)
-            b.add(a.positions[i], a.normals[i], a.texcoords[i]);
-        b.indices = split.indices;
-        const Cotangents wanted = smoothCotangents(b.view());
+        const Cotangents wanted = smoothCotangents(splitBy(split, a).view());
         const cotan::SplitCotangents found = cotan::splitSmoothCotangents(a.view());
         EXPECT_EQ(found.split.sources, split.sources);
         EXPECT_EQ(found.split.indices, split.indices);

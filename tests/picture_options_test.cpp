@@ -314,29 +314,29 @@ TEST(PictureWords, lightingThatDoesNotGoTogetherIsToldInItsWords)
               "and tangent-pixel");
 }
 
-// The options of `render`, as its help has them.
-std::vector<OptionHelp> declaredOptions()
-{
+// A command with the options of `render` that are not for files.
+struct DeclaredTool {
     PictureOptions options;
-    std::string frame(kAutoFrame);
-    Arguments tool("tool", "", "");
-    addPictureOptions(tool, options);
-    addFrameOption(tool, frame);
-    addShowOption(tool, options.show);
-    return tool.describe().options;
-}
+    std::string frame{kAutoFrame};
+    Arguments tool{"tool", "", ""};
+
+    DeclaredTool()
+    {
+        addPictureOptions(tool, options);
+        addFrameOption(tool, frame);
+        addShowOption(tool, options.show);
+    }
+};
+
+// The options, as the help has them.
+std::vector<OptionHelp> declaredOptions() { return DeclaredTool().tool.describe().options; }
 
 // What the command line says to these words, without naming its help.
 std::string saidByCommandLine(const std::vector<std::string>& words)
 {
-    PictureOptions options;
-    std::string frame(kAutoFrame);
-    Arguments tool("tool", "", "");
-    addPictureOptions(tool, options);
-    addFrameOption(tool, frame);
-    addShowOption(tool, options.show);
-    tool.does([] { return Done{}; });
-    const Status done = tool.run(words, {});
+    DeclaredTool declared;
+    declared.tool.does([] { return Done{}; });
+    const Status done = declared.tool.run(words, {});
     const std::string said = done ? "" : done.error().message;
     return said.substr(0, said.find(" (see tool --help)"));
 }

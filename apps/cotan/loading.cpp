@@ -19,7 +19,8 @@ Error withOptionNames(const Error& error)
                                                                   : std::string(1, c);
         text.replace(0, error.field.size(), option);
     }
-    return {error.kind, text + (error.memory ? " (--memory raises it)" : "")}; // once
+    // Without the flag: whoever asks again does not give the hint twice.
+    return {error.kind, text + (error.memory ? " (--memory raises it)" : "")};
 }
 
 Result<Scene> loadSceneWithin(const LoadLimits& limits, const std::filesystem::path& file)

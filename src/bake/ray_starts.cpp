@@ -199,9 +199,9 @@ public:
             raise(below.triangle, below.b1, below.b2, below.distance, normal);
     }
 
-    // Vertices that nothing belongs to, and those whose triangles are all smaller than the points of large triangles
-    // are apart: a surface underneath may belong to them, while no point of the one above does. Of all, or of every
-    // second, third and so on.
+    // Vertices that nothing belongs to, and those whose edges are all shorter than twice the distance between the
+    // points of large triangles, as in any evenly cut mesh: a surface underneath may belong to them, while no point of
+    // the one above does. Of all, or of every second, third and so on.
     void addRays(float spacing, std::size_t every)
     {
         std::vector<float> longest(groups_.count, 0); // edge at the vertex, squared

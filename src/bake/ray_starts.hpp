@@ -48,10 +48,10 @@ struct RayStartOptions {
 // on; and points between, where its triangles are large) belongs to the nearest point of the low surface whose front it
 // faces, at most the limit away; where that lies aside, to the point below it. The vertices of the triangle there get a
 // distance that encloses it, and 5 % and 0.002 of the diagonal more. Where nothing belongs to a vertex, or its
-// triangles are finer than those points, the outermost front within the limit on its own ray counts. Rays start no
-// further out than another part of the low surface that shows the same detail: measured ones, not those with a given
-// extrusion. The result does not depend on the number of threads. Errors: those of LowTree::make; ErrorKind::input
-// where thousands of triangles of the low surface lie over one another at most points.
+// edges are shorter than twice the distance between those points, the outermost front within the limit on its own ray
+// counts, too. Rays start no further out than another part of the low surface that shows the same detail: measured
+// ones, not those with a given extrusion. The result does not depend on the number of threads. Errors: those of
+// LowTree::make; ErrorKind::input where thousands of triangles of the low surface lie over one another at most points.
 Result<RayStarts> makeRayStarts(const LowSurface& low, const HighSurface& high, const RayStartOptions& options,
                                 const LowRest& rest = {});
 

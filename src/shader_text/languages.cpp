@@ -186,9 +186,7 @@ constexpr std::array<LanguageInfo, std::size(kLanguages)> kInfos = [] {
     glsl.name = "glsl";
     glsl.title = "GLSL 3.30 and later";
     glsl.titleWithHalfs = "GLSL 4.20 and later"; // packHalf2x16
-    glsl.branch = "COTAN_LANG_GLSL";
     glsl.sample = "texture(normal_map, uv).xyz";
-    glsl.cornersIn = "storage buffers";
     glsl.grammar.words = kGlslWords;
     glsl.grammar.ddx = "dFdx";
     glsl.grammar.ddy = "dFdy";
@@ -203,9 +201,7 @@ constexpr std::array<LanguageInfo, std::size(kLanguages)> kInfos = [] {
     LanguageInfo hlsl;
     hlsl.name = "hlsl";
     hlsl.title = "HLSL, shader model 5 and later";
-    hlsl.branch = glsl.branch;
     hlsl.sample = "normal_map.Sample(map_sampler, uv).xyz";
-    hlsl.cornersIn = glsl.cornersIn;
     hlsl.halfs = kHlslHalfs;
     hlsl.grammar.words = kHlslWords;
     hlsl.grammar.ddx = "ddx_fine";
@@ -214,9 +210,7 @@ constexpr std::array<LanguageInfo, std::size(kLanguages)> kInfos = [] {
     LanguageInfo wgsl;
     wgsl.name = "wgsl";
     wgsl.title = "WGSL";
-    wgsl.branch = glsl.branch;
     wgsl.sample = "textureSample(normal_map, map_sampler, uv).xyz";
-    wgsl.cornersIn = glsl.cornersIn;
     wgsl.limits = "//   WGSL lets an implementation assume that no number is NaN or infinite: the guards against\n"
                   "//   non-finite input are then not sure to hold. Those against zeros and empty areas do.\n";
     wgsl.grammar.words = kWgslWords;
@@ -227,9 +221,7 @@ constexpr std::array<LanguageInfo, std::size(kLanguages)> kInfos = [] {
     LanguageInfo msl;
     msl.name = "msl";
     msl.title = "Metal shading language";
-    msl.branch = glsl.branch;
     msl.sample = "normal_map.sample(map_sampler, uv).xyz";
-    msl.cornersIn = glsl.cornersIn;
     msl.limits = "//   Fast mathematics, Metal's default, may drop the guards against non-finite input; compile\n"
                  "//   with -fno-fast-math where these matter. Those against zeros and empty areas stay.\n";
     msl.prelude = kMslPrelude;
@@ -246,7 +238,6 @@ constexpr std::array<LanguageInfo, std::size(kLanguages)> kInfos = [] {
     cpp.branch = "COTAN_LANG_CPP";
     cpp.sample = "texel";
     cpp.scope = "cotan_shader::";
-    cpp.cornersIn = glsl.cornersIn;
     cpp.limits = "//   Change cotan_real to double for double precision.\n";
     cpp.prelude = kCppPrelude;
     cpp.halfs = kCppHalfs;
