@@ -1,4 +1,5 @@
 // Scenes turned and taken apart.
+#include <array>
 #include <cmath>
 
 #include <gtest/gtest.h>
@@ -138,6 +139,26 @@ TEST(SceneParts, thatCoverThePictureTooOftenAreRefusedUnlessTheyAreTheSame)
     EXPECT_EQ(refused.error().message,
               "model: its triangles cover the picture 501 times over, expected at most 64: look from further away, or "
               "leave some out");
+}
+
+// The same whichever corner it begins with; the other way round it is another, which faces away.
+TEST(SceneParts, aTriangleRepeatsFromAnyCornerButNotTurnedRound)
+{
+    for (const std::array<glm::vec3, 3>& corners :
+         {std::array<glm::vec3, 3>{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}},
+          {{{2, 1, 3}, {2, 1, -3}, {2, 5, 0}}},      // alike in x, two of them in y
+          {{{-1, 4, 4}, {-1, 4, 4}, {-1, 0, 7}}}}) { // two corners in one place
+        Scene scene = triangleScene();
+        scene.instances = {{"", 0, glm::mat4(1)}};
+        Mesh& mesh = scene.meshes[0];
+        mesh.positions.assign(corners.begin(), corners.end());
+        mesh.indices = {0, 1, 2, 1, 2, 0, 2, 0, 1, 0, 2, 1};
+        dropRepeated(scene);
+        std::vector<std::uint32_t> kept = {0, 1, 2};
+        if (corners[0] != corners[1]) // else it has no other way round
+            kept.insert(kept.end(), {0, 2, 1});
+        EXPECT_EQ(mesh.indices, kept) << corners[1].z;
+    }
 }
 
 TEST(SceneParts, ofWhichNothingIsDrawnFromBehindCoverNothingThere)
