@@ -409,6 +409,22 @@ TEST(GltfCameras, lookAlongTheirNodesMinusZ)
     expectNear(scene.cameras[1].target, {0, 0, 1});
 }
 
+// Those of docs/reference/files.md.
+TEST(GltfExtensions, thoseThatAreReadAreNotCalledIgnored)
+{
+    for (const char* const name :
+         {"KHR_draco_mesh_compression", "EXT_meshopt_compression", "KHR_meshopt_compression", "KHR_mesh_quantization",
+          "EXT_mesh_gpu_instancing", "KHR_texture_transform", "KHR_lights_punctual", "KHR_materials_unlit",
+          "KHR_materials_emissive_strength", "KHR_materials_clearcoat", "KHR_materials_anisotropy", "KHR_materials_ior",
+          "KHR_materials_specular", "KHR_materials_sheen", "KHR_materials_transmission", "KHR_materials_variants",
+          "EXT_texture_webp", "MSFT_texture_dds", "KHR_texture_basisu"}) {
+        Gltf g = square();
+        g.root["extensionsUsed"] = g.root["extensionsRequired"] = {name};
+        COTAN_LOADED(scene, g.load());
+        EXPECT_FALSE(warns(scene, "ignored")) << name;
+    }
+}
+
 TEST(GltfExtensions, ignoredOnesAreSaid)
 {
     Gltf g = square();

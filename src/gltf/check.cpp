@@ -217,7 +217,7 @@ constexpr std::array kSupported{
     string_view("KHR_meshopt_compression"),    string_view("KHR_materials_clearcoat"),
     string_view("KHR_materials_anisotropy"),   string_view("KHR_materials_ior"),
     string_view("KHR_materials_specular"),     string_view("KHR_materials_sheen"),
-    string_view("KHR_materials_transmission"),
+    string_view("KHR_materials_transmission"), string_view("KHR_materials_variants"),
 };
 
 // The same in a format that is not read; it matters to who needs the pixels.
