@@ -12,6 +12,7 @@
 
 #ifdef COTAN_WITH_TBB
 #include <oneapi/tbb/blocked_range.h>
+#include <oneapi/tbb/info.h>
 #include <oneapi/tbb/parallel_for.h>
 #include <oneapi/tbb/parallel_pipeline.h>
 #include <oneapi/tbb/task_arena.h>
@@ -54,8 +55,8 @@ template<class Work> auto withThreads(int threads, const Work& work)
 {
     const ThreadLimit limit(threads > 0 ? threads : threadLimit);
 #ifdef COTAN_WITH_TBB
-    if (threads > 0)
-        return oneapi::tbb::task_arena(threads).execute(work);
+    if (threads > 0) // oneTBB runs no more than there are processors, and warns on standard error where it is asked to
+        return oneapi::tbb::task_arena(std::min(threads, oneapi::tbb::info::default_concurrency())).execute(work);
 #endif
     return work();
 }
