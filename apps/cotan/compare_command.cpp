@@ -74,12 +74,15 @@ Status run(const CompareCommandOptions& o)
     if (!renderer)
         return renderer.error();
     Stopwatch watch;
-    const auto compared = withProgress(o, kComparedFramesPictures, "drawing", [&](Progress progress) {
+    auto compared = withProgress(o, kComparedFramesPictures, "drawing", [&](Progress progress) {
         (*renderer)->progress = std::move(progress);
         return compareFrames(**renderer, picture->scene, picture->view, frames);
     });
     if (!compared)
         return compared.error();
+    for (Image& image : compared->shaded)
+        if (Status laid = layEdges(**renderer, picture->view, o.picture, picture->edges, image); !laid)
+            return laid.error();
     const double drawSeconds = watch.lap();
 
     if (Status made = makeFolder(o.output); !made)
