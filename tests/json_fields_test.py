@@ -8,7 +8,6 @@ report has.
 How a table reads: `...` stands for the fields of a shape; `a.b[].c` is the member c of each item of the list b of the object a; NAME is any name; a field that
 ends in ? is not in every report. A type that is the name of a shape stands for the object of that shape's table.
 """
-import importlib.util
 import json
 import os
 import pathlib
@@ -16,6 +15,8 @@ import re
 import subprocess
 import sys
 import tempfile
+
+from output_inputs import make_inputs
 
 HERE = pathlib.Path(__file__).resolve().parent
 
@@ -183,10 +184,7 @@ def differences(name, page, reports):
 
 def run_all(tool, folder):
     """The reports of all commands, by format."""
-    spec = importlib.util.spec_from_file_location("output_bytes", HERE / "output_bytes.py")
-    inputs = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(inputs)
-    inputs.make_inputs(folder)
+    make_inputs(folder)
     jobs = [{"name": "a", "command": ["map", "info", "rocks.png"]}, {"name": "b", "command": ["lint", "plain.gltf"]},
             {"name": "c", "command": ["map", "info", "gone.png"]}]
     (folder / "jobs.jsonl").write_text("".join(json.dumps(job) + "\n" for job in jobs))

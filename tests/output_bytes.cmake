@@ -1,7 +1,14 @@
-# The bytes that commands print and write, held by a table.
+# The bytes that commands print and write, held by tables; and that each option changes them.
 find_package(Python3 COMPONENTS Interpreter)
 if(Python3_FOUND)
-  add_test(NAME OutputBytes.areThoseOfTheTable
-    COMMAND ${Python3_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/output_bytes.py $<TARGET_FILE:cotan> ${CMAKE_CURRENT_SOURCE_DIR}/output_bytes.txt)
-  set_tests_properties(OutputBytes.areThoseOfTheTable PROPERTIES TIMEOUT 300 SKIP_RETURN_CODE 77)
+  foreach(table lab maps meshes pictures shader_text)
+    add_test(NAME OutputBytes.${table}
+      COMMAND ${Python3_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/output_bytes.py $<TARGET_FILE:cotan> ${CMAKE_CURRENT_SOURCE_DIR}/output_bytes/${table}.txt)
+    set_tests_properties(OutputBytes.${table} PROPERTIES TIMEOUT 300 SKIP_RETURN_CODE 77)
+  endforeach()
+  foreach(command render compare bake convert map others)
+    add_test(NAME OptionEffects.${command}
+      COMMAND ${Python3_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/option_effects_test.py $<TARGET_FILE:cotan> ${command})
+    set_tests_properties(OptionEffects.${command} PROPERTIES TIMEOUT 300 SKIP_RETURN_CODE 77)
+  endforeach()
 endif()

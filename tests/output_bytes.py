@@ -13,7 +13,6 @@ Embree takes other instructions on other processors: keep bakes to 8 bits and sm
 """
 import hashlib
 import json
-import math
 import os
 import pathlib
 import platform
@@ -25,112 +24,10 @@ import sys
 import tempfile
 import zlib
 
+from output_inputs import make_inputs
+
 SKIPPED = 77  # the exit code that CMake's SKIP_RETURN_CODE names
 NOT_BUILT = hashlib.sha256(b"3").hexdigest()[:16]  # as an exit code in the table
-
-
-# Inputs.
-
-def png(path, width, height, channels, bits, sample):
-    """A PNG whose channel c of the texel x, y is sample(x, y, c), an integer."""
-    pack = (lambda v: struct.pack(">H", v)) if bits == 16 else (lambda v: bytes([v]))
-    rows = b"".join(b"\0" + b"".join(pack(sample(x, y, c)) for x in range(width) for c in range(channels)) for y in range(height))
-
-    def chunk(name, data):
-        return struct.pack(">I", len(data)) + name + data + struct.pack(">I", zlib.crc32(name + data))
-    header = struct.pack(">IIBBBBB", width, height, bits, {1: 0, 3: 2, 4: 6}[channels], 0, 0, 0)
-    path.write_bytes(b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", header) + chunk(b"IDAT", zlib.compress(rows)) + chunk(b"IEND", b""))
-
-
-def relief(u, v):
-    """A height that repeats with the unit square, in units of its side."""
-    return 0.02 * math.sin(4 * math.pi * u) * math.cos(2 * math.pi * v) + 0.01 * math.cos(6 * math.pi * (u + v))
-
-
-def relief_normal(u, v):
-    step = 1e-4
-    x = -(relief(u + step, v) - relief(u - step, v)) / (2 * step)
-    y = -(relief(u, v + step) - relief(u, v - step)) / (2 * step)
-    length = math.sqrt(x * x + y * y + 1)
-    return x / length, y / length, 1 / length
-
-
-def patch(segments, bumps):
-    """Positions, normals, texture coordinates (sheared, v down) and triangles of a piece of a bumpy barrel."""
-    positions, normals, coordinates, triangles = [], [], [], []
-    for j in range(segments + 1):
-        for i in range(segments + 1):
-            u, v = i / segments, j / segments
-            angle, up = 1.2 * (u - 0.5), v - 0.5
-            radius = 1 + 0.2 * math.cos(up) + bumps * relief(u, v)
-            n = [math.sin(angle), 0.2 * math.sin(up), math.cos(angle)]
-            length = math.sqrt(sum(x * x for x in n))
-            positions.append([round(radius * math.sin(angle), 6), round(up, 6), round(radius * math.cos(angle), 6)])
-            normals.append([round(x / length, 6) for x in n])
-            coordinates.append([round(0.06 + 0.7 * u + 0.16 * v, 6), round(0.95 - 0.9 * v, 6)])
-    for j in range(segments):
-        for i in range(segments):
-            a = j * (segments + 1) + i
-            b, c, d = a + 1, a + segments + 1, a + segments + 2
-            triangles += [[a, b, d], [a, d, c]]
-    return positions, normals, coordinates, triangles
-
-
-def obj(path, name, mesh, outwards=0.0, with_normals=True):
-    positions, normals, coordinates, triangles = mesh
-    lines = [f"o {name}"]
-    lines += ["v " + " ".join(f"{x + outwards * n:.6f}" for x, n in zip(p, m)) for p, m in zip(positions, normals)]
-    lines += [f"vt {u:.6f} {1 - v:.6f}" for u, v in coordinates]
-    if with_normals:
-        lines += ["vn " + " ".join(f"{x:.6f}" for x in n) for n in normals]
-    corner = (lambda i: f"{i + 1}/{i + 1}/{i + 1}") if with_normals else (lambda i: f"{i + 1}/{i + 1}")
-    lines += ["f " + " ".join(corner(i) for i in t) for t in triangles]
-    path.write_text("\n".join(lines) + "\n")
-
-
-def gltf(path, mesh, picture, with_tangents):
-    positions, normals, coordinates, triangles = mesh
-    data, views, accessors = b"", [], []
-
-    def add(values, form, kind, component):
-        nonlocal data
-        packed = b"".join(struct.pack("<" + form * len(v), *v) for v in values)
-        views.append({"buffer": 0, "byteOffset": len(data), "byteLength": len(packed)})
-        accessors.append({"bufferView": len(views) - 1, "componentType": component, "type": kind,
-                          "count": len(values) * (3 if kind == "SCALAR" else 1)})
-        data += packed
-        return len(accessors) - 1
-    attributes = {"POSITION": add(positions, "f", "VEC3", 5126), "NORMAL": add(normals, "f", "VEC3", 5126),
-                  "TEXCOORD_0": add(coordinates, "f", "VEC2", 5126)}
-    accessors[0]["min"] = [min(p[k] for p in positions) for k in range(3)]
-    accessors[0]["max"] = [max(p[k] for p in positions) for k in range(3)]
-    if with_tangents:  # around the barrel, which is not along u: the coordinates are sheared
-        around = [[round(n[2], 6), 0.0, round(-n[0], 6)] for n in normals]
-        lengths = [math.sqrt(t[0] * t[0] + t[2] * t[2]) for t in around]
-        attributes["TANGENT"] = add([[t[0] / l, 0.0, t[2] / l, 1.0] for t, l in zip(around, lengths)], "f", "VEC4", 5126)
-    indices = add(triangles, "I", "SCALAR", 5125)
-    root = {"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0, "scale": [-1, 1, 1]}],
-            "meshes": [{"primitives": [{"attributes": attributes, "indices": indices, "material": 0}]}],
-            "materials": [{"normalTexture": {"index": 0}, "pbrMetallicRoughness": {"roughnessFactor": 0.4}}],
-            "textures": [{"source": 0}], "images": [{"uri": picture}], "bufferViews": views, "accessors": accessors,
-            "buffers": [{"uri": path.stem + ".bin", "byteLength": len(data)}]}
-    path.with_suffix(".bin").write_bytes(data)
-    path.write_text(json.dumps(root, indent=1))
-
-
-def make_inputs(folder):
-    def code(value):
-        return int(math.floor(128 + 127 * value + 0.5))
-    png(folder / "height.png", 48, 32, 1, 16, lambda x, y, c: int(32768 + 1e6 * relief((x + 0.5) / 48, (y + 0.5) / 32)))
-    png(folder / "rocks.png", 48, 48, 3, 8, lambda x, y, c: code(relief_normal((x + 0.5) / 48, 1 - (y + 0.5) / 48)[c]))
-    png(folder / "grain.png", 16, 16, 3, 8, lambda x, y, c: code(relief_normal((x + 0.5) / 16, 1 - (y + 0.5) / 16)[c]))
-    png(folder / "mask.png", 48, 48, 1, 8, lambda x, y, c: 5 * x)
-    low, high = patch(4, 0), patch(24, 1)
-    obj(folder / "low.obj", "part_low", low)
-    obj(folder / "cage.obj", "cage", low, outwards=0.08)
-    obj(folder / "high.obj", "part_high", high, with_normals=False)
-    gltf(folder / "panel.gltf", low, "rocks.png", with_tangents=True)
-    gltf(folder / "plain.gltf", low, "rocks.png", with_tangents=False)
 
 
 # Outputs.
@@ -200,7 +97,7 @@ def content(path):
         return png_pixels(data)
     if data.startswith(b"glTF"):
         return glb_content(data)
-    if path.suffix in (".exr", ".tif"):
+    if path.suffix in (".exr", ".tif", ".gif"):
         found = subprocess.run(["iinfo", "--hash", path.name], cwd=path.parent, capture_output=True, text=True, check=True)
         return found.stdout.encode()
     if path.suffix in (".json", ".csv", ".txt", ".md", ".html"):

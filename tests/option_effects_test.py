@@ -1,0 +1,253 @@
+#!/usr/bin/env python3
+"""Each option of each command changes the result, and each of its words in a way of its own.
+
+  option_effects_test.py TOOL COMMAND    (of map all; `others`: those without a test of their own)
+
+The options are those that --help lists; their words are those that the tool names when it refuses a wrong one. So an
+option or a word that is new has to be tried here, too. For each option a command runs without it and with each of its
+words: of any two of these runs the files differ, or, where none is written, what is printed. Words that another option of
+the line rules out are refused.
+"""
+import itertools
+import pathlib
+import platform
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+
+from output_bytes import SKIPPED, content, steady
+from output_inputs import make_inputs
+
+RENDER = "render room.gltf --device reference --size 48x30 -o out.png"
+COMPARE = "compare room.gltf --device reference --size 40x25 --frames cotangent,smooth -o out"
+BAKE = "bake --high high.obj --low low.obj --size 24x24 -o out.png"
+SHADER = "shader --lang glsl"
+
+# Command lines, and options that are tried with each. Between the words of an option is `|`; `*` stands for those that the
+# tool names. `~` before a word: it is what the option is by default. `=`: it changes nothing, as it only says how the work
+# is done. `!`: it is refused here. `&`: what these words give is equal: paper-transpose is
+# paper-nodet in another form, whose rounding these lines do not show; a kernel of three texels sees one beyond the border, which clamp and mirror choose alike; and
+# a map that is as good for a new frame as one that is made for it stays. A flag has no words.
+CASES = [
+    (RENDER, {
+        "--size": "40x30 | thumbnail", "--view": "~shaded | *", "--up": "~y | *", "--exposure": "~auto | 0.3 | 2",
+        "--camera": "~front | left | right | top | bottom | back | fit | 0 | 1 | orbit:40,20 | 1,2,4,0,0.2,0 | 1,2,4,0,0.2,0,20 | 1,2,4,0,0.2,0,h3",
+        "--normal-map": "as-directx.png | rough.png", "--base-color": "rocks.png | rough.png", "--metallic-roughness": "rocks.png | mask.png",
+        "--occlusion": "rocks.png | mask.png", "--variant": "cloth | sign", "--turntable": "2 | 3", "--environment": "~studio | sky.hdr | *",
+        "--environment-rotation": "40 | 200", "--environment-intensity": "0.5 | 3", "--ground": "~on | *", "--shading": "~pbr | *",
+        "--samples": "~4 | 1 | 16", "--tone-mapping": "~neutral | *", "--specular-antialiasing": "", "--edges": "~none | *",
+        "--normal-mapping": "~shading | *", "--derivatives": "~fine | *", "--no-normal-maps": "", "--point-sampled": "", "--memory": "=800",
+        "--threads": "=1 | =3", "--list-frames": ""}),
+    (RENDER + " --normal-map rocks.png", {"--convention": "~gltf | directx | slope", "--material": "~-1 | 0 | 1"}),
+    (RENDER + " --animation turn --time 0.6", {"--animation": "bend | ~0 | ~turn", "--time": "0.2 | 0.9 | ~0.6"}),
+    (RENDER + " --animation turn", {"--frames": "0..1 | 1..3 | 0..3"}),
+    (RENDER + " --environment evening", {"--background": "~blur | *", "--no-shadows": ""}),
+    (RENDER + " --frame vertex", {"--tangents": "~stored | *"}),
+    ("render room.gltf --device reference --size 48x30 --frame vertex --shading blinn-phong -o out.exr", {"--lighting": "~world | *"}),
+    ("render room.gltf --device reference --size 48x30 --view normal -o out.exr", {"--frame": "~auto | ~orthonormal | &paper-nodet,paper-transpose | *"}),
+    (RENDER + " --view normal --frame cotangent-2013", {"--rows": "~down | *"}),
+    ("render plain.gltf --size 48x30 -o out.png", {"--shadow-softness": "0 | 30 | 60", "--device": "reference"}),
+    ("render --device reference --size 48x30 -o out.png --normal-map rocks.png --shape plane", {"--shape": "~plane | *"}),
+    ("render panel.gltf --device reference --size 16x10 --turntable 2 -o out.webp", {"--rate": "~24 | 5 | 7"}),
+    (COMPARE, {
+        "--frames": "cotangent,exact | exact,smooth", "--size": "30x20", "--camera": "~front | left | 1", "--up": "~y | *", "--exposure": "~auto | 2",
+        "--normal-map": "as-directx.png", "--base-color": "rocks.png", "--metallic-roughness": "rocks.png", "--occlusion": "rocks.png",
+        "--variant": "cloth | sign", "--environment": "~studio | *", "--environment-rotation": "40", "--environment-intensity": "3",
+        "--ground": "~on | *", "--shading": "~pbr | *", "--samples": "~4 | 1", "--tone-mapping": "~neutral | *", "--specular-antialiasing": "",
+        "--edges": "~none | *", "--normal-mapping": "~shading | *", "--derivatives": "~fine | *", "--no-normal-maps": "", "--point-sampled": "",
+        "--memory": "=800", "--threads": "=1 | =3", "--list-frames": ""}),
+    (COMPARE + " --normal-map rocks.png", {"--convention": "~gltf | directx", "--material": "~-1 | 1"}),
+    (COMPARE + " --animation turn --time 0.6", {"--animation": "bend | ~turn", "--time": "0.2 | 0.9"}),
+    (COMPARE + " --environment evening", {"--background": "~blur | *", "--no-shadows": ""}),
+    ("compare room.gltf --device reference --size 40x25 --frames vertex,exact -o out", {"--tangents": "~stored | *"}),
+    ("compare room.gltf --device reference --size 40x25 --frames vertex,mikktspace --shading blinn-phong -o out", {"--lighting": "~world | *"}),
+    ("compare room.gltf --device reference --size 40x25 --frames cotangent-2013,exact -o out", {"--rows": "~down | *"}),
+    ("compare plain.gltf --size 48x30 --frames cotangent,smooth -o out", {"--shadow-softness": "0 | 30", "--device": "reference"}),
+    ("compare --device reference --size 48x30 --frames cotangent,smooth -o out --normal-map rocks.png --shape plane", {"--shape": "~plane | *"}),
+    ("lint room.gltf", {"--normal-map": "grain.png | as-directx.png", "--details": "", "--limit": "0.01 | 80", "--memory": "=800"}),
+    ("lint room.gltf --details", {"--distance": "2 | 20"}),
+    ("lint low.ply", {"--up": "~y | =z"}), # no figure depends on how a model is turned
+    ("lint room.gltf --normal-map rocks.png", {"--convention": "~gltf | directx", "--material": "~-1 | 1"}),
+    ("lint room.gltf --limit 0.01", {"--frame": "~orthonormal | *"}),
+    ("lint room.gltf", {"--strict": "!"}),
+    ("lint mirrored.obj", {"--limit-area": "20 | 80"}),
+    ("map info rocks.png height.png", {"--memory": "=800", "--threads": "=1 | =3"}),
+    ("map detect rocks.png as-directx.png", {"--memory": "=800", "--threads": "=1 | =3"}),
+    ("map convert rocks.png --from gltf --to directx -o out.png", {
+        "--from": "biased | slope | ~opengl", "--to": "gltf | directx,biased | directx,xy | directx,slope | directx,stereographic | !directx,signed",
+        "--bits": "~auto | ~8 | 16", "--normalise": "", "--strength": "~1 | 0.5 | -1", "--threads": "=1 | =3", "--memory": "=800",
+        "--list-frames": ""}),
+    ("map convert rocks.png --from gltf --to directx -o out.exr", {"--bits": "~auto | ~float | !8 | !16 | *"}),
+    ("map convert rocks.png --from gltf --to directx --strength 0.5 -o out.png", {"--dither": ""}),
+    ("map convert rocks.png --from gltf --to directx -o out.ktx2", {"--compress": "~none | *"}),
+    ("map convert rocks.png --from gltf --to object --mesh panel.gltf -o out.png", {"--mesh": "high.obj | room.gltf", "--frame": "~smooth | &paper-nodet,paper-transpose | !cotangent-2013 | !nonperspective | !paper-orthogonal | *"}),
+    ("map convert rocks.png --from gltf --to object --mesh room.gltf -o out.png", {"--material": "~-1 | 0 | 1"}),
+    ("map convert rocks.png --from gltf --to object --mesh panel.gltf --frame vertex -o out.png", {"--tangents": "~stored | *"}),
+    ("map convert rocks.png --from gltf --to object --mesh low.ply -o out.png", {"--up": "~y | *"}),
+    ("map diff rocks.png as-directx.png --from gltf --to gltf -o out.png", {"--from": "directx | slope", "--to": "directx | slope", "--threads": "=1 | =3",
+                                                    "--memory": "=800"}),
+    ("map from-height height.png -o out.png", {
+        "--kernel": "*", "--wrap": "~repeat | &clamp,mirror | *", "--strength": "~1 | 2 | -1", "--to": "~gltf | directx | slope | xy",
+        "--bits": "~auto | ~16 | !half | !float | *",
+        "--threads": "=1 | =3", "--memory": "=800"}),
+    ("map from-height height.png --bits 8 -o out.png", {"--dither": ""}),
+    ("map from-height height.png --range 0.1 --metres 3 -o out.png", {"--metres": "2 | 2x1", "--range": "0.4 | 0.2"}),
+    ("map to-height rocks.png --from gltf -o out.exr", {"--from": "~opengl | directx | biased", "--kernel": "*", "--metres": "2 | 2x3", "--free": "",
+                                                       "--bits": "~auto | ~float | !8 | !16 | *", "--threads": "=1 | =3", "--memory": "=800"}),
+    ("map blend rocks.png grain.png --from gltf --to gltf -o out.png", {
+        "--from": "~opengl | directx | slope", "--detail-from": "~gltf | directx | slope", "--to": "directx | slope", "--mode": "*",
+        "--strength": "~1 | 0.5 | -1", "--mask": "mask.png | rough.png", "--tiles": "~1 | 2 | 2x3", "--bits": "~8 | 16", "--dither": "",
+        "--threads": "=1 | =3", "--memory": "=800"}),
+    ("map mips rocks.png --from gltf --to gltf -o out.dds", {
+        "--from": "~opengl | directx | slope", "--to": "directx", "--model": "*", "--roughness": "0.2 | 0.8", "--compress": "*",
+        "--threads": "=1 | =3", "--memory": "=800"}),
+    ("map mips rocks.png --from gltf -o out.exr", {"--keep-lengths": "", "--bits": "~auto | ~float | !8 | !16 | *"}),
+    (BAKE, {
+        "--high": "low.obj | low.stl", "--low": "room.gltf", "--size": "16 | 24x20", "--kind": "~normal | *", "--frame": "~mikktspace | !cotangent-2013 | !nonperspective | !paper-orthogonal | *",
+        "--max-distance": "0.001 | 0.02", "--high-normals": "~smooth | curved | face",
+        "--samples": "~1 | 4 | 16", "--convention": "~gltf | directx | xy", "--unsigned": "~exact | *", "--dither": "", "--bits": "~8 | 16",
+        "--padding": "~0 | 1 | -1", "--mask": "seen.png", "--per-object": "", "--verify": "checked", "--threads": "=1 | =3", "--memory": "=800",
+        "--udim": "~1001 | !1002", "--list-frames": ""}),
+    (BAKE + " --kind object-normal", {"--up": "~y | *", "--high-up": "~y | *"}),
+    ("bake --high layers.obj --low low.obj --size 24x24 -o out.png", {"--search": "~first | *", "--extrusion": "0.001 | 0.02", "--cage": "cage.obj"}),
+    ("bake --high low.stl --high high.obj --low low.obj --size 24x24 -o out.png", {"--match-by-name": ""}),
+    (BAKE + " --verify checked", {"--device": "reference"}),
+    ("bake --high high.obj --low room.gltf --size 24x24 -o out.png", {"--object": "part-0 | part-5", "--material": "~-1 | 0 | 5"}),
+    ("bake --high high.obj --low panel.gltf --frame vertex --size 24x24 -o out.png", {"--tangents": "~stored | *"}),
+    ("bake --high panel.gltf --low low.obj --high-normals map --size 24x24 -o out.png", {"--high-map": "grain.png | ~rocks.png", "--high-frame": "~mikktspace | &paper-nodet,paper-transpose | !cotangent-2013 | !nonperspective | !paper-orthogonal | *"}),
+    ("bake --high panel.gltf --low low.obj --high-normals map --high-map rocks.png --size 24x24 -o out.png", {"--high-convention": "~gltf | directx | slope"}),
+    ("bake --high high.obj --low low.obj --size 16x16 --kind ao -o out.png", {"--ao-rays": "~64 | 9 | 250"}),
+    ("convert panel.gltf --from-frame mikktspace --to-frame smooth -o out.glb", {
+        "--from-frame": "~mikktspace | &paper-nodet,paper-transpose | &cotangent,paper-full,exact,smooth,triangle | !cotangent-2013 | !nonperspective | !paper-orthogonal | *", "--to-frame": "~smooth | !cotangent-2013 | !nonperspective | !paper-orthogonal | *", "--bits": "~8 | *", "--unsigned": "~biased | *", "--keep-maps": "", "--keep-tangents": "",
+        "--tangents": "~stored | *", "--verify": "checked", "--threads": "=1 | =3", "--memory": "=800", "--list-frames": ""}),
+    ("convert panel.gltf --from-frame mikktspace --to-frame triangle -o out.glb", {"--provoking": "*"}),
+    ("convert panel.gltf --from-frame mikktspace --to-frame smooth -o out.glb --verify checked", {"--device": "reference"}),
+    ("tangents panel.gltf --replace -o out.glb", {"--frame": "~mikktspace | !smooth | *"}),
+    ("tangents panel.gltf -o out.glb", {"--replace": "", "--threads": "=1 | =3"}),
+    (SHADER, {
+        "--lang": "~glsl | *", "--frame": "*", "--form": "~fused | total | area | seen", "--preset": "~gltf | directx | unity", "--green": "*", "--channels": "*", "--unsigned": "*",
+        "--uv-sets": "~1 | 2 | 3 | 4", "--differences": "*", "--set": "gradient | blend | light | environment", "--list-frames": ""}),
+    (SHADER + " --frame triangle", {"--stage": "*"}),
+    ("shader --lang godot", {"--functions": "", "--two-sided": ""}),
+    ("accuracy --tables degenerate,signs --csv out.csv", {"--tables": "half | signs", "--scene": "!nothing", "--frames": "cotangent | smooth,exact", "--threads": "=1 | =3"}),
+    ("accuracy --tables signs", {"--csv": "out.csv", "--list": "", "--list-frames": "", "--against": "!rocks.png"}),
+    ("figures --only decode --size 32x24 -o out", {"--only": "*", "--size": "40x24", "--device": "reference", "--threads": "=1 | =3"}),
+]
+GROUPS = ["render", "compare", "bake", "convert", "map"]
+# What has its tests elsewhere.
+OPTIONS_ELSEWHERE = {"--help", "--json", "--quiet", "--output", "--overwrite"}  # help_test, json_fields_test.py, cli_test, files_test
+ELSEWHERE = {"accuracy": {"--device"}}  # accuracy_command_test: the table that is drawn takes minutes
+COMMANDS_ELSEWHERE = {"view", "cost", "batch", "help"}  # these need a screen, drivers, time: view_window_test, cost_report_test, batch_command_test
+
+
+def run(tool, inputs, words):
+    """Exit code, errors, and what a command wrote, or printed where it wrote nothing."""
+    with tempfile.TemporaryDirectory() as name:
+        folder = pathlib.Path(name)
+        for path in inputs.iterdir():
+            shutil.copy2(path, folder / path.name)
+        before = set(folder.rglob("*"))
+        done = subprocess.run([tool, *words], cwd=folder, capture_output=True, text=True, timeout=120, check=False)
+        written = {str(p.relative_to(folder)): content(p) for p in sorted(folder.rglob("*")) if p.is_file() and p not in before}
+        return done.returncode, done.stderr.strip(), written or steady(done.stdout + done.stderr)
+
+
+def with_option(base, option, word):
+    words = base.split()
+    if option in words:
+        words[words.index(option) + 1] = word
+        return words
+    return [*words, option, *([word] if word else [])]
+
+
+def options_of(tool, command):
+    text = subprocess.run([tool, *command.split(), "--help"], capture_output=True, text=True, check=True).stdout
+    return set(re.findall(r"^  (?:-\w, )?(--[a-z0-9-]+)", text, re.M))
+
+
+def commands_of(tool, command=""):
+    text = subprocess.run([tool, *command.split(), "--help"], capture_output=True, text=True, check=True).stdout
+    if " COMMAND [OPTIONS]" not in text:
+        return [command]
+    names = re.findall(r"^  ([a-z][a-z-]*) ", text.split("Examples:")[0], re.M)
+    return [c for name in names for c in commands_of(tool, f"{command} {name}".strip())]
+
+
+def words_named(refusal, option):
+    """The words of an option, from `--x: expected [one of] a, b or c; found ...`."""
+    found = re.search(re.escape(option) + r": expected (?:one of )?(.*?); found", refusal)
+    return [w for w in re.split(r",? or |, ", found[1]) if re.fullmatch(r"[a-z0-9.-]+", w)] if found else []
+
+
+def try_option(tool, inputs, base, option, words):
+    """What is wrong with an option, in lines; and how many words were tried."""
+    wanted = [w.strip() for w in words.split("|")]
+    usual = {w[1:] for w in wanted if w.startswith("~")}
+    same = {w[1:] for w in wanted if w.startswith("=")}
+    refused = {w[1:] for w in wanted if w.startswith("!")}
+    equals = [set(w[1:].split(",")) for w in wanted if w.startswith("&")]
+    tried = [w for w in wanted if w and w[0] not in "~=*!&"]
+    if "*" in wanted:
+        refusal = run(tool, inputs, with_option(base, option, "nonsense!"))[1]
+        named = words_named(refusal, option)
+        if len(named) < 2:
+            return [f"{base} {option}: expected the words in the refusal; found {refusal}"], 0
+        tried += [w for w in named if w not in usual | refused and w not in tried]
+    results, wrong = {"(without)": run(tool, inputs, base.split())}, []
+    for word in refused:
+        code, errors, _ = run(tool, inputs, with_option(base, option, word))
+        if code not in (1, 2) or "error: " not in errors:
+            wrong.append(f"{base} {option} {word}: expected a refusal; found exit code {code}, {errors}")
+    for word in [*tried, *usual, *same] if words else [""]:
+        results[word] = run(tool, inputs, with_option(base, option, word))
+    for word, (code, errors, result) in results.items():
+        if code not in (0, 5) or not result:
+            wrong.append(f"{base} {option} {word}: exit code {code}, {errors or 'nothing written'}")
+    first = results["(without)"][2]
+    for word in usual | same:
+        if results[word][2] != first:
+            wrong.append(f"{base}: the same with {option} {word}; the result differs")
+    # A default that is one of the words and is not marked: one of them may be as without the option.
+    apart = {w: r[2] for w, r in results.items() if w not in usual | same}
+    equal = [pair for pair in itertools.combinations(apart, 2) if apart[pair[0]] == apart[pair[1]]]
+    for pair in itertools.chain.from_iterable(itertools.combinations(sorted(e), 2) for e in equals):
+        if results[pair[0]][2] != results[pair[1]][2]:
+            wrong.append(f"{base}: {option} {pair[0]} and {pair[1]} differ")
+    equal = [pair for pair in equal if not any(set(pair) <= e for e in equals)]
+    if "*" in wanted and not usual and len(equal) == 1 and "(without)" in equal[0]:
+        equal = []
+    wrong += [f"{base}: {option} {a or '(flag)'} and {b or '(flag)'} give the same" for a, b in equal]
+    return wrong, len(results) - 1 + len(refused)
+
+
+def command_of(base):
+    return " ".join(base.split()[:2] if base.startswith("map ") else base.split()[:1])
+
+
+def main(tool, group):
+    tool, wrong, tried = str(pathlib.Path(tool).resolve()), [], 0
+    of_group = lambda base: base.split()[0] == group or group == "others" and base.split()[0] not in GROUPS
+    if platform.machine() != "x86_64" or not shutil.which("iinfo"):
+        print("skipped: it compares EXR and TIFF files by iinfo (package openimageio-tools), and was made on x86-64")
+        return SKIPPED
+    for command in filter(of_group, commands_of(tool)):
+        here = {option for base, options in CASES if command_of(base) == command for option in options}
+        if command not in COMMANDS_ELSEWHERE:
+            wrong += [f"{command} {option}: is tried by no line of this file" for option in sorted(options_of(tool, command) - here - OPTIONS_ELSEWHERE - ELSEWHERE.get(command, set()))]
+    with tempfile.TemporaryDirectory() as name:
+        inputs = pathlib.Path(name)
+        make_inputs(inputs)
+        subprocess.run([tool, *"map convert rocks.png --from gltf --to directx -o as-directx.png".split()], cwd=inputs, check=True, capture_output=True)
+        jobs = [(base, option, words) for base, options in CASES for option, words in options.items() if of_group(base)]
+        for lines, count in (try_option(tool, inputs, *job) for job in jobs):
+            wrong += lines
+            tried += count
+    print(*wrong, sep="\n", end="\n" if wrong else "")
+    print(f"{len(jobs)} options with {tried} words, {len(wrong)} of them wrong")
+    return 1 if wrong or not tried else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1], sys.argv[2]))
