@@ -452,7 +452,7 @@ TEST_F(ObjFile, mapsAreScaledShiftedAndClamped)
 
 TEST_F(ObjFile, onlyTheClampOptionClampsAndColoursAreNotNegative)
 {
-    const Texture& t = materialOf(loadMaterial("newmtl m\nmap_Kd -blendu on -cc on 1.png\n")).baseColorMap;
+    const Texture t = materialOf(loadMaterial("newmtl m\nmap_Kd -blendu on -cc on 1.png\n")).baseColorMap;
     EXPECT_EQ(t.sampler.wrapU, Wrap::repeat);
     EXPECT_EQ(t.sampler.wrapV, Wrap::repeat);
     EXPECT_EQ(materialOf(loadMaterial("newmtl m\nKd -1 0.5 -0.25\n")).baseColor, glm::vec4(0, 0.5f, 0, 1));

@@ -1,0 +1,138 @@
+"""Every parameter of the functions that the command line has, too, does what its option does there, to the byte."""
+
+import inspect
+import json
+import os
+import pathlib
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+
+import cotan
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1]))
+from output_inputs import make_inputs  # noqa: E402
+
+# Of each parameter the values tried, alone or with others that it needs. What only says how the work is done, or what
+# comes from and goes to memory, has tests of its own in the files beside this one.
+ELSEWHERE = {"threads", "memory", "progress", "report", "beside", "out", "decode", "encode", "overwrite", "device", "floats", "mask", "cage_reach"}
+
+RENDER = [
+    *({"size": s} for s in ((30, 40), 36, "50x20")),
+    *({"frame": f, "view": "normal"} for f in cotan.frames()),
+    *({"view": v} for v in "tangent bitangent uv depth error checker density stretch shear mirrored w facing base-color alpha normal-map "
+      "normal-map-red normal-map-green normal-map-blue roughness metallic occlusion emissive".split()),
+    *({"camera": c} for c in ("left", 1, "orbit:30,50", (1, 2, 3, 0, 0.5, 0), (1, 2, 3, 0, 0.5, 0, 20), "1,2,3,0,0.5,0,h2")),
+    *({"shape": s, "model": None, "normal_map": "rocks.png"} for s in ("plane", "sphere", "torus", "teapot")),
+    {"up": "z"}, {"samples": 1}, {"samples": 16}, {"normal_map": "grain.png"}, {"normal_map": "grain.png", "convention": "directx"},
+    {"normal_map": "grain.png", "material": 1}, {"base_color": "rocks.png"}, {"metallic_roughness": "colors.png"}, {"occlusion": "rocks.png"},
+    {"variant": "cloth"}, {"variant": 1}, {"animation": "turn"}, {"animation": 1, "time": 0.6}, {"animation": "turn", "time": 0.3},
+    *({"edges": e, "view": "stretch"} for e in ("triangles", "seams", "all")), {"shading": "blinn-phong"},
+    *({"lighting": s, "frame": "mikktspace", "shading": "blinn-phong"} for s in ("tangent-vertex", "tangent-pixel")),
+    *({"normal_mapping": m} for m in ("rays", "shadowed", "facets", "mirror-facet")), {"tangents": "generated", "frame": "vertex"},
+    {"exposure": 0.5}, {"exposure": "auto", "environment": "overcast"}, *({"tone_mapping": t} for t in ("none", "aces", "agx")),
+    *({"environment": e, "background": b} for e, b in (("evening", "blur"), ("overcast", "gradient"), ("none", "none"), ("sky.hdr", "environment"),
+                                                       ("studio", "paper"))),
+    {"environment_rotation": 70}, {"environment_intensity": 0.4}, {"ground": "off"}, {"shadow_softness": 40, "model": "plain.gltf"},
+    {"no_shadows": True, "model": "plain.gltf"}, {"rows": "up", "frame": "cotangent-2013"}, {"derivatives": "coarse"}, {"no_normal_maps": True},
+    {"specular_antialiasing": True}, {"point_sampled": True},
+]  # fmt: skip
+DEPENDS_ON_VIEW = {"cotangent-2013", "nonperspective", "paper-orthogonal"}
+FRAMES = [f for f in cotan.frames() if f not in DEPENDS_ON_VIEW]
+MAPPED = {"high": "panel.gltf", "high_normals": "map"}
+BAKE = [
+    *({"size": s} for s in ((30, 20), 18)), *({"frame": f} for f in FRAMES), *({"kind": k} for k in ("object-normal", "height", "ao")),
+    *({"convention": c} for c in ("directx", "unreal", "gltf,xy")), {"bits": 16}, {"samples": 4}, {"samples": 16}, {"padding": 2}, {"padding": -1},
+    {"dither": True}, {"ao_rays": 9, "kind": "ao", "size": 8}, {"search": "nearest", "high": "layers.obj"}, {"extrusion": 0.02, "high": "layers.obj"},
+    {"max_distance": 0.001}, {"cage": "cage.obj", "high": "layers.obj"}, {"match_by_name": True, "low": "room.gltf", "high": "room.gltf"},
+    {"material": 5, "low": "room.gltf"}, {"udim": 1001}, {"tangents": "generated", "low": "panel.gltf"}, {"high_normals": "curved"},
+    {"high_normals": "face"}, MAPPED, *({**MAPPED, "high_frame": f} for f in FRAMES), {**MAPPED, "high_map": "grain.png"},
+    {**MAPPED, "high_map": "grain.png", "high_convention": "directx"}, {"up": "z", "kind": "object-normal"}, {"up": "z", "high_up": "y"},
+]  # fmt: skip
+CONVERT = [
+    *({"to_frame": f, "from_frame": "mikktspace"} for f in FRAMES), *({"to_frame": "smooth", "from_frame": f} for f in FRAMES),
+    {"to_frame": "smooth", "tangents": "generated"}, {"to_frame": "smooth", "keep_tangents": True}, {"to_frame": "smooth", "bits": 16},
+    {"to_frame": "smooth", "unsigned": "exact"}, {"to_frame": "smooth", "keep_maps": True},
+]  # fmt: skip
+LINT = [{}, {"distance": 2.5}, {"limit": 0.01}, {"limit": 80, "frame": "exact"}, {"limit": 3, "frame": "stored"}, {"limit_area": 20}, {"limit_area": 0.5}]
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory):
+    folder = tmp_path_factory.mktemp("inputs")
+    make_inputs(folder)
+    return folder
+
+
+@pytest.fixture(autouse=True)
+def inside(folder, monkeypatch):
+    monkeypatch.chdir(folder)
+
+
+def words_of(options):
+    words = []
+    for name, value in options.items():
+        words.append("--" + name.replace("_", "-"))
+        if name == "size" and isinstance(value, tuple):
+            words.append("x".join(map(str, value)))
+        elif value is not True:
+            words.append(",".join(map(str, value)) if isinstance(value, tuple) else value)
+    return words
+
+
+def names(options):
+    return " ".join(f"{k}={v}" for k, v in options.items())
+
+
+@pytest.mark.parametrize("options", RENDER, ids=names)
+def test_render_draws_what_the_command_line_draws(options, command, tmp_path):
+    all_options = {"size": (48, 30), "device": "reference", "model": "room.gltf", **options}
+    model = all_options.pop("model")
+    command("render", *([model] if model else []), "-o", tmp_path / "out.png", *words_of(all_options))
+    np.testing.assert_array_equal(cotan.render(model, **all_options), cotan.read_picture(tmp_path / "out.png"))
+
+
+@pytest.mark.parametrize("options", BAKE, ids=names)
+def test_bake_makes_what_the_command_line_makes(options, command, tmp_path):
+    options = {"low": "low.obj", "high": "high.obj", "size": 24, **options}
+    command("bake", "-o", tmp_path / "out.png", "--mask", tmp_path / "mask.png", "--json", tmp_path / "report.json", *words_of(options))
+    baked = cotan.bake(options.pop("low"), options.pop("high"), mask=True, **options)
+    for own, file in ((baked.map, "out.png"), (baked.mask, "mask.png")):
+        written = cotan.read_picture(tmp_path / file)
+        np.testing.assert_array_equal(own[..., : written.shape[2]], written)
+    report = json.loads((tmp_path / "report.json").read_text())["bake"]
+    assert (baked.texels, baked.covered, baked.missed, baked.further, baked.nearer, baked.negative, baked.twice, baked.rays) == tuple(
+        report[n] for n in ("texels", "covered", "missed", "further_away", "not_the_nearest", "negative_z", "claimed_twice", "rays"))  # fmt: skip
+    assert (baked.ray_distance, baked.ray_start) == (report["ray_distance"], report["ray_start"])
+
+
+@pytest.mark.parametrize("options", CONVERT, ids=names)
+def test_convert_writes_what_the_command_line_writes(options, command, tmp_path):
+    words = {k: v for k, v in options.items() if k != "bits"}
+    command("convert", "panel.gltf", "-o", tmp_path / "a.glb", *words_of(words), *(["--bits", options["bits"]] if "bits" in options else []))
+    cotan.convert("panel.gltf", tmp_path / "b.glb", **options)
+    assert (tmp_path / "a.glb").read_bytes() == (tmp_path / "b.glb").read_bytes()
+
+
+@pytest.mark.parametrize("options", LINT, ids=names)
+def test_lint_says_what_the_command_line_says(options, tmp_path):
+    tool = os.environ.get("COTAN_TOOL")
+    if not tool or not os.path.exists(tool):
+        pytest.skip("skipped: COTAN_TOOL names no cotan")
+    done = subprocess.run([tool, "lint", "room.gltf", "--json", tmp_path / "report.json", *map(str, words_of(options))], capture_output=True)
+    found = cotan.lint("room.gltf", **options)
+    report = json.loads((tmp_path / "report.json").read_text())
+    shared = (set(found.report) & set(report)) - {"format"}
+    assert {"primitives", "maps", "check"} <= shared
+    assert {k: found.report[k] for k in shared} == {k: report[k] for k in shared}
+    assert found.passed is (None if "limit" not in options and "limit_area" not in options else done.returncode == 0)
+
+
+@pytest.mark.parametrize("function, tried", [(cotan.render, RENDER), (cotan.bake, BAKE), (cotan.convert, CONVERT), (cotan.lint, LINT)],
+                         ids=["render", "bake", "convert", "lint"])  # fmt: skip
+def test_every_parameter_is_tried(function, tried):
+    named = {name for options in tried for name in options} | {"model", "low", "high"} | ELSEWHERE
+    missing = set(inspect.signature(function).parameters) - named
+    assert missing == set()
