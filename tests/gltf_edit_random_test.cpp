@@ -336,6 +336,72 @@ TEST(GltfEditRandom, writtenAgainEveryCornerHasWhatItHad)
     }
 }
 
+// The numbers of an element: whole ones are normalised.
+std::vector<float> decoded(const std::string& bytes, int componentType)
+{
+    std::vector<float> numbers;
+    for (std::size_t at = 0; at < bytes.size(); at += sizeOf(componentType)) {
+        std::uint32_t whole = 0;
+        std::memcpy(&whole, bytes.data() + at, sizeOf(componentType));
+        float real = 0;
+        std::memcpy(&real, &whole, 4);
+        numbers.push_back(componentType == 5126 ? real : float(whole) / (componentType == 5121 ? 255.0f : 65535.0f));
+    }
+    return numbers;
+}
+
+template<int N> void expectNumbers(const std::vector<float>& numbers, const glm::vec<N, float>& found)
+{
+    ASSERT_GE(numbers.size(), std::size_t(N));
+    for (int c = 0; c < N; ++c)
+        EXPECT_FLOAT_EQ(found[c], numbers[std::size_t(c)]);
+}
+
+TEST(GltfEditRandom, theSceneHasAtEveryCornerTheNumbersOfTheFile)
+{
+    std::size_t corners = 0, colored = 0;
+    for (std::uint32_t seed = 1; seed <= 40; ++seed) {
+        const TemporaryFolder folder;
+        const Files files = Maker(seed).files();
+        auto document = opened(folder, files); // which writes the buffers
+        ASSERT_TRUE(document) << document.error().message;
+        ASSERT_TRUE(cotan::writeGltf(*document, folder.path / "in.gltf"));
+        const auto scene = cotan::loadGltf(folder.path / "in.gltf");
+        ASSERT_TRUE(scene) << scene.error().message;
+        ASSERT_EQ(scene->instances.size(), scene->meshes.size());
+        std::size_t at = 0;
+        for (const json& mesh : files.root["meshes"])
+            for (const json& primitive : mesh["primitives"]) {
+                ASSERT_LT(at, scene->meshes.size());
+                const cotan::Mesh& m = scene->meshes[at++];
+                const auto wanted = cornersIn(files, primitive);
+                ASSERT_EQ(m.indices.size(), wanted.size()) << "seed " << seed;
+                const auto typeOf = [&](const char* name) {
+                    return files.root["accessors"][primitive["attributes"][name].get<std::size_t>()]["componentType"]
+                        .get<int>();
+                };
+                for (std::size_t k = 0; k < wanted.size(); ++k) {
+                    const std::uint32_t v = m.indices[k];
+                    expectNumbers<3>(decoded(wanted[k].at("POSITION"), 5126), m.positions[v]);
+                    const std::vector<float> n = decoded(wanted[k].at("NORMAL"), 5126);
+                    const glm::vec3 unit = glm::normalize(glm::vec3(n[0], n[1], n[2]));
+                    EXPECT_LT(glm::distance(m.normals[v], unit), 1e-6f);
+                    expectNumbers<2>(decoded(wanted[k].at("TEXCOORD_0"), typeOf("TEXCOORD_0")), m.texcoords[0][v]);
+                    if (wanted[k].contains("COLOR_0")) {
+                        expectNumbers<4>(decoded(wanted[k].at("COLOR_0"), typeOf("COLOR_0")), m.colors[v]);
+                        ++colored;
+                    } else {
+                        EXPECT_TRUE(m.colors.empty());
+                    }
+                    ++corners;
+                }
+            }
+        EXPECT_EQ(at, scene->meshes.size());
+    }
+    EXPECT_GT(corners, 1000u);
+    EXPECT_GT(colored, 200u);
+}
+
 TEST(GltfEditRandom, tangentsOfCornersArriveAndNothingElseChanges)
 {
     for (std::uint32_t seed = 1; seed <= 40; ++seed) {

@@ -1,4 +1,4 @@
-# The bytes that commands print and write, held by tables; and that each option changes them.
+# The bytes that commands print and write, held by tables; that each option changes them; and that both renderers draw the same.
 find_package(Python3 COMPONENTS Interpreter)
 if(Python3_FOUND)
   foreach(table lab maps meshes pictures shader_text)
@@ -6,6 +6,9 @@ if(Python3_FOUND)
       COMMAND ${Python3_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/output_bytes.py $<TARGET_FILE:cotan> ${CMAKE_CURRENT_SOURCE_DIR}/output_bytes/${table}.txt)
     set_tests_properties(OutputBytes.${table} PROPERTIES TIMEOUT 300 SKIP_RETURN_CODE 77)
   endforeach()
+  add_test(NAME TwoRenderers.drawTheSame
+    COMMAND ${Python3_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/two_renderers_test.py $<TARGET_FILE:cotan> ${CMAKE_CURRENT_SOURCE_DIR}/output_bytes/pictures.txt)
+  set_tests_properties(TwoRenderers.drawTheSame PROPERTIES TIMEOUT 300 SKIP_RETURN_CODE 77)
   foreach(command render compare bake convert map others)
     add_test(NAME OptionEffects.${command}
       COMMAND ${Python3_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/option_effects_test.py $<TARGET_FILE:cotan> ${command})

@@ -33,7 +33,7 @@ TESTS = {
     "src/maps": "map_test map_command_test",
     "src/model": "obj_test assimp_test gltf_test models_test",
     "src/picture": "words_test command_line viewer_test cli_test environment_test models_test",
-    "src/render": "reference_test draw_test render_test figures_test",
+    "src/render": "reference_test draw_test render_test figures_test output_bytes:pictures two_renderers",
     "src/scene": "geometry_test shapes_test gltf_test reference_test environment_test",
     "src/shader_text": "shader_text_test frame_table_test",
 }
@@ -50,7 +50,7 @@ words_test bake_command_test batch_command_test c_facts c_api command_line outpu
 output_bytes:shader_text json_fields python:arrays python:bake python:geometry
 python:json python:maps python:models python:options python:render python:types python:work view_window_test
 option_effects:map option_effects:render option_effects:compare
-option_effects:bake option_effects:convert option_effects:others""".split()
+option_effects:bake option_effects:convert option_effects:others two_renderers""".split()
 MOST_OF_A_FILE = 6  # mistakes, so that none of them hides in another's text
 
 
