@@ -1,4 +1,4 @@
-# The bytes that commands print and write, held by tables; that each option changes them; and that both renderers draw the same.
+# The bytes that commands print and write, held by tables; that each option changes them; that both renderers draw the same; and that a fault leaves none.
 find_package(Python3 COMPONENTS Interpreter)
 if(Python3_FOUND)
   foreach(table lab maps meshes pictures shader_text)
@@ -9,6 +9,11 @@ if(Python3_FOUND)
   add_test(NAME TwoRenderers.drawTheSame
     COMMAND ${Python3_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/two_renderers_test.py $<TARGET_FILE:cotan> ${CMAKE_CURRENT_SOURCE_DIR}/output_bytes/pictures.txt)
   set_tests_properties(TwoRenderers.drawTheSame PROPERTIES TIMEOUT 300 SKIP_RETURN_CODE 77)
+  if(NOT CMAKE_CXX_FLAGS MATCHES "fsanitize") # whose library wants to be the first
+    add_test(NAME FailingCalls.leaveAllOrNothing
+      COMMAND ${Python3_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/failing_calls_test.py $<TARGET_FILE:cotan>)
+    set_tests_properties(FailingCalls.leaveAllOrNothing PROPERTIES TIMEOUT 900 SKIP_RETURN_CODE 77)
+  endif()
   foreach(command render compare bake convert map others)
     add_test(NAME OptionEffects.${command}
       COMMAND ${Python3_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/option_effects_test.py $<TARGET_FILE:cotan> ${command})

@@ -11,6 +11,7 @@
 #include "cotan/image.hpp"
 #include "gltf_open.hpp"
 #include "image/format_table.hpp"
+#include "image/pending.hpp"
 #include "parse.hpp"
 #include "verify.hpp"
 
@@ -206,11 +207,15 @@ Result<Json> bakeOne(const BakeCommandOptions& o)
         return withBakeOptionNames(o, baked.error());
     const Image& image = baked->image;
     explain(o, *job, baked->statistics);
-    if (!o.mask.empty())
-        if (Status w = writeImage(o.mask, baked->mask); !w)
-            return w.error();
     watch.lap();
-    if (Status w = namedAsGltf(o.output) ? writeBakedModel(o, *job, image) : writeImage(o.output, image); !w)
+    std::vector<PlacedImage> images;
+    if (!o.mask.empty())
+        images.push_back({o.mask, &baked->mask});
+    if (!namedAsGltf(o.output))
+        images.push_back({o.output, &image});
+    else if (Status w = writeBakedModel(o, *job, image); !w)
+        return w.error();
+    if (Status w = writeTogether(images); !w)
         return w.error();
     const double writeSeconds = watch.lap();
     say(o, "map in {} ({}, {}, {} bit); peak memory {:.0f} MiB", o.output.string(), o.kind,

@@ -1,13 +1,13 @@
 #include "commands.hpp"
 
 #include <array>
-#include <map>
 #include <set>
 
 #include <fmt/format.h>
 
 #include "cotan/image.hpp"
 #include "cotan/inspect.hpp"
+#include "image/pending.hpp"
 #include "inspect/statistics.hpp"
 #include "parse.hpp"
 #include "picture.hpp"
@@ -87,12 +87,12 @@ Status run(const CompareCommandOptions& o)
 
     if (Status made = makeFolder(o.output); !made)
         return made;
-    const std::map<std::string, const Image*> files = {{a + ".png", &compared->shaded[0]},
-                                                       {b + ".png", &compared->shaded[1]},
-                                                       {"difference.png", &compared->difference}};
-    for (const auto& [file, image] : files)
-        if (Status written = writeImage(o.output / file, *image); !written)
-            return written;
+    std::vector<PlacedImage> files{{o.output / (a + ".png"), &compared->shaded[0]},
+                                   {o.output / "difference.png", &compared->difference}};
+    if (b != a)
+        files.push_back({o.output / (b + ".png"), &compared->shaded[1]});
+    if (Status written = writeTogether(files); !written)
+        return written;
 
     Json report = {{"command", "compare"}};
     report.update(describeScene(o.picture, *picture));

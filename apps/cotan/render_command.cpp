@@ -169,6 +169,9 @@ Status beginAnimation(const RenderCommandOptions& o, std::size_t pictures, Seque
     return Done{};
 }
 
+// Puts the animation in its place, where there is one.
+Status finish(Sequence& sequence) { return sequence.animation ? sequence.animation->finish() : Status(Done{}); }
+
 // The images of --frames: the model is posed anew for each.
 Status renderFrames(const RenderCommandOptions& o, FrameChoice frame, const std::vector<int>& numbers,
                     Sequence& sequence)
@@ -184,7 +187,7 @@ Status renderFrames(const RenderCommandOptions& o, FrameChoice frame, const std:
             say(o, "{}", one.output.string());
         one.quiet = true; // what is to be warned of was said for the first
     }
-    return Done{};
+    return finish(sequence);
 }
 
 // The images of --turntable: one model, loaded once, and its shadow for each.
@@ -224,6 +227,8 @@ Status renderTurn(const RenderCommandOptions& o, FrameChoice frame, const std::v
     };
     if (Status drawn = withProgress(o, draws, "drawing", drawAll); !drawn)
         return drawn;
+    if (Status whole = finish(sequence); !whole)
+        return whole;
     say(o, "{}: {} images of {}x{}, {} triangles, frame {}, on {}", o.output.string(), numbers.size(),
         picture->view.width, picture->view.height, trianglesDrawn(picture->scene), name(picture->view.frame),
         (*renderer)->device());
@@ -280,7 +285,7 @@ Status run(const RenderCommandOptions& o)
     const auto draw = o.turntable > 0 ? renderTurn : renderFrames;
     if (Status drawn = draw(one, *frame, *numbers, sequence); !drawn)
         return drawn;
-    return animated ? sequence.animation->finish() : Status(Done{});
+    return Done{};
 }
 
 void declare(Arguments& a, RenderCommandOptions& o)

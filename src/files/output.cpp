@@ -212,9 +212,18 @@ Status writeBeside(const fs::path& file, const std::function<Status(const fs::pa
 Status commitTogether(std::span<OutputFile> files)
 {
     const InterruptsHeld held;
-    for (OutputFile& file : files)
-        if (Status done = file.commit(); !done)
+    std::vector<fs::path> made; // where no file was before
+    for (OutputFile& file : files) {
+        std::error_code ignored;
+        const bool isNew = !fs::exists(fs::symlink_status(file.place(), ignored));
+        if (Status done = file.commit(); !done) {
+            for (const fs::path& path : made)
+                ::unlink(path.c_str());
             return done;
+        }
+        if (isNew)
+            made.push_back(file.place());
+    }
     return Done{};
 }
 

@@ -29,7 +29,8 @@ public:
     OutputFile& operator=(OutputFile&&) = delete;
     ~OutputFile();
 
-    const std::filesystem::path& path() const { return part_; } // keeps the file's extension
+    const std::filesystem::path& path() const { return part_; }  // keeps the file's extension
+    const std::filesystem::path& place() const { return file_; } // where it will be
     // Puts it in its place. Errors: ErrorKind::output.
     Status commit();
     // A writer's error in the user's words: the name that he gave for that of the part, and the system's reason, such
@@ -48,7 +49,8 @@ private:
 // Calls `write` with the name beside and commits. Errors: those of `write`, in the user's words, and of OutputFile.
 Status writeBeside(const std::filesystem::path& file, const std::function<Status(const std::filesystem::path&)>& write);
 
-// All of them or none, up to renaming; the last is put in its place last. Interrupts wait. Errors: ErrorKind::output.
+// All of them or none; the last is put in its place last. Interrupts wait. Where one cannot be renamed, those before it
+// that were new are removed; those that replaced a file stay. Errors: ErrorKind::output.
 Status commitTogether(std::span<OutputFile> files);
 
 // Writes bytes to a name as it is, in place. Errors: ErrorKind::output with the system's reason.

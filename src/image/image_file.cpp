@@ -139,4 +139,16 @@ Status writeImage(const std::filesystem::path& file, const Image& image)
     return output ? output->commit() : output.error();
 }
 
+Status writeTogether(std::span<const PlacedImage> images)
+{
+    std::vector<OutputFile> pending;
+    for (const auto& [file, image] : images) {
+        auto output = writePending(file, *image);
+        if (!output)
+            return output.error();
+        pending.push_back(std::move(*output));
+    }
+    return commitTogether(pending);
+}
+
 } // namespace cotan

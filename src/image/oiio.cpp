@@ -1,5 +1,6 @@
 // The module of image formats: OpenImageIO behind the functions of image_formats.hpp.
 #include "oiio.hpp"
+#include "oiio_file.hpp"
 
 #include <algorithm>
 #include <cctype>
@@ -281,11 +282,16 @@ Status writeWithOiio(const std::filesystem::path& file, const Image& image, cons
         if (!output)
             return notWritten(name, OIIO::geterror());
         output->threads(1);
+        CheckedFile checked(file);
+        output->set_ioproxy(&checked);
         const OIIO::ImageSpec spec =
             outputSpec(image.width, image.height, channelsOf(format), type, format, image.frame);
-        if (!output->open(file.string(), spec)
-            || !output->write_image(typeDesc(image.type), image.data.data(), OIIO::stride_t(image.bytesPerPixel()))
-            || !output->close())
+        const bool done = output->open(file.string(), spec)
+            && output->write_image(typeDesc(image.type), image.data.data(), OIIO::stride_t(image.bytesPerPixel()))
+            && output->close();
+        if (!checked.finish())
+            return notWritten(name, std::generic_category().message(errno));
+        if (!done)
             return notWritten(name, output->geterror());
     } catch (const std::exception& e) {
         return notWritten(name, e.what());

@@ -1,13 +1,16 @@
 // Animated GIF by OpenImageIO: one subimage a picture.
 #include <array>
+#include <cerrno>
 #include <cmath>
 #include <exception>
 #include <fstream>
+#include <system_error>
 #include <vector>
 
 #include <fmt/format.h>
 
 #include "oiio.hpp"
+#include "oiio_file.hpp"
 
 namespace cotan::oiio {
 
@@ -59,7 +62,7 @@ class Gif : public AnimationWriter {
 public:
     Gif(std::filesystem::path file, const AnimationFormat& format, std::string name)
         : file_(std::move(file)), name_(std::move(name)), spec_(format.width, format.height, 4, OIIO::TypeDesc::UINT8),
-          rate_(format.rate), left_(format.pictures)
+          rate_(format.rate), left_(format.pictures), checked_(file_)
     {
         spec_.attribute("FramesPerSecond", float(format.rate));
     }
@@ -72,7 +75,8 @@ public:
             if (!output_) {
                 output_ = OIIO::ImageOutput::create("gif");
                 const std::vector<OIIO::ImageSpec> all(left_, spec_);
-                if (!output_ || !output_->open(file_.string(), int(left_), all.data()))
+                if (!output_ || !output_->set_ioproxy(&checked_)
+                    || !output_->open(file_.string(), int(left_), all.data()))
                     return failed();
             } else if (!output_->open(file_.string(), spec_, OIIO::ImageOutput::AppendSubimage)) {
                 return failed();
@@ -86,7 +90,10 @@ public:
 
     Status finish() override
     {
-        if (!output_ || !output_->close())
+        const bool closed = output_ && output_->close();
+        if (!checked_.finish())
+            return outputError(fmt::format("{}: {}", name_, std::generic_category().message(errno)));
+        if (!closed)
             return failed();
         return setDelays(file_, rate_) ? Status(Done{}) : outputError(name_ + ": cannot write the file");
     }
@@ -102,7 +109,8 @@ private:
     OIIO::ImageSpec spec_;
     double rate_; // pictures a second
     std::size_t left_;
-    std::unique_ptr<OIIO::ImageOutput> output_;
+    CheckedFile checked_;
+    std::unique_ptr<OIIO::ImageOutput> output_; // writes to it until it ends
 };
 
 } // namespace

@@ -1,12 +1,15 @@
 // The module's rows: pictures through OpenImageIO, a few lines at a time.
 #include <algorithm>
+#include <cerrno>
 #include <cstring>
 #include <exception>
+#include <system_error>
 
 #include <fmt/format.h>
 
 #include "image/size.hpp"
 #include "oiio.hpp"
+#include "oiio_file.hpp"
 
 namespace cotan::oiio {
 
@@ -75,8 +78,9 @@ private:
 
 class Writer : public RowWriter {
 public:
-    Writer(std::unique_ptr<OIIO::ImageOutput> output, RowFormat format, std::string name)
-        : output_(std::move(output)), format_(format), name_(std::move(name))
+    Writer(std::unique_ptr<CheckedFile> file, std::unique_ptr<OIIO::ImageOutput> output, RowFormat format,
+           std::string name)
+        : file_(std::move(file)), output_(std::move(output)), format_(format), name_(std::move(name))
     {
     }
 
@@ -92,7 +96,10 @@ public:
 
     Status finish() override
     {
-        return guarded([&] { return output_->close(); });
+        Status closed = guarded([&] { return output_->close(); });
+        if (!file_->finish())
+            return notWritten(name_, std::generic_category().message(errno));
+        return closed;
     }
 
 private:
@@ -107,6 +114,7 @@ private:
         }
     }
 
+    std::unique_ptr<CheckedFile> file_; // the output writes to it until it ends
     std::unique_ptr<OIIO::ImageOutput> output_;
     RowFormat format_;
     std::string name_;
@@ -181,9 +189,12 @@ Result<std::unique_ptr<RowWriter>> createRows(const std::filesystem::path& file,
         output->threads(threads);
         const int channels = std::min(format.alpha ? 4 : 3, channelsOf(stored));
         const auto type = format.half ? OIIO::TypeDesc(OIIO::TypeDesc::HALF) : typeToWrite(stored, format.type);
+        auto checked = std::make_unique<CheckedFile>(file);
+        output->set_ioproxy(checked.get());
         if (!output->open(file.string(), outputSpec(format.width, format.height, channels, type, stored, format.frame)))
             return notWritten(name, output->geterror());
-        return std::unique_ptr<RowWriter>(std::make_unique<Writer>(std::move(output), format, name));
+        return std::unique_ptr<RowWriter>(
+            std::make_unique<Writer>(std::move(checked), std::move(output), format, name));
     } catch (const std::exception& e) {
         return notWritten(name, e.what());
     }

@@ -202,10 +202,11 @@ Status checkSize(const View& view)
 
 Result<Image> renderReference(const Scene& scene, const View& view, int threads, const Progress& progress)
 {
-    for (const Status& ok :
-         {checkSize(view), checkView(view), checkTrianglesDrawn(scene), checkVertexAttributes(scene, view.frame)})
+    for (const Status& ok : {checkSize(view), checkView(view), checkTrianglesDrawn(scene)})
         if (!ok)
             return ok.error();
+    if (Status has = checkVertexAttributes(scene, view.frame); !has) // only now the frame is known to be one
+        return has.error();
     try {
         return withThreads(threads, [&] { return draw(scene, view, progress); });
     } catch (const TooManyLayers&) {

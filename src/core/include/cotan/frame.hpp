@@ -62,7 +62,7 @@ struct FrameInfo {
 // All frames, in the order of the enum.
 const std::array<FrameInfo, kFrameCount>& frames();
 
-const FrameInfo& info(Frame frame);
+const FrameInfo& info(Frame frame); // of an enumerator only: isFrame
 inline std::string_view name(Frame frame) { return info(frame).name; }
 
 // Whether the frame at a point of a surface changes with the view: with the place of the eye, or with the way that the

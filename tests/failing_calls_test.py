@@ -1,0 +1,127 @@
+#!/usr/bin/env python3
+"""Whatever call on a file fails, a command writes what it always writes, or says so in one line and leaves nothing.
+
+  failing_calls_test.py TOOL [COMMAND LINE]
+
+The library failing_calls.c beside this file is loaded before the tool. Each command first runs without a fault, which counts its calls on files of its folder:
+open, read, write, rename and so on. Then it runs once for each of these calls, and that call fails. A process that the
+command starts counts its own calls, and fails at the same number. Last, each format is written where files may not grow
+beyond 512 bytes, which is what a full disk looks like to a program.
+"""
+import concurrent.futures
+import os
+import pathlib
+import resource
+import shutil
+import subprocess
+import sys
+import tempfile
+
+from output_bytes import SKIPPED, content
+from output_inputs import make_inputs
+
+COMMANDS = """
+render panel.gltf --device reference --size 16x12 -o out.png
+render painted.obj --device reference --size 16x12 -o out.exr
+render room.gltf --device reference --size 16x12 --environment sky.hdr --json report.json -o out.tif
+compare panel.gltf --device reference --size 16x12 --frames cotangent,smooth -o out
+bake --high high.obj --low low.obj --cage cage.obj --size 8 --mask mask-out.png -o out.png
+lint room.gltf --json report.json
+convert panel.gltf --from-frame mikktspace --to-frame smooth -o out.glb
+convert panel.gltf --from-frame mikktspace --to-frame smooth -o out.gltf
+tangents plain.gltf -o out.glb
+map convert rocks.png --from gltf --to directx -o out.png
+map convert rocks.png --from gltf --to directx -o out.tga
+map convert rocks.png --from gltf --to directx -o out.jpg
+map from-height height.png -o out.exr
+map mips grain.png -o out.dds
+map mips grain.png -o out.png
+"""
+MOST_CALLS = 400
+FORMATS = ["png", "tga", "jpg", "tif", "exr", "hdr", "dds", "ktx2"]  # of maps; GIF and WebP hold several images
+MOST_BYTES = 512
+
+
+def run(tool, library, inputs, words, call):
+    """Exit code, errors, what is new in the folder by name, and how many calls there were."""
+    with tempfile.TemporaryDirectory() as name:
+        folder, log = pathlib.Path(name) / "here", pathlib.Path(name) / "log"
+        shutil.copytree(inputs, folder)
+        before = {p: p.read_bytes() for p in folder.rglob("*") if p.is_file()}
+        environment = {**os.environ, "LD_PRELOAD": library, "COTAN_FAIL_FOLDER": str(folder), "COTAN_FAIL_CALL": str(call), "COTAN_FAIL_LOG": str(log)}
+        done = subprocess.run([tool, *words], cwd=folder, env=environment, capture_output=True, text=True, timeout=120, check=False)
+        lost = [p.name for p, data in before.items() if not p.is_file() or p.read_bytes() != data]
+        new = {}
+        for path in sorted(p for p in folder.rglob("*") if p.is_file() and p not in before):
+            try:
+                new[str(path.relative_to(folder))] = content(path)
+            except Exception as problem:  # no whole file of its kind
+                new[str(path.relative_to(folder))] = repr(problem)
+        calls = max((int(line) for line in log.read_text().split()), default=0) if log.exists() else 0
+        return done.returncode, done.stderr, new, calls, lost
+
+
+def judge(line, call, outcome, usual):
+    code, errors, new, _, lost = outcome
+    said = [text for text in errors.splitlines() if text.startswith("cotan: error: ")]
+    where = f"{line}, call {call}: "
+    if lost:
+        return f"{where}changed inputs {lost}"
+    if code == 0:
+        return "" if new == usual else f"{where}exit code 0, but other outputs: {sorted(new)}"
+    if code not in (2, 3, 4) or len(said) != 1:
+        return f"{where}exit code {code}, said: {errors.strip()}"
+    if "report.json" in said[0]:  # the result is there and whole; only the report on it is missing
+        new = {name: data for name, data in new.items() if data != usual[name]}
+    return f"{where}exit code {code}, left {sorted(new)}" if new else ""
+
+
+def without_room(tool, inputs, line):
+    """What is wrong with a command that may write no file of more than 512 bytes."""
+    def limit():
+        resource.setrlimit(resource.RLIMIT_FSIZE, (MOST_BYTES, MOST_BYTES))
+    with tempfile.TemporaryDirectory() as name:
+        folder = pathlib.Path(name) / "here"
+        shutil.copytree(inputs, folder)
+        before = set(folder.rglob("*"))
+        done = subprocess.run([tool, *line.split()], cwd=folder, capture_output=True, text=True, timeout=120, check=False, preexec_fn=limit)
+        new = [p.name for p in folder.rglob("*") if p not in before]
+        if done.returncode != 4 or done.stderr.count("cotan: error: ") != 1 or "no space left" not in done.stderr or done.stdout or new:
+            return [f"{line}, of 512 bytes: exit code {done.returncode}, left {new}, said: {done.stdout}{done.stderr}".strip()]
+    return []
+
+
+def main(tool, only):
+    lines = [only] if only else COMMANDS.split("\n")[1:-1]
+    compiler = shutil.which("cc") or shutil.which("gcc")
+    if not compiler:
+        print("skipped: no C compiler for failing_calls.c")
+        return SKIPPED
+    wrong, tried, refused = [], 0, 0
+    with tempfile.TemporaryDirectory() as name, concurrent.futures.ThreadPoolExecutor(os.cpu_count() or 1) as pool:
+        library, inputs = str(pathlib.Path(name) / "failing_calls.so"), pathlib.Path(name) / "inputs"
+        subprocess.run([compiler, "-shared", "-fPIC", "-O1", "-o", library, str(pathlib.Path(__file__).parent / "failing_calls.c"), "-ldl"],
+                       check=True)
+        inputs.mkdir()
+        make_inputs(inputs)
+        for line in lines:
+            code, errors, usual, calls, _ = run(tool, library, inputs, line.split(), 0)
+            if code or not 3 <= calls <= MOST_CALLS:
+                wrong.append(f"{line}: exit code {code}, {calls} calls: {errors}")
+                continue
+            outcomes = list(pool.map(lambda call: run(tool, library, inputs, line.split(), call), range(1, calls + 1)))
+            found = [text for i, outcome in enumerate(outcomes) if (text := judge(line, i + 1, outcome, usual))]
+            tried += calls
+            refused += sum(outcome[0] != 0 for outcome in outcomes)
+            wrong += found
+        for ending in FORMATS if not only else []:
+            wrong += without_room(tool, inputs, f"map convert rocks.png --from gltf --to directx -o out.{ending}")
+        for ending in ("gif", "webp") if not only else []:
+            wrong += without_room(tool, inputs, f"render room.gltf --turntable 2 --size 64 --device reference -o out.{ending}")
+    print(*wrong, sep="\n", end="\n" if wrong else "")
+    print(f"{tried} calls failed, {refused} runs said so, {len(wrong)} wrong")
+    return 1 if wrong or refused < tried / 2 else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(str(pathlib.Path(sys.argv[1]).resolve()), " ".join(sys.argv[2:])))
