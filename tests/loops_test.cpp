@@ -4,8 +4,10 @@
 #include <atomic>
 #include <chrono>
 #include <condition_variable>
+#include <cstdlib>
 #include <memory>
 #include <mutex>
+#include <new>
 #include <stdexcept>
 #include <vector>
 
@@ -14,6 +16,20 @@
 #ifdef COTAN_WITH_TBB
 #error "this test is for the loops without oneTBB"
 #endif
+
+// The allocation on this thread that fails, counted down; below 0: none.
+thread_local int failing = -1;
+
+[[gnu::noinline]] void* operator new(std::size_t size)
+{
+    if (failing >= 0 && failing-- == 0)
+        throw std::bad_alloc();
+    if (void* memory = std::malloc(size))
+        return memory;
+    throw std::bad_alloc();
+}
+[[gnu::noinline]] void operator delete(void* memory) noexcept { std::free(memory); }
+[[gnu::noinline]] void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
 
 namespace cotan {
 namespace {
@@ -99,6 +115,25 @@ TEST(LoopsByThreads, whatIsThrownArrives)
     };
     for (const int threads : {1, 3})
         EXPECT_THROW(withThreads(threads, [&] { parallelFor(0, 50, throwing); }), std::runtime_error);
+}
+
+// A vector of threads that run may not end by an exception: the process would.
+TEST(LoopsByThreads, withoutMemoryForAThreadTheOthersDoItsWork)
+{
+    int refused = 0;
+    for (int allocation = 0; allocation < 9; ++allocation) {
+        std::atomic<int> done{0};
+        failing = allocation; // 0: the list of the threads; then one for each thread
+        try {
+            runTasks(100, 8, [&](std::size_t) { ++done; });
+            EXPECT_EQ(done, 100) << allocation;
+        } catch (const std::bad_alloc&) {
+            ++refused;
+            EXPECT_EQ(done, 0) << allocation;
+        }
+        failing = -1;
+    }
+    EXPECT_EQ(refused, 1);
 }
 
 TEST(LoopsByThreads, aPipelineReadsAndGivesInOrderAndWorksOnSeveralAtOnce)

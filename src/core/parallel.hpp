@@ -11,7 +11,6 @@
 #include <cstdint>
 #include <exception>
 #include <mutex>
-#include <system_error>
 #include <thread>
 #include <utility>
 #include <vector>
@@ -80,8 +79,8 @@ template<class Run> void runTasks(std::size_t tasks, std::size_t threads, const 
     try {
         for (std::size_t i = 1; i < used; ++i)
             others.emplace_back(work);
-    } catch (const std::system_error&) {
-        // no more threads to be had
+    } catch (const std::exception&) {
+        // no more threads to be had, or no memory for one
     }
     work();
     for (std::thread& t : others)
