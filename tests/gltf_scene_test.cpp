@@ -29,6 +29,14 @@ TEST(GltfNodes, scaleThenRotateThenTranslate)
     expectNear(place(scene.instances[0], {0, 1, 0}), {7, 0, 0});
 }
 
+TEST(GltfNodes, aRotationWithoutLengthTurnsNothing)
+{
+    Gltf g = square();
+    g.root["nodes"][0]["rotation"] = {0, 0, 0, 0};
+    COTAN_LOADED(scene, g.load());
+    EXPECT_EQ(scene.instances[0].toWorld, glm::mat4(1));
+}
+
 TEST(GltfNodes, matricesAreStoredByColumns)
 {
     Gltf g = square();

@@ -435,6 +435,20 @@ TEST(PictureWords, theLibraryReadsTheSameValues)
     EXPECT_EQ(o.model, "--model");
 }
 
+TEST(PictureWords, aWordTakesTheValueOfAnOptionBack)
+{
+    PictureOptions o;
+    o.exposure = 2.0f;
+    o.ground = false;
+    o.edges = Edges::all;
+    std::string frame;
+    const std::vector<std::string> words = {"--exposure", "auto", "--ground", "on", "--edges", "none"};
+    ASSERT_TRUE(readPictureWords(words, o, frame));
+    EXPECT_FALSE(o.exposure);
+    EXPECT_TRUE(o.ground);
+    EXPECT_EQ(o.edges, Edges::none);
+}
+
 TEST(PictureWords, theLibraryRefusesWhatIsNoOptionOfAPicture)
 {
     for (const auto& [words, said] : {std::pair(std::vector<std::string>{"-o", "a.png"}, "unknown option -o"),
