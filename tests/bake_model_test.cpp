@@ -231,15 +231,15 @@ TEST(BakeModel, errorsOfOptionsBeginWithTheirNames)
     using H = HighModel;
     EXPECT_EQ(errorWith([](O& o, H&) { o.material = 1; }), "options.material: expected 0 to 0; found 1");
     EXPECT_EQ(errorWith([](O& o, H&) { o.bake.height = 0; }),
-              "options.bake: expected a width and a height from 1 to 65535; found 12x0");
+              "options.bake.width: expected a width and a height from 1 to 65535; found 12x0");
     EXPECT_EQ(errorWith([](O& o, H&) { o.bake.samples = 3; }),
-              "options.bake: expected 1, 2 or 4 samples a texel and axis; found 3");
+              "options.bake.samples: expected 1, 2 or 4 samples a texel and axis; found 3");
     EXPECT_EQ(errorWith([](O& o, H&) { o.bake.frame = Frame(99); }),
               fmt::format("options.bake.frame: expected 0 to {}; found 99", kFrameCount - 1));
     EXPECT_EQ(errorWith([](O& o, H&) { o.highFrame = Frame(-1); }),
               fmt::format("options.highFrame: expected 0 to {}; found -1", kFrameCount - 1));
     EXPECT_EQ(errorWith([](O& o, H&) { o.bake.occlusionRays = 0; }),
-              "options.bake: expected 1 to 65536 rays for occlusion; found 0");
+              "options.bake.occlusionRays: expected 1 to 65536 rays for occlusion; found 0");
     EXPECT_EQ(errorWith([](O& o, H&) { o.bake.cageReach = NAN; }), "options.cageReach: expected 0 to 1e+17; found nan");
     EXPECT_EQ(errorWith([](O& o, H&) { o.tiles = {}; }), "options.tiles: expected one tile or more; found none");
     EXPECT_EQ(errorWith([](O& o, H&) { o.tiles = {1000}; }),

@@ -220,6 +220,13 @@ TEST(GltfSkin, aMirroringJointTurnsSignAndWinding)
     EXPECT_TRUE(scene.warnings.empty()) << scene.warnings.front();
 }
 
+TEST(GltfSkin, jointsWithoutWeightsAreRefused)
+{
+    Gltf g = skinnedSquare(kMovedBack);
+    primitive(g)["attributes"].erase("WEIGHTS_0");
+    COTAN_REFUSED(g.load(), "meshes[0].primitives[0]: expected JOINTS_0 and WEIGHTS_0 together");
+}
+
 TEST(GltfSkin, aJointThatTheSkinLacksIsRefused)
 {
     Gltf g = skinnedSquare(kMovedBack);

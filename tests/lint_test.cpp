@@ -298,6 +298,17 @@ TEST(Lint, theAdviceFollowsTheNumbers)
     EXPECT_EQ(lintScene(Scene{}).advice, Advice::nothing);
 }
 
+TEST(Lint, aMeshThatIsShownStretchedOnlyIsNotJudgedAsItIs)
+{
+    Scene scene = sceneOf({makePatch(1, 0, false, 4)});
+    for (Instance& instance : scene.instances)
+        instance.toWorld[0][0] *= 2;
+    const LintReport r = lintScene(scene);
+    ASSERT_EQ(r.primitives.size(), 1u);
+    EXPECT_EQ(r.primitives[0].placings, 1u);
+    EXPECT_NEAR(r.primitives[0].uv.stretch.mean, 2, kFloat);
+}
+
 TEST(Lint, instancesThatStretchAMeshDifferentlyAreReportedApartAndOthersAreNot)
 {
     Scene scene = sceneOf({makePatch(1, 0, false, 4)});

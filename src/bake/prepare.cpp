@@ -25,11 +25,11 @@ Status checkRanges(const Scene& low, const HighModel& high, const BakeModelOptio
 {
     const BakeOptions& b = options.bake;
     if (b.width < 1 || b.height < 1 || b.width > kLargestSide || b.height > kLargestSide)
-        return about("options.bake",
+        return about("options.bake.width",
                      usageError(fmt::format("expected a width and a height from 1 to {}; found {}x{}", kLargestSide,
                                             b.width, b.height)));
     if (b.samples != 1 && b.samples != 2 && b.samples != 4)
-        return about("options.bake",
+        return about("options.bake.samples",
                      usageError(fmt::format("expected 1, 2 or 4 samples a texel and axis; found {}", b.samples)));
     if (!isFrame(int(b.frame)) || !isFrame(int(options.highFrame)))
         return about(isFrame(int(b.frame)) ? "options.highFrame" : "options.bake.frame",
@@ -38,7 +38,7 @@ Status checkRanges(const Scene& low, const HighModel& high, const BakeModelOptio
     if (options.tiles.empty())
         return about("options.tiles", usageError("expected one tile or more; found none"));
     if (b.occlusionRays < 1 || b.occlusionRays > kMaxOcclusionRays)
-        return about("options.bake",
+        return about("options.bake.occlusionRays",
                      usageError(fmt::format("expected 1 to {} rays for occlusion; found {}", kMaxOcclusionRays,
                                             b.occlusionRays)));
     if (!(b.maxDistance >= 0 && b.maxDistance <= kFarthest))

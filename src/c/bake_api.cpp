@@ -99,23 +99,25 @@ void checkMask(const cotan_picture& mask, const cotan_picture& map)
         fail(ErrorKind::usage, "options.mask: expected 8 bits and the size of the map");
 }
 
-// Errors of bakeModel begin with the field of its own structs.
-Error inOurWords(Error error)
+// An error of bakeModel, about the field of C that this is: of its own structs the message begins with another.
+Error aboutFieldOfC(Error error)
 {
     constexpr std::pair<std::string_view, std::string_view> kFields[] = {
-        {"options.bake: expected a width", "map: expected a width"},
-        {"options.bake: expected 1, 2 or 4 samples", "options.samples: expected 1, 2 or 4 samples"},
-        {"options.bake.frame:", "options.frame:"},
-        {"options.highFrame:", "options.high_frame:"},
-        {"options.maxDistance:", "options.max_distance:"},
-        {"options.cageReach:", "options.cage_reach:"},
-        {"options.matchByName:", "options.match_by_name:"},
-        {"options.tiles:", "options.tile:"},
-        {"high.maps:", "options.high_maps:"},
+        {"options.bake.width", "map"},
+        {"options.bake.samples", "options.samples"},
+        {"options.bake.frame", "options.frame"},
+        {"options.bake.occlusionRays", "options.occlusion_rays"},
+        {"options.highFrame", "options.high_frame"},
+        {"options.maxDistance", "options.max_distance"},
+        {"options.cageReach", "options.cage_reach"},
+        {"options.matchByName", "options.match_by_name"},
+        {"options.tiles", "options.tile"},
+        {"high.maps", "options.high_maps"},
     };
     for (const auto& [theirs, ours] : kFields)
-        if (error.message.starts_with(theirs)) {
+        if (error.field == theirs) {
             error.message.replace(0, theirs.size(), ours);
+            error.field = ours;
             break;
         }
     return error;
@@ -139,7 +141,7 @@ void bakeInto(const Scene& low, HighModel high, const cotan_bake_options* given,
                  + std::to_string(o.material));
     auto done = bakeModel(low, std::move(high), options, progressOf(o.progress, o.user));
     if (!done)
-        throw Failure{inOurWords(done.error())};
+        throw Failure{aboutFieldOfC(done.error())};
     const BakedModel baked = *std::move(done);
     giveText(joined(baked.warnings), warnings);
     put(baked.maps[0].image, out);
