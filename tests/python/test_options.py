@@ -13,7 +13,7 @@ import pytest
 import cotan
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1]))
-from output_inputs import make_inputs  # noqa: E402
+from output_inputs import make_inputs, png  # noqa: E402
 
 # Of each parameter the values tried, alone or with others that it needs. What only says how the work is done, or what
 # comes from and goes to memory, has tests of its own in the files beside this one.
@@ -136,3 +136,28 @@ def test_every_parameter_is_tried(function, tried):
     named = {name for options in tried for name in options} | {"model", "low", "high"} | ELSEWHERE
     missing = set(inspect.signature(function).parameters) - named
     assert missing == set()
+
+
+def test_without_options_the_results_are_those_of_the_command_line(command, tmp_path):
+    command("bake", "--low", "low.obj", "--high", "high.obj", "-o", tmp_path / "out.png")
+    np.testing.assert_array_equal(cotan.bake("low.obj", "high.obj").map, cotan.read_picture(tmp_path / "out.png"))
+    command("render", "panel.gltf", "-o", tmp_path / "drawn.png")
+    np.testing.assert_array_equal(cotan.render("panel.gltf"), cotan.read_picture(tmp_path / "drawn.png"))
+
+
+def test_memory_bounds_the_images_of_a_picture():
+    png(pathlib.Path("large.png"), 1024, 512, 3, 8, lambda x, y, c: 255 if c == 2 else 128)  # 2 MiB of four bytes
+    for memory, fits in ((1, False), (2, True)):
+        draw = lambda: cotan.render("plain.gltf", size=16, device="reference", normal_map="large.png", memory=memory)  # noqa: B023
+        if fits:
+            draw()
+        else:
+            with pytest.raises(cotan.InputError, match="2097152 bytes, the limit is 1048576"):
+                draw()
+
+
+def test_a_map_that_is_no_square_keeps_its_sides():
+    png(pathlib.Path("wide.png"), 48, 24, 3, 8, lambda x, y, c: 255 if c == 2 else 100 + 3 * x if c == 0 else 128)
+    pathlib.Path("wide.gltf").write_text(pathlib.Path("panel.gltf").read_text().replace("rocks.png", "wide.png"))
+    done = cotan.convert("wide.gltf", from_frame="mikktspace", to_frame="smooth")
+    assert [m["size"] for m in done.report["maps"]] == [[48, 24]] and done.maps_converted == 1
