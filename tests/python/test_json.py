@@ -1,6 +1,7 @@
 """docs/reference/json.md against the reports that the library gives, as tests/json_fields_test.py does for the tool."""
 
 import importlib.util
+import sys
 
 import pytest
 
@@ -10,6 +11,7 @@ from shapes import write_stretched
 
 @pytest.fixture(scope="module")
 def fields(source):
+    sys.path.insert(0, str(source / "tests"))  # for the modules beside it
     spec = importlib.util.spec_from_file_location("json_fields_test", source / "tests/json_fields_test.py")
     module = importlib.util.module_from_spec(spec)
     spec.loader.exec_module(module)
