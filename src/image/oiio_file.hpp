@@ -86,12 +86,13 @@ private:
             error_ = errno != 0 ? errno : EIO;
     }
 
-    // A FILE wants a seek between reading and writing; without one that is not needed its buffer is kept.
+    // A FILE wants a seek between reading and writing. Without one that is not needed its buffer is kept, and pipes,
+    // which have no places, can be written to.
     bool moveTo(std::int64_t offset, Use use)
     {
         if (!file_)
             return false;
-        if (use != use_ || offset != at_ || use == Use::reading)
+        if ((use != use_ && use_ != Use::nothing) || offset != at_ || use == Use::reading)
             if (::fseeko(file_.get(), offset, SEEK_SET) != 0) {
                 note();
                 return false;

@@ -68,7 +68,7 @@ Status writeChain(const std::filesystem::path& out, const std::vector<MipLevel>&
     std::optional<InterruptsHeld> held;
     if (bits.half) // written by rows, one file after the other
         held.emplace();
-    std::vector<OutputFile> pending; // all files appear together
+    std::vector<PlacedImage> images;
     for (std::size_t i = 0; i < chain.size(); ++i)
         for (const auto& [mark, image] :
              {std::pair("", &chain[i].normals), std::pair("_roughness", &chain[i].roughness)}) {
@@ -78,12 +78,9 @@ Status writeChain(const std::filesystem::path& out, const std::vector<MipLevel>&
                     return w;
                 continue;
             }
-            auto output = writePending(file, *image);
-            if (!output)
-                return output.error();
-            pending.push_back(std::move(*output));
+            images.push_back({file, image});
         }
-    return commitTogether(pending);
+    return writeTogether(images);
 }
 
 // Of blocks floats, of which they are made.
