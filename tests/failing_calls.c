@@ -114,14 +114,17 @@ OPENAT(openat64)
 FOPEN(fopen)
 FOPEN(fopen64)
 
-#define ON_FILE(type, name, error, parameters, arguments, ...)                                                         \
+// A call of the real one but for the one that fails. mine: whether it is about a file of the folder.
+#define FAILING(type, name, mine, error, parameters, arguments, ...)                                                   \
     type name parameters                                                                                               \
     {                                                                                                                  \
         REAL(type, #name, __VA_ARGS__);                                                                                \
-        if (marked(file) && fails(error))                                                                              \
+        if (mine && fails(error))                                                                                      \
             return -1;                                                                                                 \
         return real arguments;                                                                                         \
     }
+#define ON_FILE(type, name, ...) FAILING(type, name, marked(file), __VA_ARGS__)
+#define ON_PATH(name, ...) FAILING(int, name, isOurs(to), EACCES, __VA_ARGS__)
 ON_FILE(ssize_t, read, EIO, (int file, void* to, size_t size), (file, to, size), int, void*, size_t)
 ON_FILE(ssize_t, pread, EIO, (int file, void* to, size_t size, off_t at), (file, to, size, at), int, void*, size_t,
         off_t)
@@ -171,18 +174,10 @@ int fclose(FILE* file)
     return mine && fails(ENOSPC) ? EOF : result;
 }
 
-#define TWO_PATHS(name, error, parameters, arguments, ...)                                                             \
-    int name parameters                                                                                                \
-    {                                                                                                                  \
-        REAL(int, #name, __VA_ARGS__);                                                                                 \
-        if (isOurs(to) && fails(error))                                                                                \
-            return -1;                                                                                                 \
-        return real arguments;                                                                                         \
-    }
-TWO_PATHS(rename, EACCES, (const char* from, const char* to), (from, to), const char*, const char*)
-TWO_PATHS(renameat, EACCES, (int a, const char* from, int b, const char* to), (a, from, b, to), int, const char*, int,
-          const char*)
-TWO_PATHS(link, EACCES, (const char* from, const char* to), (from, to), const char*, const char*)
-TWO_PATHS(linkat, EACCES, (int a, const char* from, int b, const char* to, int flags), (a, from, b, to, flags), int,
-          const char*, int, const char*, int)
-TWO_PATHS(mkdir, EACCES, (const char* to, mode_t mode), (to, mode), const char*, mode_t)
+ON_PATH(rename, (const char* from, const char* to), (from, to), const char*, const char*)
+ON_PATH(renameat, (int a, const char* from, int b, const char* to), (a, from, b, to), int, const char*, int,
+        const char*)
+ON_PATH(link, (const char* from, const char* to), (from, to), const char*, const char*)
+ON_PATH(linkat, (int a, const char* from, int b, const char* to, int flags), (a, from, b, to, flags), int, const char*,
+        int, const char*, int)
+ON_PATH(mkdir, (const char* to, mode_t mode), (to, mode), const char*, mode_t)

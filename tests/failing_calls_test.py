@@ -3,8 +3,8 @@
 
   failing_calls_test.py TOOL [COMMAND LINE]
 
-The library failing_calls.c beside this file is loaded before the tool. Each command first runs without a fault, which counts its calls on files of its folder:
-open, read, write, rename and so on. Then it runs once for each of these calls, and that call fails. A process that the
+The library failing_calls.c beside this file is loaded before the tool. Each command first runs without a fault, which
+counts its calls on files of its folder: open, read, write, rename and so on. Then it runs once for each of these calls, and that call fails. A process that the
 command starts counts its own calls, and fails at the same number. Last, each format is written where files may not grow
 beyond 512 bytes, which is what a full disk looks like to a program.
 """

@@ -28,9 +28,9 @@ SHADER = "shader --lang glsl"
 
 # Command lines, and options that are tried with each. Between the words of an option is `|`; `*` stands for those that the
 # tool names. `~` before a word: it is what the option is by default. `=`: it changes nothing, as it only says how the work
-# is done. `!`: it is refused here. `&`: what these words give is equal: paper-transpose is
-# paper-nodet in another form, whose rounding these lines do not show; a kernel of three texels sees one beyond the border, which clamp and mirror choose alike; and
-# a map that is as good for a new frame as one that is made for it stays. A flag has no words.
+# is done. `!`: it is refused here. `&`: what these words give is equal: paper-transpose is paper-nodet in another form, whose
+# rounding these lines do not show; a kernel of three texels sees one beyond the border, which clamp and mirror choose alike;
+# and a map that is as good for a new frame as one that is made for it stays. A flag has no words.
 CASES = [
     (RENDER, {
         "--size": "40x30 | thumbnail", "--view": "~shaded | *", "--up": "~y | *", "--exposure": "~auto | 0.3 | 2",

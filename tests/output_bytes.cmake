@@ -1,4 +1,5 @@
-# The bytes that commands print and write, held by tables; that each option changes them; that both renderers draw the same; and that a fault leaves none.
+# The bytes that commands print and write, held by tables; that each option changes them; that both renderers draw the
+# same; and that a fault leaves none.
 find_package(Python3 COMPONENTS Interpreter)
 if(Python3_FOUND)
   foreach(table lab maps meshes pictures shader_text)

@@ -18,7 +18,8 @@ import tempfile
 from output_bytes import SKIPPED, png_pixels
 from output_inputs import make_inputs
 
-# Levels of 255. Environments are filtered by the device: 1.03 levels in the overcast. An edge that passes a sample's place by less than rounding is a pixel that differs.
+# Levels of 255. Environments are filtered by the device: 1.03 levels in the overcast. An edge that passes a sample's place
+# by less than rounding is a pixel that differs.
 MEAN, LARGE, MANY = 1.5, 12, 0.02  # the mean difference, and the share of pixels that may differ by more than LARGE
 LAYERS = {"VK_INSTANCE_LAYERS": "VK_LAYER_KHRONOS_validation"}
 OWN = ("--lighting", "--normal-mapping", "--rate", "--shadow-softness")  # the first two are the reference renderer's alone
@@ -66,6 +67,8 @@ def main(tool, table):
             if one.returncode or two.returncode:
                 wrong.append(f"{said}: exit codes {one.returncode}, {two.returncode}: {one.stderr}{two.stderr}".strip())
                 continue
+            if re.search(r'on reference|"device": "reference"', two.stdout):
+                wrong.append(f"{said}: the reference renderer drew it, too")
             if re.search(r"validation|VUID", two.stdout + two.stderr, re.I):
                 wrong.append(f"{said}: {two.stdout}{two.stderr}".strip())
             mean, many = difference(folder / output, folder / ("device-" + output))

@@ -213,9 +213,13 @@ Result<Json> bakeOne(const BakeCommandOptions& o)
         images.push_back({o.mask, &baked->mask});
     if (!namedAsGltf(o.output))
         images.push_back({o.output, &image});
-    else if (Status w = writeBakedModel(o, *job, image); !w)
-        return w.error();
-    if (Status w = writeTogether(images); !w)
+    auto pending = writePending(images);
+    if (!pending)
+        return pending.error();
+    if (namedAsGltf(o.output))
+        if (Status w = writeBakedModel(o, *job, image); !w)
+            return w.error();
+    if (Status w = commitTogether(*pending); !w)
         return w.error();
     const double writeSeconds = watch.lap();
     say(o, "map in {} ({}, {}, {} bit); peak memory {:.0f} MiB", o.output.string(), o.kind,

@@ -139,7 +139,7 @@ Status writeImage(const std::filesystem::path& file, const Image& image)
     return output ? output->commit() : output.error();
 }
 
-Status writeTogether(std::span<const PlacedImage> images)
+Result<std::vector<OutputFile>> writePending(std::span<const PlacedImage> images)
 {
     std::vector<OutputFile> pending;
     for (const auto& [file, image] : images) {
@@ -148,7 +148,13 @@ Status writeTogether(std::span<const PlacedImage> images)
             return output.error();
         pending.push_back(std::move(*output));
     }
-    return commitTogether(pending);
+    return pending;
+}
+
+Status writeTogether(std::span<const PlacedImage> images)
+{
+    auto pending = writePending(images);
+    return pending ? commitTogether(*pending) : pending.error();
 }
 
 } // namespace cotan

@@ -289,8 +289,8 @@ Status writeWithOiio(const std::filesystem::path& file, const Image& image, cons
         const bool done = output->open(file.string(), spec)
             && output->write_image(typeDesc(image.type), image.data.data(), OIIO::stride_t(image.bytesPerPixel()))
             && output->close();
-        if (!checked.finish())
-            return notWritten(name, std::generic_category().message(errno));
+        if (Status whole = checked.finish(name); !whole)
+            return whole;
         if (!done)
             return notWritten(name, output->geterror());
     } catch (const std::exception& e) {

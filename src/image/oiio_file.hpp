@@ -6,8 +6,12 @@
 #include <cstdio>
 #include <filesystem>
 #include <memory>
+#include <string>
+#include <system_error>
 
 #include <OpenImageIO/filesystem.h>
+
+#include "oiio.hpp"
 
 namespace cotan::oiio {
 
@@ -19,13 +23,13 @@ public:
     {
     }
 
-    // Closes the file. Whether every byte was written; if not, errno says why.
-    bool finish()
+    // Closes the file. Errors: ErrorKind::output with the system's reason where a byte is missing. name: for the
+    // message.
+    Status finish(const std::string& name)
     {
         if (file_ && std::fclose(file_.release()) != 0)
             note();
-        errno = error_;
-        return error_ == 0;
+        return error_ == 0 ? Status(Done{}) : notWritten(name, std::generic_category().message(error_));
     }
 
     const char* proxytype() const override { return "checked"; } // with another than "file", JPEG is coded in memory

@@ -1,10 +1,8 @@
 // Animated GIF by OpenImageIO: one subimage a picture.
 #include <array>
-#include <cerrno>
 #include <cmath>
 #include <exception>
 #include <fstream>
-#include <system_error>
 #include <vector>
 
 #include <fmt/format.h>
@@ -91,8 +89,8 @@ public:
     Status finish() override
     {
         const bool closed = output_ && output_->close();
-        if (!checked_.finish())
-            return outputError(fmt::format("{}: {}", name_, std::generic_category().message(errno)));
+        if (Status whole = checked_.finish(name_); !whole)
+            return whole;
         if (!closed)
             return failed();
         return setDelays(file_, rate_) ? Status(Done{}) : outputError(name_ + ": cannot write the file");

@@ -1,9 +1,7 @@
 // The module's rows: pictures through OpenImageIO, a few lines at a time.
 #include <algorithm>
-#include <cerrno>
 #include <cstring>
 #include <exception>
-#include <system_error>
 
 #include <fmt/format.h>
 
@@ -97,9 +95,8 @@ public:
     Status finish() override
     {
         Status closed = guarded([&] { return output_->close(); });
-        if (!file_->finish())
-            return notWritten(name_, std::generic_category().message(errno));
-        return closed;
+        Status whole = file_->finish(name_);
+        return whole ? closed : whole;
     }
 
 private:

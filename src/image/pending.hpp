@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <span>
+#include <vector>
 
 #include "cotan/scene.hpp"
 #include "files/output.hpp"
@@ -16,6 +17,9 @@ struct PlacedImage {
     std::filesystem::path file;
     const Image* image = nullptr;
 };
+
+// The same of several. Errors: those of the first that cannot be written, and then there is none.
+Result<std::vector<OutputFile>> writePending(std::span<const PlacedImage> images);
 
 // Writes all of them or none. Errors: as writeImage; one of commitTogether.
 Status writeTogether(std::span<const PlacedImage> images);
