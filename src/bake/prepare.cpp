@@ -7,7 +7,7 @@
 
 #include "bake/bake_model.hpp"
 #include "cotan/covector.hpp"
-#include "scene/objects.hpp"
+#include "scene/geometry.hpp"
 #include "scene/parts.hpp"
 #include "scene/put_picture.hpp"
 #include "scene/scene_check.hpp"

@@ -6,7 +6,6 @@
 #include <glm/geometric.hpp>
 
 #include "assimp_convert.hpp"
-#include "mesh_weld.hpp"
 #include "scene/geometry.hpp"
 
 namespace cotan {

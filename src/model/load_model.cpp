@@ -10,7 +10,7 @@
 #include "files/extension.hpp"
 #include "files/file_registry.hpp"
 #include "sandboxed_models.hpp"
-#include "scene/up.hpp"
+#include "scene/geometry.hpp"
 
 namespace cotan {
 

@@ -17,7 +17,6 @@
 #include "scene/geometry.hpp"
 #include "scene/meant_frame.hpp"
 #include "scene/parts.hpp"
-#include "scene/up.hpp"
 
 namespace cotan {
 

@@ -12,7 +12,7 @@
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 
-#include "scene/camera_axes.hpp"
+#include "scene/geometry.hpp"
 #include "scene/parts.hpp"
 
 namespace cotan {

@@ -8,7 +8,7 @@
 
 #include "cotan/vector.hpp"
 #include "scene/bounds.hpp"
-#include "scene/camera_axes.hpp"
+#include "scene/geometry.hpp"
 
 namespace cotan::reference {
 

@@ -8,7 +8,7 @@
 
 #include "cotan/view.hpp"
 #include "gpu_structs.hpp"
-#include "scene/camera_axes.hpp"
+#include "scene/geometry.hpp"
 
 namespace cotan {
 
