@@ -17,8 +17,8 @@
 #include "parse.hpp"
 #include "scene/bounds.hpp"
 #include "scene/meant_frame.hpp"
-#include "scene/normal_format.hpp"
 #include "scene/stored_green.hpp"
+#include "scene/texture_sample.hpp"
 
 namespace cotan::app {
 

@@ -6,7 +6,7 @@
 #include <glm/mat3x3.hpp>
 
 #include "cotan/vector.hpp"
-#include "scene/texture_uv.hpp"
+#include "scene/texture_sample.hpp"
 
 namespace cotan {
 

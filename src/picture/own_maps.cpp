@@ -9,8 +9,8 @@
 #include "cotan/maps.hpp"
 #include "image/component_types.hpp"
 #include "maps/texels.hpp"
-#include "scene/normal_format.hpp"
 #include "scene/put_picture.hpp"
+#include "scene/texture_sample.hpp"
 
 namespace cotan {
 

@@ -5,7 +5,7 @@
 
 #include <glm/matrix.hpp>
 
-#include "scene/texture_uv.hpp"
+#include "scene/texture_sample.hpp"
 
 namespace cotan {
 

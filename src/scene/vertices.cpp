@@ -16,7 +16,7 @@
 #include "cotan/tangents.hpp"
 #include "cotan/vector.hpp"
 #include "scene/geometry.hpp"
-#include "scene/texture_uv.hpp"
+#include "scene/texture_sample.hpp"
 
 namespace cotan {
 

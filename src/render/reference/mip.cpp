@@ -8,7 +8,6 @@
 
 #include "core/loops.hpp"
 #include "cotan/portable.hpp"
-#include "scene/normal_format.hpp"
 #include "scene/texture_sample.hpp"
 
 namespace cotan::reference {

@@ -6,7 +6,6 @@
 #include <glm/geometric.hpp>
 
 #include "scene/environment_map.hpp"
-#include "scene/ground_map.hpp"
 #include "tangent_space.hpp"
 
 namespace cotan::reference {

@@ -13,7 +13,7 @@
 #include "scene/bounds.hpp"
 #include "scene/geometry.hpp"
 #include "scene/sample_places.hpp"
-#include "scene/view_check.hpp"
+#include "scene/scene_check.hpp"
 #include "setup.hpp"
 #include "tile.hpp"
 

@@ -3,8 +3,7 @@
 #include <glm/geometric.hpp>
 
 #include "cotan/frame.hpp"
-#include "scene/normal_format.hpp"
-#include "scene/texture_uv.hpp"
+#include "scene/texture_sample.hpp"
 
 namespace cotan::reference {
 

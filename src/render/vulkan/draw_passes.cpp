@@ -8,7 +8,6 @@
 #include "cotan/portable.hpp"
 #include "cotan/vector.hpp"
 #include "scene/environment_map.hpp"
-#include "scene/ground_map.hpp"
 #include "scene/sample_places.hpp"
 
 namespace cotan {

@@ -5,7 +5,7 @@
 
 #include "draw_passes.hpp"
 #include "scene/sample_places.hpp"
-#include "scene/view_check.hpp"
+#include "scene/scene_check.hpp"
 
 namespace cotan {
 

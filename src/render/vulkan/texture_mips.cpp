@@ -10,7 +10,7 @@
 #include <glm/gtc/packing.hpp>
 
 #include "cotan/portable.hpp"
-#include "scene/normal_format.hpp"
+#include "scene/texture_sample.hpp"
 
 namespace cotan {
 

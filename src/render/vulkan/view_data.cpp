@@ -9,7 +9,6 @@
 #include "cotan/covector.hpp"
 #include "cotan/vector.hpp"
 #include "scene/environment_map.hpp"
-#include "scene/ground_map.hpp"
 
 namespace cotan {
 
