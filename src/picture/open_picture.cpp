@@ -15,7 +15,7 @@
 #include "files/file_registry.hpp"
 #include "picture/option_words.hpp"
 #include "scene/geometry.hpp"
-#include "scene/meant_frame.hpp"
+#include "scene/normal_maps.hpp"
 #include "scene/parts.hpp"
 
 namespace cotan {

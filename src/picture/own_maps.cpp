@@ -9,7 +9,7 @@
 #include "cotan/maps.hpp"
 #include "image/component_types.hpp"
 #include "maps/texels.hpp"
-#include "scene/put_picture.hpp"
+#include "scene/normal_maps.hpp"
 #include "scene/texture_sample.hpp"
 
 namespace cotan {

@@ -15,7 +15,7 @@
 #include "lint_parts.hpp"
 #include "scene/bounds.hpp"
 #include "scene/geometry.hpp"
-#include "scene/meant_frame.hpp"
+#include "scene/normal_maps.hpp"
 #include "scene/scene_check.hpp"
 
 namespace cotan {

@@ -7,7 +7,7 @@
 #include "compare_views.hpp"
 #include "cotan/view.hpp"
 #include "scene/geometry.hpp"
-#include "scene/put_picture.hpp"
+#include "scene/normal_maps.hpp"
 
 namespace cotan {
 

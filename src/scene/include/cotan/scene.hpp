@@ -183,7 +183,7 @@ struct Material {
     Convention normalFormat;          // how normalMap is stored; v runs down, as everywhere in a scene
     std::optional<Frame> normalFrame; // that the normal maps were made for, where the file says so
     // Green of the normal maps is the other way than the file declares, and so is w of the meshes' tangents: see
-    // scene/stored_green.hpp.
+    // scene/normal_maps.hpp.
     bool greenReversed = false;
     Texture baseColorMap;         // sRGB, alpha linear
     Texture metallicRoughnessMap; // linear: g roughness, b metallic
