@@ -1,4 +1,4 @@
-#include "collada_check.hpp"
+#include "assimp_convert.hpp"
 
 #include <algorithm>
 #include <charconv>

@@ -24,8 +24,6 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr float kCreaseDegrees = 60; // where normals are made
-
 Result<std::string> readText(const fs::path& file, const LoadLimits& limits)
 {
     const auto bytes = readFileBytes(file, limits.fileBytes);

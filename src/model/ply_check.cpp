@@ -1,4 +1,4 @@
-#include "ply_check.hpp"
+#include "assimp_convert.hpp"
 
 #include <algorithm>
 #include <array>

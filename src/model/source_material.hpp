@@ -1,4 +1,4 @@
-// Materials of formats other than glTF: what such files say, and one reading of it.
+// Materials of formats other than glTF: what such files say, and one reading of it; and what their meshes share.
 #pragma once
 
 #include <optional>
@@ -32,6 +32,8 @@ struct SourceMaterial {
 // becomes a warning of the scene. Doubtful cases: black with a map means the map alone; opacity 0
 // means opaque; a grey normal map is a height map; a normal map named for DirectX has green down.
 Material makeMaterial(const SourceMaterial& source, TextureReader& textures, Scene& scene);
+
+inline constexpr float kCreaseDegrees = 60; // where the normals of a mesh are made
 
 // Says, once, where a mesh lacks the texture coordinates that a map of its material needs.
 void warnAboutTexcoords(const Mesh& mesh, Scene& scene);
