@@ -4,10 +4,10 @@
 #include <cstddef>
 #include <filesystem>
 #include <map>
-#include <optional>
 #include <string>
 
 #include "cotan/model.hpp"
+#include "cotan/result.hpp"
 #include "cotan/scene.hpp"
 
 struct aiScene;
@@ -39,7 +39,8 @@ public:
 
 private:
     int load(const std::string& path, const std::string& material);
-    std::optional<Image> embedded(const aiTexture& texture, const std::string& name, std::string& problem);
+    Result<Image> embedded(const aiTexture& texture, const std::string& name);
+    int leaveOut(const std::string& path, const std::string& material, const std::string& why); // with a warning: -1
     LoadLimits withinBudget(std::uint64_t bytes);
     std::string overBudget() const; // why an image is left out
     int add(Image image);

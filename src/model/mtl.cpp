@@ -1,4 +1,4 @@
-#include "mtl.hpp"
+#include "obj_text.hpp"
 
 #include <algorithm>
 #include <array>

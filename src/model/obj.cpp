@@ -12,7 +12,6 @@
 #include "cotan/portable.hpp"
 #include "files/bytes.hpp"
 #include "files/folder.hpp"
-#include "mtl.hpp"
 #include "obj_text.hpp"
 #include "scene/geometry.hpp"
 #include "source_material.hpp"

@@ -1,4 +1,4 @@
-// Wavefront OBJ: its text to arrays and triangles.
+// Wavefront OBJ and its material libraries: their text to arrays, triangles and materials.
 #pragma once
 
 #include <cstddef>
@@ -12,6 +12,7 @@
 
 #include "cotan/model.hpp"
 #include "cotan/result.hpp"
+#include "source_material.hpp"
 
 namespace cotan {
 
@@ -49,5 +50,18 @@ struct ObjText {
 // Source: the OBJ specification, appendix B1 of the Advanced Visualizer manual; colours behind
 // positions as ZBrush and MeshLab write them.
 Result<ObjText> parseObj(std::string text, const std::string& name, const LoadLimits& limits);
+
+struct MtlText {
+    std::vector<SourceMaterial> materials; // in the order of the file
+    std::vector<std::string> warnings;     // without the file's name
+};
+
+// Reads newmtl, Kd, Ke, Ns, d, Tr, Pr, Pm and the maps map_Kd, map_Ke, map_d, map_Pr, map_Pm,
+// bump (map_Bump) and norm (map_Kn), upper or lower case, with the options -bm, -clamp, -o and -s.
+// All other statements are passed over; those before the first newmtl, and those whose numbers
+// cannot be read, are left out with a warning. Nothing in a library is an error.
+// Source: the MTL specification of the Advanced Visualizer manual; Pr, Pm, norm as in the PBR
+// extension of exocortex.com.
+MtlText parseMtl(std::string text);
 
 } // namespace cotan
