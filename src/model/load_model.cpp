@@ -41,13 +41,10 @@ Status checkLimits(const Scene& scene, const std::string& file, const LoadLimits
 }
 
 // In a child process: limits.sandbox.program.
-Result<Scene> loadSandboxed(const fs::path& file, const LoadLimits& limits)
+Result<Scene> loadSandboxed(const fs::path& file, std::size_t fileBytes, const LoadLimits& limits)
 try {
-    const auto size = usableFileSize(file, limits.fileBytes);
-    if (!size)
-        return size.error();
-    auto process =
-        ReaderProcess::start({.kind = ReaderKind::model, .name = file.string(), .fileBytes = *size, .limits = limits});
+    auto process = ReaderProcess::start(
+        {.kind = ReaderKind::model, .name = file.string(), .fileBytes = fileBytes, .limits = limits});
     if (!process)
         return process.error();
     if (Status found = (*process)->await(); !found)
@@ -69,7 +66,8 @@ Result<Scene> loadAny(const fs::path& file, const LoadLimits& limits)
 {
     if (limits.readFile)
         return loadGltf(file, limits);
-    if (const auto size = usableFileSize(file, limits.fileBytes); !size)
+    const auto size = usableFileSize(file, limits.fileBytes);
+    if (!size)
         return size.error();
     const std::string extension = lowerExtension(file);
     if (extension == ".gltf" || extension == ".glb")
@@ -79,7 +77,7 @@ Result<Scene> loadAny(const fs::path& file, const LoadLimits& limits)
     const bool assimp = std::ranges::find(kAssimpExtensions, extension) != kAssimpExtensions.end();
     if (assimp || extension == ".obj") {
         if (!limits.sandbox.program.empty())
-            return loadSandboxed(file, limits);
+            return loadSandboxed(file, *size, limits);
         return assimp ? loadWithAssimp(file, limits) : loadObj(file, limits);
     }
     return inputError(

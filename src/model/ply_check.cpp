@@ -11,6 +11,7 @@
 
 #include <fmt/format.h>
 
+#include "core/named_values.hpp"
 #include "core/parse_number.hpp"
 
 namespace cotan {
@@ -19,35 +20,13 @@ namespace {
 
 using Problem = std::optional<std::string>; // expected and found, without file and line
 
-struct TypeSize {
-    std::string_view name;
-    std::size_t bytes;
-};
+constexpr Named<std::size_t> kTypeSizes[] = {{"char", 1},  {"uchar", 1},   {"int8", 1},   {"uint8", 1},
+                                             {"short", 2}, {"ushort", 2},  {"int16", 2},  {"uint16", 2},
+                                             {"int", 4},   {"uint", 4},    {"int32", 4},  {"uint32", 4},
+                                             {"float", 4}, {"float32", 4}, {"double", 8}, {"float64", 8}};
 
-constexpr std::array<TypeSize, 16> kTypes = {{{"char", 1},
-                                              {"uchar", 1},
-                                              {"int8", 1},
-                                              {"uint8", 1},
-                                              {"short", 2},
-                                              {"ushort", 2},
-                                              {"int16", 2},
-                                              {"uint16", 2},
-                                              {"int", 4},
-                                              {"uint", 4},
-                                              {"int32", 4},
-                                              {"uint32", 4},
-                                              {"float", 4},
-                                              {"float32", 4},
-                                              {"double", 8},
-                                              {"float64", 8}}};
-
-std::size_t typeSize(std::string_view name)
-{
-    for (const TypeSize& type : kTypes)
-        if (type.name == name)
-            return type.bytes;
-    return 0;
-}
+// In bytes; 0 for what is no type.
+std::size_t typeSize(std::string_view name) { return valueOf(kTypeSizes, name).value_or(0); }
 
 std::vector<std::string_view> split(std::string_view line)
 {
