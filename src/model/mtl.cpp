@@ -19,6 +19,12 @@ constexpr Named<std::size_t> kMapOptions[] = {
     {"-blendu", 0}, {"-blendv", 0}, {"-cc", 0}, {"-clamp", 0}, {"-imfchan", 0}, {"-type", 0}, {"-colorspace", 0},
     {"-texres", 0}, {"-boost", 1},  {"-bm", 1}, {"-mm", 2},    {"-o", 3},       {"-s", 3},    {"-t", 3}};
 
+constexpr Named<SourceMap SourceMaterial::*> kMaps[] = {
+    {"map_kd", &SourceMaterial::colorMap},          {"map_ke", &SourceMaterial::emissionMap},
+    {"map_emissive", &SourceMaterial::emissionMap}, {"map_d", &SourceMaterial::opacityMap},
+    {"map_pr", &SourceMaterial::roughnessMap},      {"map_pm", &SourceMaterial::metalnessMap},
+    {"norm", &SourceMaterial::normalMap},           {"map_kn", &SourceMaterial::normalMap}};
+
 // u and v of the file, whose v runs up, are scaled and shifted; ours has v down.
 void layOn(Texture& texture, glm::vec2 scale, glm::vec2 offset)
 {
@@ -114,18 +120,8 @@ bool readStatement(const std::string& keyword, Words words, SourceMaterial& m)
         return readNumber(words, m.roughness);
     if (keyword == "pm")
         return readNumber(words, m.metallic);
-    if (keyword == "map_kd")
-        m.colorMap = readMap(words);
-    else if (keyword == "map_ke" || keyword == "map_emissive")
-        m.emissionMap = readMap(words);
-    else if (keyword == "map_d")
-        m.opacityMap = readMap(words);
-    else if (keyword == "map_pr")
-        m.roughnessMap = readMap(words);
-    else if (keyword == "map_pm")
-        m.metalnessMap = readMap(words);
-    else if (keyword == "norm" || keyword == "map_kn")
-        m.normalMap = readMap(words);
+    if (const auto map = valueOf(kMaps, keyword))
+        m.** map = readMap(words);
     return true;
 }
 

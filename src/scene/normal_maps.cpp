@@ -5,11 +5,11 @@
 #include <cmath>
 #include <cstddef>
 #include <map>
-#include <numeric>
 
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 
+#include "scene/geometry.hpp"
 #include "scene/texture_sample.hpp"
 
 namespace cotan {
@@ -48,34 +48,17 @@ void addTriangle(const Mesh& mesh, const std::vector<glm::vec2>& uv, std::size_t
     }
 }
 
-// For each material the first that shares a normal map with it, by however many steps; itself if there is none.
-class MapGroups {
-public:
-    explicit MapGroups(const Scene& scene) : first_(scene.materials.size())
-    {
-        std::iota(first_.begin(), first_.end(), std::size_t(0));
-        std::map<int, std::size_t> readers;
-        for (std::size_t i = 0; i < scene.materials.size(); ++i)
-            for (const Texture* const map : {&scene.materials[i].normalMap, &scene.materials[i].coat.normalMap})
-                if (map->present())
-                    join(i, readers.emplace(map->image, i).first->second);
-    }
-    std::size_t of(std::size_t material)
-    {
-        while (first_[material] != material)
-            material = first_[material] = first_[first_[material]];
-        return material;
-    }
-
-private:
-    void join(std::size_t a, std::size_t b)
-    {
-        a = of(a), b = of(b);
-        first_[std::max(a, b)] = std::min(a, b);
-    }
-
-    std::vector<std::size_t> first_;
-};
+// The materials that share a normal map, by however many steps.
+Groups groupsByMap(const Scene& scene)
+{
+    Groups groups(scene.materials.size());
+    std::map<int, std::uint32_t> readers;
+    for (std::uint32_t i = 0; i < scene.materials.size(); ++i)
+        for (const Texture* const map : {&scene.materials[i].normalMap, &scene.materials[i].coat.normalMap})
+            if (map->present())
+                groups.join(i, readers.emplace(map->image, i).first->second);
+    return groups;
+}
 
 std::string nameOf(const Scene& scene, const Material& m)
 {
@@ -152,24 +135,24 @@ bool repeatsNormalMaps(const Scene& scene)
 
 std::vector<std::string> followStoredTangents(Scene& scene)
 {
-    MapGroups groups(scene);
+    Groups groups = groupsByMap(scene);
     std::vector<Area> areas(scene.materials.size());
     for (const Mesh& mesh : scene.meshes) {
         const Texture& map = mapOf(scene.materials[std::size_t(mesh.material)]);
         if (!map.present() || mesh.tangents.empty() || mesh.normals.empty())
             continue;
         const std::vector<glm::vec2> uv = textureUv(map, mesh);
-        Area& area = areas[groups.of(std::size_t(mesh.material))];
+        Area& area = areas[groups.find(std::uint32_t(mesh.material))];
         for (std::size_t i = 0; !uv.empty() && i + 2 < mesh.indices.size(); i += 3)
             addTriangle(mesh, uv, i, area);
     }
     std::vector<bool> stays(scene.materials.size()), chosen(scene.materials.size());
-    for (std::size_t i = 0; i < scene.materials.size(); ++i)
+    for (std::uint32_t i = 0; i < scene.materials.size(); ++i)
         if (scene.materials[i].anisotropy.map.present())
-            stays[groups.of(i)] = true;
+            stays[groups.find(i)] = true;
     std::vector<std::string> lines;
-    for (std::size_t i = 0; i < scene.materials.size(); ++i) {
-        const std::size_t group = groups.of(i);
+    for (std::uint32_t i = 0; i < scene.materials.size(); ++i) {
+        const std::uint32_t group = groups.find(i);
         const Area& area = areas[group];
         const double fraction = area.compared > 0 ? area.contradicting / area.compared : 0;
         chosen[i] = mapOf(scene.materials[i]).present() && fraction >= kGreenReversedFrom && !stays[group];

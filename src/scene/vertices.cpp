@@ -91,27 +91,6 @@ std::vector<Face> measureFaces(const Mesh& mesh)
     return faces;
 }
 
-// Union-find over corners (three a triangle, numbered as the indices are).
-class Groups {
-public:
-    explicit Groups(std::size_t corners) : parent_(corners) { std::iota(parent_.begin(), parent_.end(), Index(0)); }
-    Index find(Index corner)
-    {
-        while (parent_[corner] != corner)
-            corner = parent_[corner] = parent_[parent_[corner]];
-        return corner;
-    }
-    void join(Index a, Index b)
-    {
-        a = find(a);
-        b = find(b);
-        parent_[std::max(a, b)] = std::min(a, b);
-    }
-
-private:
-    std::vector<Index> parent_;
-};
-
 // An edge of a triangle between two points, and the triangle's corners at the lower and the higher.
 struct Edge {
     Index low, high;

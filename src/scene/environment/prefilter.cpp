@@ -7,8 +7,6 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
-#include "scene/picture_text.hpp"
-
 // Processors without such registers pass these vectors in another way; nobody outside this file is passed one.
 #if defined(__GNUC__) && !defined(__clang__)
 #pragma GCC diagnostic ignored "-Wpsabi"

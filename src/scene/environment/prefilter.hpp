@@ -1,4 +1,5 @@
-// What the atlas of an environment is made with: maps of all directions, their light as lamps, and what GGX reflects.
+// What the atlas of an environment is made with: maps of all directions, their light as lamps, and what GGX reflects;
+// and how that of the studio is stored.
 #pragma once
 
 #include <array>
@@ -10,7 +11,13 @@
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
 
+#include "scene/picture_text.hpp"
+
 namespace cotan::environment {
+
+// The studio's atlas as the program holds it: halfs, rows first.
+inline constexpr int kChannels = 3;
+inline constexpr std::size_t kStudioHalfs = std::size_t(kChannels) * COTAN_ENVIRONMENT_WIDTH * COTAN_ENVIRONMENT_HEIGHT;
 
 // A function of direction in texels: an octahedral map that can be read without edges.
 // Texels have four floats, the last one 0, since processors add four at once.

@@ -136,7 +136,7 @@ Scene shapeScene(const std::string& shape)
     material.doubleSided = true; // a sheet has a back, a spout is open
     scene.materials.push_back(std::move(material));
     glm::mat4 toWorld(1);
-    if (shape == "teapot" || (shape != "sphere" && shape != "torus"))
+    if (shape != "sphere" && shape != "torus")
         toWorld = glm::scale(toWorld, glm::vec3(2));
     scene.instances.push_back({shape, 0, toWorld});
     scene.meshes.push_back(std::move(mesh));

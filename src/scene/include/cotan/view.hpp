@@ -32,8 +32,6 @@ namespace cotan {
 
 // ---- the view ------------------------------------------------------------------------------
 
-// How to draw a scene: what both renderers take, so that their pictures can be compared.
-
 // What the picture shows. Everything but `shaded` is written as float32: x y z and, in alpha, 1
 // where there is a surface and 0 elsewhere.
 enum class Output {
@@ -179,16 +177,12 @@ const std::vector<std::string>& environmentNames();
 // Nothing for a name that is not among them.
 std::optional<Radiance> builtinRadiance(const std::string& name);
 
-// The built-in environment, ready to light a scene.
-
 // The atlas of a built-in one, see environmentNames; nothing for another name. The studio as it is, not turned and not
 // dimmed, was made while Cotan was built and is only read: to the byte what makeEnvironment makes of it, without the
 // quarter of a second of processor that this takes. The others are made by the call.
 std::optional<EnvironmentMap> builtinEnvironment(const std::string& name, const EnvironmentOptions& options = {});
 
 // ---- ground --------------------------------------------------------------------------------
-
-// The shadow of a scene on a level plane, which nothing else is seen of.
 
 struct GroundOptions {
     std::optional<float> height; // of the plane, world y; none: of the scene's lowest point
@@ -204,8 +198,6 @@ struct GroundOptions {
 std::optional<GroundMap> makeGround(const Scene& scene, const View& view, const GroundOptions& options = {});
 
 // ---- frames at vertices --------------------------------------------------------------------
-
-// The attributes that frames from vertices need, derived from a scene's meshes.
 
 // Where the tangents come from that a frame reads, `mikktspace` and `vertex`.
 enum class TangentOrigin {
