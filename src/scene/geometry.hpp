@@ -40,9 +40,9 @@ void generateNormals(Mesh& mesh, float creaseDegrees = 180);
 void weldVertices(Mesh& mesh);
 
 // Numbers from 0 on in groups that grow by joining (union-find). A group is known by its lowest number.
-class Groups {
+class JoinedGroups {
 public:
-    explicit Groups(std::size_t count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), 0u); }
+    explicit JoinedGroups(std::size_t count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), 0u); }
     std::uint32_t find(std::uint32_t number)
     {
         while (parent_[number] != number)

@@ -49,9 +49,9 @@ void addTriangle(const Mesh& mesh, const std::vector<glm::vec2>& uv, std::size_t
 }
 
 // The materials that share a normal map, by however many steps.
-Groups groupsByMap(const Scene& scene)
+JoinedGroups groupsByMap(const Scene& scene)
 {
-    Groups groups(scene.materials.size());
+    JoinedGroups groups(scene.materials.size());
     std::map<int, std::uint32_t> readers;
     for (std::uint32_t i = 0; i < scene.materials.size(); ++i)
         for (const Texture* const map : {&scene.materials[i].normalMap, &scene.materials[i].coat.normalMap})
@@ -135,7 +135,7 @@ bool repeatsNormalMaps(const Scene& scene)
 
 std::vector<std::string> followStoredTangents(Scene& scene)
 {
-    Groups groups = groupsByMap(scene);
+    JoinedGroups groups = groupsByMap(scene);
     std::vector<Area> areas(scene.materials.size());
     for (const Mesh& mesh : scene.meshes) {
         const Texture& map = mapOf(scene.materials[std::size_t(mesh.material)]);

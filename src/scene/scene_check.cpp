@@ -12,6 +12,7 @@
 
 #include "cotan/portable.hpp"
 #include "cotan/vector.hpp"
+#include "cotan/view.hpp"
 
 namespace cotan {
 

@@ -6,9 +6,10 @@
 
 #include "cotan/result.hpp"
 #include "cotan/scene.hpp"
-#include "cotan/view.hpp"
 
 namespace cotan {
+
+struct View;
 
 // What may be asked for beyond sizes and indices.
 struct SceneRules {

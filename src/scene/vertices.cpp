@@ -115,7 +115,7 @@ std::vector<Edge> sortedEdges(const std::vector<Index>& pointOfCorner)
 }
 
 // Joins the corners of triangles that meet at an edge within the crease angle.
-void joinAcrossEdges(Groups& groups, const std::vector<Index>& pointOfCorner, const std::vector<Face>& faces,
+void joinAcrossEdges(JoinedGroups& groups, const std::vector<Index>& pointOfCorner, const std::vector<Face>& faces,
                      double minimumCosine)
 {
     const std::vector<Edge> edges = sortedEdges(pointOfCorner);
@@ -133,7 +133,7 @@ void joinAcrossEdges(Groups& groups, const std::vector<Index>& pointOfCorner, co
     }
 }
 
-void joinAtPoints(Groups& groups, const std::vector<Index>& pointOfCorner, std::size_t points,
+void joinAtPoints(JoinedGroups& groups, const std::vector<Index>& pointOfCorner, std::size_t points,
                   const std::vector<Face>& faces)
 {
     std::vector<Index> first(points, kNone);
@@ -150,7 +150,7 @@ void joinAtPoints(Groups& groups, const std::vector<Index>& pointOfCorner, std::
 
 // One normal a group, at the group's first corner. A corner of a degenerate triangle, which has
 // no group but its own, takes over that of another corner at the same point.
-std::vector<glm::vec3> groupNormals(Groups& groups, const std::vector<Index>& pointOfCorner, std::size_t points,
+std::vector<glm::vec3> groupNormals(JoinedGroups& groups, const std::vector<Index>& pointOfCorner, std::size_t points,
                                     const std::vector<Face>& faces)
 {
     std::vector<glm::dvec3> sums(pointOfCorner.size(), glm::dvec3(0));
@@ -181,7 +181,7 @@ Index duplicateVertex(Mesh& mesh, Index vertex)
 }
 
 // Gives every corner a vertex that carries its normal.
-void assignNormals(Mesh& mesh, Groups& groups, const std::vector<glm::vec3>& normals)
+void assignNormals(Mesh& mesh, JoinedGroups& groups, const std::vector<glm::vec3>& normals)
 {
     std::vector<Index> groupOfVertex(mesh.vertexCount(), kNone);
     std::unordered_map<std::uint64_t, Index> splits; // (vertex, group) to the new vertex
@@ -259,7 +259,7 @@ void generateNormals(Mesh& mesh, float creaseDegrees)
     std::ranges::transform(mesh.indices, pointOfCorner.begin(), [&](Index i) { return number[i]; });
     const std::vector<Face> faces = measureFaces(mesh);
 
-    Groups groups(mesh.indices.size());
+    JoinedGroups groups(mesh.indices.size());
     if (creaseDegrees >= 180)
         joinAtPoints(groups, pointOfCorner, mesh.vertexCount(), faces);
     else // a hair more than asked, so that faces at exactly the angle count as smooth
