@@ -20,7 +20,6 @@
 #include "cotan/portable.hpp"
 #include "cotan/vector.hpp"
 #include "scene/geometry.hpp"
-#include "source_material.hpp"
 
 namespace cotan {
 

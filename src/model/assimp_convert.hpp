@@ -9,7 +9,7 @@
 #include "cotan/model.hpp"
 #include "cotan/result.hpp"
 #include "cotan/scene.hpp"
-#include "model_textures.hpp"
+#include "source_material.hpp"
 
 struct aiMaterial;
 struct aiMesh;

@@ -9,7 +9,6 @@
 
 #include <fmt/format.h>
 
-#include "polygon_triangles.hpp"
 #include "text_lines.hpp"
 
 namespace cotan {

@@ -113,12 +113,6 @@ Covered coveredBy(const Scene& scene, const View& view)
     return all;
 }
 
-bool isTooMuch(const Covered& covered, double picture)
-{
-    return covered.opaque > kMaxCovered * picture || covered.translucent > kMaxLayers * picture
-        || covered.edges > kMaxEdges * picture;
-}
-
 // The number of different positions among the vertices of all meshes. Not how many vertices there are: a loader may
 // have made them, three for each triangle, of a few positions.
 std::size_t distinctPositions(const Scene& scene)
@@ -160,17 +154,19 @@ Status settleCovered(Scene& scene, const View& view, std::size_t pictures)
         dropRepeated(scene);
         covered = coveredBy(scene, view);
     }
-    if (isTooMuch(covered, picture)) // only then: it takes time
-        picture *= std::max(1.0, double(distinctPositions(scene)) / kFewPoints);
     const struct {
         const char* what;
         double pixels, most;
     } limits[] = {{"its triangles cover the picture", covered.opaque, kMaxCovered},
                   {"its translucent triangles cover the picture", covered.translucent, kMaxLayers},
                   {"the long edges of its triangles fill the picture", covered.edges, kMaxEdges}};
-    for (const auto& [what, pixels, most] : limits)
-        if (pixels > most * picture)
-            return tooMuch(scene, what, pixels / picture, most, "look from further away, or leave some out");
+    const auto isOver = [&](const auto& limit) { return limit.pixels > limit.most * picture; };
+    if (std::ranges::any_of(limits, isOver)) // only then: it takes time
+        picture *= std::max(1.0, double(distinctPositions(scene)) / kFewPoints);
+    for (const auto& limit : limits)
+        if (isOver(limit))
+            return tooMuch(scene, limit.what, limit.pixels / picture, limit.most,
+                           "look from further away, or leave some out");
     const double lit = double(view.lights.size()) * std::min(1.0, (covered.opaque + covered.translucent) / picture);
     if (view.output == Output::shaded && lit > kMaxLights)
         return tooMuch(scene, "its lights shine on the picture", lit, kMaxLights, "leave some out");

@@ -7,7 +7,6 @@
 #include <map>
 
 #include <glm/geometric.hpp>
-#include <glm/matrix.hpp>
 
 #include "scene/geometry.hpp"
 #include "scene/texture_sample.hpp"

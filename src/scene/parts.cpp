@@ -9,9 +9,6 @@
 #include <unordered_set>
 #include <utility>
 
-#include <glm/geometric.hpp>
-#include <glm/matrix.hpp>
-
 #include "cotan/covector.hpp"
 #include "cotan/vector.hpp"
 #include "scene/geometry.hpp"

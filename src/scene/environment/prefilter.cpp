@@ -4,7 +4,6 @@
 #include <cmath>
 #include <numbers>
 
-#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
 // Processors without such registers pass these vectors in another way; nobody outside this file is passed one.

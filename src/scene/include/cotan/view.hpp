@@ -136,10 +136,9 @@ struct View {
 // ---- cameras and lights --------------------------------------------------------------------
 
 // From the front, a little from the right and above, with a lens of 30 degrees: as near as all vertices stay inside
-// the picture less a margin of 4 % on each side, with equal room on both sides; in an
-// animation (Scene::reach) at all of its moments. Beyond 16 million vertices,
-// instances counted, the corners of the meshes' boxes stand for their vertices.
-// What is flat is seen straight on. Nothing finite to see gives the default camera.
+// the picture less a margin of 4 % on each side, with equal room on both sides; in an animation (Scene::reach) at all
+// of its moments. Beyond 16 million vertices, instances counted, the corners of the meshes' boxes stand for their
+// vertices. What is flat is seen straight on. Nothing finite to see gives the default camera.
 Camera frontCamera(const Scene& scene, int width, int height);
 
 // The same from another side. azimuth: degrees from the front (+z) counter-clockwise as seen from above, so that 90 is
