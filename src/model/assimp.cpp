@@ -253,14 +253,13 @@ void convertMaterials(const aiScene& source, Job& job)
 int defaultMaterial(Scene& scene, int& cached)
 {
     if (cached < 0) {
-        Material material;
+        cached = int(scene.materials.size());
+        Material& material = scene.materials.emplace_back();
         material.name = "default";
         material.baseColor = {0.8f, 0.8f, 0.8f, 1};
         material.metallic = 0;
         material.roughness = 0.7f;
         material.doubleSided = true;
-        cached = int(scene.materials.size());
-        scene.materials.push_back(material);
     }
     return cached;
 }

@@ -203,10 +203,7 @@ Camera turnedAbout(Camera camera, double angle)
 
 std::vector<Light> defaultLights()
 {
-    Light key;
-    key.kind = LightKind::directional;
-    key.direction = glm::normalize(glm::vec3(0.5f, -0.9f, -0.75f));
-    return {key};
+    return {Light{.kind = LightKind::directional, .direction = glm::normalize(glm::vec3(0.5f, -0.9f, -0.75f))}};
 }
 
 Camera frontCamera(const Scene& scene, int width, int height)
