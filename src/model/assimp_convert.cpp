@@ -64,10 +64,9 @@ std::optional<float> number(const aiMaterial& source, const char* key, unsigned 
 glm::vec3 color(const aiMaterial& source, const char* key, glm::vec3 fallback)
 {
     aiColor3D value;
-    if (source.Get(key, 0, 0, value) != aiReturn_SUCCESS || !std::isfinite(value.r) || !std::isfinite(value.g)
-        || !std::isfinite(value.b))
-        return fallback;
-    return glm::max(glm::vec3(value.r, value.g, value.b), glm::vec3(0));
+    const bool found = source.Get(key, 0, 0, value) == aiReturn_SUCCESS;
+    const glm::vec3 stored(value.r, value.g, value.b);
+    return found && isFinite(stored) ? glm::max(stored, glm::vec3(0)) : fallback;
 }
 
 // The first texture of the first type that has one.

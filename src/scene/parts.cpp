@@ -20,6 +20,12 @@ namespace {
 constexpr std::size_t kSmall = 256;         // triangles of a mesh that is put together with others
 constexpr std::size_t kMaxJoined = 4 << 20; // triangles
 
+bool isOpaque(const Scene& scene, const Mesh& mesh)
+{
+    const Material& m = scene.materials[std::size_t(mesh.material)];
+    return m.alphaMode == AlphaMode::opaque && !m.translucent();
+}
+
 // ---- parts ----------------------------------------------------------------------------------
 
 // Meshes with the same key have the same arrays.
@@ -113,8 +119,7 @@ void joinSmall(Scene& scene)
             kept.push_back(std::move(instance));
             continue;
         }
-        if (const Material& m = scene.materials[std::size_t(mesh.material)]; m.alphaMode == AlphaMode::opaque
-            && !m.translucent() && !placed.insert({instance.toWorld, first[std::size_t(instance.mesh)]}).second)
+        if (isOpaque(scene, mesh) && !placed.insert({instance.toWorld, first[std::size_t(instance.mesh)]}).second)
             continue;
         triangles += count;
         Mesh& whole = joined[keyOf(mesh)];
@@ -202,8 +207,7 @@ void joinParts(Scene& scene, std::size_t maxParts)
 void dropRepeated(Scene& scene)
 {
     for (Mesh& mesh : scene.meshes)
-        if (const Material& m = scene.materials[std::size_t(mesh.material)];
-            m.alphaMode == AlphaMode::opaque && !m.translucent())
+        if (isOpaque(scene, mesh))
             dropRepeated(mesh);
 }
 
