@@ -65,8 +65,8 @@ SourceMap readMap(Words words)
     return map;
 }
 
-// One number, or a colour.
-bool readNumber(Words words, float& value)
+// value: a float, or an optional one.
+template<class Value> bool readNumber(Words words, Value& value)
 {
     while (words.peek().starts_with("-halo"))
         words.next();
@@ -74,15 +74,6 @@ bool readNumber(Words words, float& value)
     if (number)
         value = *number;
     return number.has_value();
-}
-
-bool readNumber(Words words, std::optional<float>& value)
-{
-    float number = 0;
-    const bool good = readNumber(words, number);
-    if (good)
-        value = number;
-    return good;
 }
 
 // A single number is a grey.
