@@ -161,6 +161,31 @@ std::size_t hashOf(const CornersOfTriangle& triangle)
     return std::size_t(hash);
 }
 
+// The triangles that were seen, by their hash; at most `most`.
+class KnownTriangles {
+public:
+    explicit KnownTriangles(std::size_t most) : table_(std::bit_ceil(2 * most + 1), 0) {}
+
+    // How often it was seen before, at most 2.
+    std::uint8_t see(const CornersOfTriangle& triangle)
+    {
+        const std::size_t last = table_.size() - 1;
+        std::size_t at = hashOf(triangle) & last;
+        for (; table_[at] != 0; at = (at + 1) & last)
+            if (const CornersOfTriangle& k = known_[table_[at] - 1]; k.key == triangle.key && k.at == triangle.at)
+                return std::exchange(times_[table_[at] - 1], std::uint8_t(2));
+        known_.push_back(triangle);
+        times_.push_back(1);
+        table_[at] = std::uint32_t(known_.size());
+        return 0;
+    }
+
+private:
+    std::vector<CornersOfTriangle> known_;
+    std::vector<std::uint8_t> times_;  // how often each was seen, at most 2
+    std::vector<std::uint32_t> table_; // numbers of known_ from 1 on; 0 where none is
+};
+
 bool manyRepeat(std::size_t count, const std::function<CornersOfTriangle(std::size_t)>& triangle)
 {
     const std::size_t asked = std::min(count, kAsked);
@@ -209,21 +234,6 @@ void dropRepeated(Scene& scene)
     for (Mesh& mesh : scene.meshes)
         if (isOpaque(scene, mesh))
             dropRepeated(mesh);
-}
-
-KnownTriangles::KnownTriangles(std::size_t most) : table_(std::bit_ceil(2 * most + 1), 0) {}
-
-std::uint8_t KnownTriangles::see(const CornersOfTriangle& triangle)
-{
-    const std::size_t last = table_.size() - 1;
-    std::size_t at = hashOf(triangle) & last;
-    for (; table_[at] != 0; at = (at + 1) & last)
-        if (const CornersOfTriangle& k = known_[table_[at] - 1]; k.key == triangle.key && k.at == triangle.at)
-            return std::exchange(times_[table_[at] - 1], std::uint8_t(2));
-    known_.push_back(triangle);
-    times_.push_back(1);
-    table_[at] = std::uint32_t(known_.size());
-    return 0;
 }
 
 std::vector<std::uint8_t> repeatedTriangles(std::size_t count,
