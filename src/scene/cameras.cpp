@@ -24,9 +24,8 @@ constexpr double kParallel = 1e-6;  // sine of an angle below which `up` is alon
 
 // ---- from the right and above ----------------------------------------------------------------
 
-constexpr float kVerticalFieldOfView = 0.785398f; // 45 degrees
-constexpr float kMargin = 0.94f;                  // of the half picture that the box may fill
-constexpr float kFlatness = 0.05f;                // depth over width or height below which a box is a picture
+constexpr float kMargin = 0.94f;   // of the half picture that the box may fill
+constexpr float kFlatness = 0.05f; // depth over width or height below which a box is a picture
 const glm::vec3 kFrontRightAbove{0.40f, 0.35f, 1.0f};
 
 // The smallest distance along `back` from the centre at which every corner of the box is inside
@@ -168,7 +167,6 @@ Camera fitCamera(const Bounds& box, int width, int height)
 {
     Camera camera;
     camera.name = "fit";
-    camera.verticalFieldOfView = kVerticalFieldOfView;
     if (box.empty() || !isFinite(box.low) || !isFinite(box.high))
         return camera;
 
@@ -179,7 +177,7 @@ Camera fitCamera(const Bounds& box, int width, int height)
     const glm::vec3 back = flat ? glm::vec3(0, 0, 1) : glm::normalize(kFrontRightAbove);
 
     const float aspect = width > 0 && height > 0 ? float(width) / float(height) : 1.0f;
-    const float tanY = std::tan(kVerticalFieldOfView / 2);
+    const float tanY = std::tan(camera.verticalFieldOfView / 2);
     float distance = distanceToSee(halfSize, back, tanY * aspect, tanY);
     if (!(distance > 0)) { // a single point: any distance that rounding does not swallow shows it
         const glm::vec3 size = glm::abs(centre);
