@@ -27,7 +27,8 @@ constexpr char kModel[] =
     {"bufferView": 3, "componentType": 5123, "count": 6, "type": "SCALAR"}],
   "images": [{"uri": "bumps.png"}], "textures": [{"source": 0}],
   "materials": [{"normalTexture": {"index": 0}}],
-  "meshes": [{"primitives": [{"attributes": {"POSITION": 0, "NORMAL": 1, "TEXCOORD_0": 2}, "indices": 3, "material": 0}]}]})";
+  "meshes": [{"primitives": [
+    {"attributes": {"POSITION": 0, "NORMAL": 1, "TEXCOORD_0": 2}, "indices": 3, "material": 0}]}]})";
 
 // Which of the functions fails, and how.
 enum class Failing { none, readSaysNo, readGivesNull, decodeSaysNo, decodeGivesBits, encodeSaysNo, encodeGivesNull };
