@@ -7,7 +7,6 @@
 
 #include "scene/environment_map.hpp"
 #include "scene/ground_map.hpp"
-#include "tangent_space.hpp"
 
 namespace cotan::reference {
 
@@ -142,7 +141,7 @@ Lit shadedColor(const PixelInputs& all, const SurfaceInputs& in, glm::vec3 baseC
     const auto tangent =
         tangentSpaceOf(in, normal, surface, quad.weights[std::size_t(lane)], all.projection.orthographic);
     const Layers layers = layersOf(all, in, quad, lane, normal);
-    return {radianceOf(surface, layers, point, all.view, all.lights, all.shadow, tangent ? &*tangent : nullptr),
+    return {radianceOf(surface, layers, point, all.view, all.lights, all.shadow, tangent),
             transmittanceOf(surface, layers)};
 }
 

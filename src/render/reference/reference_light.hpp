@@ -1,6 +1,7 @@
 // From surface to radiance.
 #pragma once
 
+#include <array>
 #include <optional>
 #include <span>
 #include <vector>
@@ -10,6 +11,7 @@
 #include "cotan/portable.hpp"
 #include "cotan/view.hpp"
 #include "shadow.hpp"
+#include "surface.hpp"
 
 namespace cotan::reference {
 
@@ -28,13 +30,23 @@ struct PreparedLight {
 // The view's lights; the first directional one casts the shadow, if the view has shadows.
 std::vector<PreparedLight> prepareLights(const View& view, glm::dvec3 eye);
 
-struct TangentSpace;
-
-// One of several normals of a pixel that are lit one by one.
-struct LitTap {
-    glm::vec3 n{0};
-    float roughness = 0;
+// Lighting in tangent space, as tutorials do it: vectors come to the map's normal, not it to them. Vectors along t, b,
+// n n of a pixel.
+struct TangentSpace {
+    f32::cotan_surface surface; // n: the texel; v: carried to tangent space
+    f32::cotan_frame pixel{};   // in the pixel
+    bool perVertex = false;     // carry at the corners, and interpolate
+    std::array<f32::cotan_frame, 3> corners{};
+    std::array<glm::vec3, 3> positions{}; // of the corners, relative to the eye
+    std::array<double, 3> weights{};
 };
+
+// Nothing where the view lights in the world, where there is no normal map, and where what is asked
+// for is missing: tangents at the vertices, or a frame that can be inverted.
+// surface: in the world.
+std::optional<TangentSpace> tangentSpaceOf(const SurfaceInputs& in, const SurfaceNormal& normal,
+                                           const f32::cotan_surface& surface, const std::array<double, 3>& weights,
+                                           bool orthographic);
 
 // A shaded point, beyond what the portable text's surface holds.
 struct LitPoint {
@@ -51,11 +63,11 @@ struct Layers {
 };
 
 // Linear radiance towards the eye: lights, environment, emission. Not yet exposed.
-// tangent: where not null, lights are taken there and meet its surface in place of `surface`; highlights are not
+// tangent: where there is one, lights are taken there and meet its surface in place of `surface`; highlights are not
 // stretched.
 glm::vec3 radianceOf(const f32::cotan_surface& surface, const Layers& layers, const LitPoint& point, const View& view,
                      const std::vector<PreparedLight>& lights, const ShadowMap& shadow,
-                     const TangentSpace* tangent = nullptr);
+                     const std::optional<TangentSpace>& tangent);
 
 // The factors, by colour, of what is behind a surface that transmits.
 glm::vec3 transmittanceOf(const f32::cotan_surface& surface, const Layers& layers);

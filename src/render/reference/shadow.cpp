@@ -12,7 +12,6 @@
 
 #include "core/loops.hpp"
 #include "scene/environment_map.hpp"
-#include "setup.hpp"
 #include "surface.hpp"
 
 namespace cotan::reference {

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "projection.hpp"
-#include "reference_geometry.hpp"
+#include "setup.hpp"
 #include "texture.hpp"
 
 namespace cotan::reference {

@@ -14,8 +14,7 @@
 #include "cotan/portable.hpp"
 #include "cotan/view.hpp"
 #include "raster.hpp"
-#include "reference_geometry.hpp"
-#include "reference_light.hpp"
+#include "setup.hpp"
 #include "texture.hpp"
 
 namespace cotan::reference {
@@ -66,6 +65,12 @@ struct SurfaceNormal {
 
 // As the material's normal map has it.
 SurfaceNormal normalOf(const SurfaceInputs& in, const QuadPoints& quad, int lane);
+
+// One of several normals of a pixel that are lit one by one.
+struct LitTap {
+    glm::vec3 n{0};
+    float roughness = 0;
+};
 
 // The normals of even places in the pixel, to be lit one by one for specular antialiasing: as many as the surface's
 // roughness asks for, each rougher by what is smaller than its part of the pixel. normal: mapped, of the same lane.
