@@ -6,6 +6,28 @@
 #include <memory>
 
 #include "core/parallel.hpp"
+#include "cotanBackgroundFrag.h"
+#include "cotanBackgroundVert.h"
+#include "cotanComposeFrag.h"
+#include "cotanComposeMultisampledFrag.h"
+#include "cotanComposeVert.h"
+#include "cotanForwardExactExtendedFrag.h"
+#include "cotanForwardExactExtendedLayersFrag.h"
+#include "cotanForwardExactExtendedMaskedFrag.h"
+#include "cotanForwardExactFrag.h"
+#include "cotanForwardExactLayersFrag.h"
+#include "cotanForwardExactMaskedFrag.h"
+#include "cotanForwardExtendedFrag.h"
+#include "cotanForwardExtendedLayersFrag.h"
+#include "cotanForwardExtendedMaskedFrag.h"
+#include "cotanForwardFrag.h"
+#include "cotanForwardLayersFrag.h"
+#include "cotanForwardMaskedFrag.h"
+#include "cotanForwardVert.h"
+#include "cotanResolveFrag.h"
+#include "cotanResolveMultisampledFrag.h"
+#include "cotanShadowFrag.h"
+#include "cotanShadowVert.h"
 #include "gpu_structs.hpp"
 #include "scene/sample_places.hpp"
 #include "scene_upload.hpp"
@@ -58,34 +80,45 @@ struct Specialization {
 };
 
 struct StageShaders {
-    Shader vertex;
-    std::optional<Shader> fragment;
+    Spirv vertex;
+    Spirv fragment; // empty: none
 };
 
-// The shader of a surface. exact: fragments are told their triangle.
-Shader forwardShader(const PipelineKey& key, bool exact)
+// The shader of a surface, for opaque materials, masked ones and translucent layers; of these for materials without and
+// with what extensions add; of these without and with the frame `exact` (needs the features geometryShader, for
+// gl_PrimitiveID, and buffer addresses). exact: fragments are told their triangle.
+Spirv forwardShader(const PipelineKey& key, bool exact)
 {
+    static constexpr Spirv kShaders[3][2][2] = {
+        {{cotanForwardFrag, cotanForwardExactFrag}, {cotanForwardExtendedFrag, cotanForwardExactExtendedFrag}},
+        {{cotanForwardMaskedFrag, cotanForwardExactMaskedFrag},
+         {cotanForwardExtendedMaskedFrag, cotanForwardExactExtendedMaskedFrag}},
+        {{cotanForwardLayersFrag, cotanForwardExactLayersFrag},
+         {cotanForwardExtendedLayersFrag, cotanForwardExactExtendedLayersFrag}},
+    };
     const int kind = key.pass == Pass::layers ? 2 : key.alphaMode == AlphaMode::mask ? 1 : 0;
-    return Shader(int(Shader::forwardFrag) + 4 * kind + (key.extended ? 2 : 0) + (exact ? 1 : 0));
+    return kShaders[kind][key.extended ? 1 : 0][exact ? 1 : 0];
 }
 
 // exact: the device can tell fragments their triangle.
 StageShaders shadersOf(const PipelineKey& key, bool exact)
 {
     switch (key.pass) {
-    case Pass::shadow: return {Shader::shadowVert, std::nullopt};
-    case Pass::shadowMask: return {Shader::shadowVert, Shader::shadowFrag};
+    case Pass::shadow: return {cotanShadowVert, {}};
+    case Pass::shadowMask: return {cotanShadowVert, cotanShadowFrag};
     case Pass::surround:
-    case Pass::background: return {Shader::backgroundVert, Shader::backgroundFrag};
-    case Pass::layers: return {Shader::forwardVert, forwardShader(key, exact)};
+    case Pass::background: return {cotanBackgroundVert, cotanBackgroundFrag};
+    case Pass::layers: return {cotanForwardVert, forwardShader(key, exact)};
     case Pass::compose:
-        return {Shader::composeVert,
-                key.samples == vk::SampleCountFlagBits::e1 ? Shader::composeFrag : Shader::composeMultisampledFrag};
+        return {cotanComposeVert,
+                key.samples == vk::SampleCountFlagBits::e1 ? Spirv(cotanComposeFrag)
+                                                           : Spirv(cotanComposeMultisampledFrag)};
     case Pass::resolve:
-        return {Shader::composeVert, key.multisampledSource ? Shader::resolveMultisampledFrag : Shader::resolveFrag};
+        return {cotanComposeVert,
+                key.multisampledSource ? Spirv(cotanResolveMultisampledFrag) : Spirv(cotanResolveFrag)};
     case Pass::forward: break;
     }
-    return {Shader::forwardVert, forwardShader(key, info(key.frame).source == FrameSource::triangle)};
+    return {cotanForwardVert, forwardShader(key, info(key.frame).source == FrameSource::triangle)};
 }
 
 bool hasDepth(Pass pass) { return pass != Pass::compose && pass != Pass::surround && pass != Pass::resolve; }
@@ -189,13 +222,14 @@ vk::DescriptorSet allocateSet(const Device& device, const vk::raii::DescriptorPo
     return (*device.device).allocateDescriptorSets(info, *device.device.getDispatcher())[0];
 }
 
-vk::ShaderModule Pipelines::module(Shader shader)
+vk::ShaderModule Pipelines::module(Spirv code)
 {
-    auto found = modules_.find(shader);
+    if (code.empty())
+        return {};
+    auto found = modules_.find(code.data());
     if (found == modules_.end()) {
-        const std::span<const std::uint32_t> code = spirv(shader);
         const vk::ShaderModuleCreateInfo info({}, code.size_bytes(), code.data());
-        found = modules_.emplace(shader, vk::raii::ShaderModule(device_->device, info)).first;
+        found = modules_.emplace(code.data(), vk::raii::ShaderModule(device_->device, info)).first;
     }
     return *found->second;
 }
@@ -203,7 +237,7 @@ vk::ShaderModule Pipelines::module(Shader shader)
 Pipelines::Stages Pipelines::stagesOf(const PipelineKey& key)
 {
     const StageShaders shaders = shadersOf(key, device_->exact);
-    return {module(shaders.vertex), shaders.fragment ? module(*shaders.fragment) : vk::ShaderModule()};
+    return {module(shaders.vertex), module(shaders.fragment)};
 }
 
 vk::raii::Pipeline Pipelines::make(const PipelineKey& key, const Stages& modules) const
