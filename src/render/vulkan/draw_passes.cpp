@@ -15,6 +15,9 @@ namespace cotan {
 
 namespace {
 
+using Stage = vk::PipelineStageFlagBits2;
+using Access = vk::AccessFlagBits2;
+
 glm::uvec2 split(vk::DeviceAddress address)
 {
     return {static_cast<glm::uint>(address), static_cast<glm::uint>(address >> 32)};
@@ -81,18 +84,14 @@ CommandRecorder::CommandRecorder(const Device& device, const Layouts& layouts)
     : device_(&device), layouts_(&layouts), pipelines_(device, layouts), commands_(device), memory_(device)
 {
     viewBuffer_ = makeHostBuffer(device, memory_, sizeof(gpu::CotanView), vk::BufferUsageFlagBits::eUniformBuffer);
+    depthSampler_ = vk::raii::Sampler(device.device, vk::SamplerCreateInfo());
     vk::SamplerCreateInfo sampler;
-    sampler.addressModeU = vk::SamplerAddressMode::eClampToEdge;
-    sampler.addressModeV = vk::SamplerAddressMode::eClampToEdge;
-    sampler.magFilter = sampler.minFilter = vk::Filter::eLinear; // of what comparisons give
-    sampler.compareEnable = VK_TRUE;
+    sampler.magFilter = sampler.minFilter = vk::Filter::eLinear;
+    sampler.addressModeU = sampler.addressModeV = vk::SamplerAddressMode::eClampToEdge;
+    pictureSampler_ = vk::raii::Sampler(device.device, sampler);
+    sampler.compareEnable = VK_TRUE; // filters what comparisons give
     sampler.compareOp = vk::CompareOp::eLessOrEqual;
     shadowSampler_ = vk::raii::Sampler(device.device, sampler);
-    depthSampler_ = vk::raii::Sampler(device.device, vk::SamplerCreateInfo());
-    vk::SamplerCreateInfo filtering;
-    filtering.magFilter = filtering.minFilter = vk::Filter::eLinear;
-    filtering.addressModeU = filtering.addressModeV = vk::SamplerAddressMode::eClampToEdge;
-    pictureSampler_ = vk::raii::Sampler(device.device, filtering);
     constexpr std::uint32_t kSets = 2;
     const std::array sizes{vk::DescriptorPoolSize(vk::DescriptorType::eUniformBuffer, kSets),
                            vk::DescriptorPoolSize(vk::DescriptorType::eStorageBuffer, kSets * 3),
@@ -272,6 +271,59 @@ void CommandRecorder::drawOver(const vk::raii::CommandBuffer& commands, const Pi
     commands.setCullMode(vk::CullModeFlagBits::eNone);
     commands.setFrontFace(vk::FrontFace::eCounterClockwise);
     commands.draw(3, 1, 0, 0);
+}
+
+// A single texel where no shadow is wanted: the descriptor must exist all the same.
+void CommandRecorder::prepareShadowMap(bool needed)
+{
+    const std::uint32_t side = needed ? kShadowSize : 1;
+    if (shadowMap_.extent.width >= side)
+        return;
+    TextureInfo info;
+    info.format = vk::Format::eD32Sfloat;
+    info.extent = vk::Extent2D(side, side);
+    info.usage = vk::ImageUsageFlagBits::eDepthStencilAttachment | vk::ImageUsageFlagBits::eSampled;
+    info.aspect = vk::ImageAspectFlagBits::eDepth;
+    shadowMap_ = {};
+    shadowDrawn_.reset();
+    shadowMemory_ = std::make_unique<Memory>(*device_);
+    shadowMap_ = makeTexture(*device_, *shadowMemory_, info);
+}
+
+// Kept from one picture to the next, as long as it shows the same.
+void CommandRecorder::recordShadow(const vk::raii::CommandBuffer& commands, const GpuScene& scene,
+                                   const DrawLists& lists, const ShadowView& shown)
+{
+    if (shadowDrawn_ == shown)
+        return;
+    constexpr auto kDepth = vk::ImageAspectFlagBits::eDepth;
+    const auto stages = Stage::eEarlyFragmentTests | Stage::eLateFragmentTests;
+    const auto write = Access::eDepthStencilAttachmentRead | Access::eDepthStencilAttachmentWrite;
+    const bool draws = shadowMap_.extent.width > 1;
+    shadowDrawn_.reset();
+    if (draws)
+        shadowDrawn_ = shown;
+    transition(commands, *shadowMap_.image, kDepth, vk::ImageLayout::eUndefined,
+               vk::ImageLayout::eDepthAttachmentOptimal, Stage::eFragmentShader, {}, stages, write);
+    if (draws) {
+        const vk::RenderingAttachmentInfo depth(*shadowMap_.view, vk::ImageLayout::eDepthAttachmentOptimal, {}, {}, {},
+                                                vk::AttachmentLoadOp::eClear, vk::AttachmentStoreOp::eStore,
+                                                vk::ClearDepthStencilValue(1.0f, 0));
+        const vk::Rect2D area({0, 0}, shadowMap_.extent);
+        commands.beginRendering(vk::RenderingInfo({}, area, 1, 0, 0, nullptr, &depth));
+        commands.setViewport(0, vk::Viewport(0, 0, kShadowSize, kShadowSize, 0.0f, 1.0f));
+        commands.setScissor(0, area);
+        PipelineKey key;
+        key.pass = Pass::shadow;
+        drawItems(commands, scene, lists.opaque, key);
+        key.pass = Pass::shadowMask;
+        drawItems(commands, scene, lists.mask, key);
+        drawItems(commands, scene, lists.veils, key);
+        commands.endRendering();
+    }
+    transition(commands, *shadowMap_.image, kDepth, vk::ImageLayout::eDepthAttachmentOptimal,
+               vk::ImageLayout::eShaderReadOnlyOptimal, stages, write, Stage::eFragmentShader,
+               Access::eShaderSampledRead);
 }
 
 // Everything that writes depth, and the background.

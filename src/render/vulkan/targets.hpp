@@ -55,6 +55,8 @@ public:
 
 private:
     void setArea(const vk::raii::CommandBuffer& commands, const vk::Rect2D& area) const;
+    void beginColor(const vk::raii::CommandBuffer& commands, const Texture2D& target, vk::AttachmentLoadOp load,
+                    const vk::Rect2D& area) const;
 
     Memory memory_;
     Kind kind_;
