@@ -12,11 +12,6 @@ using Access = vk::AccessFlagBits2;
 
 constexpr vk::DeviceSize kBlockSize = vk::DeviceSize(32) << 20;
 
-vk::DeviceSize aligned(vk::DeviceSize value, vk::DeviceSize alignment)
-{
-    return (value + alignment - 1) / alignment * alignment;
-}
-
 Buffer makeBuffer(const Device& device, Memory& memory, vk::DeviceSize size, vk::BufferUsageFlags usage,
                   vk::MemoryPropertyFlags needed, vk::MemoryPropertyFlags wanted)
 {
