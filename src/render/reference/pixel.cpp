@@ -199,10 +199,9 @@ glm::vec4 background(const PixelInputs& all, int x, int y)
     float share = 1;
     if (view.ground) {
         const glm::dvec3 start = rayOrigin(all.projection, x + 0.5, y + 0.5); // relative to the eye, as all there is
-        const double height = view.ground->height - all.projection.origin.y;
+        const double height = view.ground->height - all.projection.eye.y;
         const glm::dvec2 place = f64::cotan_ground_place(start, glm::dvec3(ray), height);
-        share = groundShareAt(*view.ground,
-                              glm::vec2(place + glm::dvec2(all.projection.origin.x, all.projection.origin.z)));
+        share = groundShareAt(*view.ground, glm::vec2(place + glm::dvec2(all.projection.eye.x, all.projection.eye.z)));
     }
     return view.background ? glm::vec4(displayed(view, backdropAlong(view, ray) * share), 1)
                            : glm::vec4(0, 0, 0, 1 - share);

@@ -20,9 +20,9 @@ struct Fragment {
 // What all pixels of a picture share.
 struct PixelInputs {
     const View& view;
-    const Projection& projection;
-    const std::vector<PreparedLight>& lights;
-    const ShadowMap& shadow;
+    Projection projection;
+    std::vector<PreparedLight> lights;
+    ShadowMap shadow;
 };
 
 // Always finite. Shaded colours are exposed and, unless the view wants them linear, tone mapped.
