@@ -32,51 +32,6 @@ constexpr Named<PictureSize> kSizePresets[] = {{"thumbnail", {320, 180}}, {"720p
                                                {"1080p", {1920, 1080}},   {"1440p", {2560, 1440}},
                                                {"2160p", {3840, 2160}},   {"square", {1024, 1024}}};
 
-} // namespace
-
-std::vector<std::string> sizePresetWords() { return wordsOf(kSizePresets); }
-
-Result<PictureSize> parsePictureSize(const std::string& text)
-{
-    if (const auto preset = valueOf(kSizePresets, text))
-        return *preset;
-    if (auto size = parseSize(text))
-        return size;
-    return usageError(fmt::format("--size: expected WxH, or one number for both, each from 1 to 16384, or {}; found "
-                                  "'{}'",
-                                  fmt::join(sizePresetWords(), ", "), text));
-}
-
-std::vector<std::string> frameWords()
-{
-    std::vector<std::string> names;
-    for (const FrameInfo& f : frames())
-        names.emplace_back(f.name);
-    return names;
-}
-
-std::string frameNames() { return fmt::format("{}", fmt::join(frameWords(), ", ")); }
-
-Result<Frame> parseFrame(const std::string& text, std::string_view field)
-{
-    if (const auto frame = frameFromName(text))
-        return *frame;
-    return usageError(fmt::format("{}: expected one of {}; found '{}'", field, frameNames(), text));
-}
-
-Result<FrameChoice> parseFrameChoice(const std::string& text, std::string_view field)
-{
-    if (text == kAutoFrame)
-        return FrameChoice();
-    if (const auto frame = frameFromName(text))
-        return FrameChoice(*frame);
-    return usageError(fmt::format("{}: expected {} or one of {}; found '{}'", field, kAutoFrame, frameNames(), text));
-}
-
-// ---- the words of a command line ----------------------------------------------------------
-
-namespace {
-
 // An option by its name. `take` sets it to a word; a flag takes none.
 struct Option {
     std::string_view name;
@@ -185,6 +140,47 @@ std::vector<Option> optionsOf(PictureOptions& o, std::string& frame)
 }
 
 } // namespace
+
+std::vector<std::string> sizePresetWords() { return wordsOf(kSizePresets); }
+
+Result<PictureSize> parsePictureSize(const std::string& text)
+{
+    if (const auto preset = valueOf(kSizePresets, text))
+        return *preset;
+    if (auto size = parseSize(text))
+        return size;
+    return usageError(fmt::format("--size: expected WxH, or one number for both, each from 1 to 16384, or {}; found "
+                                  "'{}'",
+                                  fmt::join(sizePresetWords(), ", "), text));
+}
+
+std::vector<std::string> frameWords()
+{
+    std::vector<std::string> names;
+    for (const FrameInfo& f : frames())
+        names.emplace_back(f.name);
+    return names;
+}
+
+std::string frameNames() { return fmt::format("{}", fmt::join(frameWords(), ", ")); }
+
+Result<Frame> parseFrame(const std::string& text, std::string_view field)
+{
+    if (const auto frame = frameFromName(text))
+        return *frame;
+    return usageError(fmt::format("{}: expected one of {}; found '{}'", field, frameNames(), text));
+}
+
+Result<FrameChoice> parseFrameChoice(const std::string& text, std::string_view field)
+{
+    if (text == kAutoFrame)
+        return FrameChoice();
+    if (const auto frame = frameFromName(text))
+        return FrameChoice(*frame);
+    return usageError(fmt::format("{}: expected {} or one of {}; found '{}'", field, kAutoFrame, frameNames(), text));
+}
+
+// ---- the words of a command line ----------------------------------------------------------
 
 Status readPictureWords(std::span<const std::string> words, PictureOptions& options, std::string& frame)
 {

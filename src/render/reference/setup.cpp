@@ -87,25 +87,6 @@ Draw makeDraw(const Mesh& mesh, const glm::mat4& toWorld, glm::dvec3 eye, Frame 
     return draw;
 }
 
-} // namespace
-
-std::vector<Draw> makeDraws(const Scene& scene, glm::dvec3 eye, Frame frame, bool blending)
-{
-    std::vector<Draw> draws;
-    for (const Instance& instance : scene.instances) {
-        const Mesh* mesh = meshPlacedBy(scene, instance);
-        if (mesh && mesh->material >= 0 && std::size_t(mesh->material) < scene.materials.size()
-            && mesh->triangleCount() > 0)
-            draws.push_back(makeDraw(*mesh, instance.toWorld, eye, frame));
-    }
-    const auto solid = [&](const Draw& d) { return !scene.materials[std::size_t(d.material)].translucent(); };
-    if (blending)
-        std::stable_partition(draws.begin(), draws.end(), solid);
-    return draws;
-}
-
-namespace {
-
 constexpr std::size_t kChunkTriangles = 2048;
 
 // A run of triangles of one draw, set up by one task.
@@ -229,6 +210,21 @@ void sortIntoTiles(TiledTriangles& tiled, const Projection& projection)
 }
 
 } // namespace
+
+std::vector<Draw> makeDraws(const Scene& scene, glm::dvec3 eye, Frame frame, bool blending)
+{
+    std::vector<Draw> draws;
+    for (const Instance& instance : scene.instances) {
+        const Mesh* mesh = meshPlacedBy(scene, instance);
+        if (mesh && mesh->material >= 0 && std::size_t(mesh->material) < scene.materials.size()
+            && mesh->triangleCount() > 0)
+            draws.push_back(makeDraw(*mesh, instance.toWorld, eye, frame));
+    }
+    const auto solid = [&](const Draw& d) { return !scene.materials[std::size_t(d.material)].translucent(); };
+    if (blending)
+        std::stable_partition(draws.begin(), draws.end(), solid);
+    return draws;
+}
 
 Rectangle TiledTriangles::area(std::size_t tile, int width, int height) const
 {

@@ -114,6 +114,70 @@ void interpolateUv(QuadPoints& quad, std::size_t set, std::size_t lane, const Dr
     quad.uv[set][lane] = glm::vec2(corner + relative);
 }
 
+// The normal without a map, and what frames are made from besides it.
+struct Smooth {
+    glm::vec3 raw{0}; // as interpolated
+    glm::vec3 n{0};   // unit
+    glm::vec3 dpdx{0};
+    glm::vec3 dpdy{0};
+};
+
+Smooth smoothOf(const SurfaceInputs& in, const QuadPoints& quad, int lane, const UvDifferences& uv)
+{
+    Smooth smooth;
+    smooth.dpdx = difference(quad, alongX(lane, in.view->derivatives));
+    smooth.dpdy = difference(quad, alongY(lane, in.view->derivatives));
+    smooth.raw = interpolatedOrZero(in.draw->normals, *in.triangle, quad.weights[std::size_t(lane)]);
+    f32::cotan_differences safe = f32::cotan_scale_differences(smooth.dpdx, smooth.dpdy, uv.dx, uv.dy);
+    smooth.n = f32::cotan_safe_normal(smooth.raw, safe.dpdx, safe.dpdy);
+    return smooth;
+}
+
+// The turn of the surface's own normals in the pixel; none where the view does not ask for it.
+void addTurn(SurfaceNormal& result, const SurfaceInputs& in, const QuadPoints& quad, int lane)
+{
+    if (!in.view->specularAntialiasing)
+        return;
+    const auto normal = [&](int at) { return smoothOf(in, quad, at, {}).n; };
+    const Pair x = alongX(lane, in.view->derivatives), y = alongY(lane, in.view->derivatives);
+    result.turnX = normal(x.to) - normal(x.from);
+    result.turnY = normal(y.to) - normal(y.from);
+    result.turn = result.spread = f32::cotan_spread_of_turn(result.turnX, result.turnY);
+}
+
+// What a texel of a normal map adds: mips keep the length of their means in the fourth channel.
+float summaryOf(const View& view, glm::vec4 texel)
+{
+    return view.specularAntialiasing ? f32::cotan_spread_of_length(texel.w) : 0;
+}
+
+// The view's frame over the uv of a map.
+f32::cotan_frame frameOver(const SurfaceInputs& in, const Texture& map, const Smooth& smooth, const UvDifferences& uv,
+                           const std::array<double, 3>& weights)
+{
+    const Frame frame = in.view->frame;
+    if (info(frame).source == FrameSource::triangle)
+        return frameOfTriangle(in, map, smooth.n);
+    if (readsVertices(frame))
+        return frameOfVertices(in, frame, smooth.n, smooth.raw, weights);
+    return evaluate(frame, smooth.n, smooth.dpdx, smooth.dpdy, uv.dx, uv.dy);
+}
+
+bool sameUv(const Texture& a, const Texture& b) { return setOf(a) == setOf(b) && a.uRow == b.uRow && a.vRow == b.vRow; }
+
+// A place in a pixel, of so many a side, from its middle in pixels.
+glm::vec2 placeOf(int place, int side)
+{
+    return (glm::vec2(float(place % side), float(place / side)) + 0.5f) / float(side) - 0.5f;
+}
+
+// What turns a texel of the material's normal map into numbers.
+f32::cotan_normal_format formatOf(const SurfaceInputs& in)
+{
+    return toFormat<f32::cotan_normal_format>(in.material->normalFormat, in.maps->normal->image->type,
+                                              double(in.material->normalScale));
+}
+
 } // namespace
 
 QuadPoints interpolate(const Draw& draw, const RasterTriangle& triangle, int x, int y)
@@ -170,78 +234,6 @@ unsigned samplesOfMask(const std::array<float, 4>& alphas, int lane, float cutof
     }
     return samples;
 }
-
-namespace {
-
-// The normal without a map, and what frames are made from besides it.
-struct Smooth {
-    glm::vec3 raw{0}; // as interpolated
-    glm::vec3 n{0};   // unit
-    glm::vec3 dpdx{0};
-    glm::vec3 dpdy{0};
-};
-
-Smooth smoothOf(const SurfaceInputs& in, const QuadPoints& quad, int lane, const UvDifferences& uv)
-{
-    Smooth smooth;
-    smooth.dpdx = difference(quad, alongX(lane, in.view->derivatives));
-    smooth.dpdy = difference(quad, alongY(lane, in.view->derivatives));
-    smooth.raw = interpolatedOrZero(in.draw->normals, *in.triangle, quad.weights[std::size_t(lane)]);
-    f32::cotan_differences safe = f32::cotan_scale_differences(smooth.dpdx, smooth.dpdy, uv.dx, uv.dy);
-    smooth.n = f32::cotan_safe_normal(smooth.raw, safe.dpdx, safe.dpdy);
-    return smooth;
-}
-
-// The turn of the surface's own normals in the pixel; none where the view does not ask for it.
-void addTurn(SurfaceNormal& result, const SurfaceInputs& in, const QuadPoints& quad, int lane)
-{
-    if (!in.view->specularAntialiasing)
-        return;
-    const auto normal = [&](int at) { return smoothOf(in, quad, at, {}).n; };
-    const Pair x = alongX(lane, in.view->derivatives), y = alongY(lane, in.view->derivatives);
-    result.turnX = normal(x.to) - normal(x.from);
-    result.turnY = normal(y.to) - normal(y.from);
-    result.turn = result.spread = f32::cotan_spread_of_turn(result.turnX, result.turnY);
-}
-
-// What a texel of a normal map adds: mips keep the length of their means in the fourth channel.
-float summaryOf(const View& view, glm::vec4 texel)
-{
-    return view.specularAntialiasing ? f32::cotan_spread_of_length(texel.w) : 0;
-}
-
-// The view's frame over the uv of a map.
-f32::cotan_frame frameOver(const SurfaceInputs& in, const Texture& map, const Smooth& smooth, const UvDifferences& uv,
-                           const std::array<double, 3>& weights)
-{
-    const Frame frame = in.view->frame;
-    if (info(frame).source == FrameSource::triangle)
-        return frameOfTriangle(in, map, smooth.n);
-    if (readsVertices(frame))
-        return frameOfVertices(in, frame, smooth.n, smooth.raw, weights);
-    return evaluate(frame, smooth.n, smooth.dpdx, smooth.dpdy, uv.dx, uv.dy);
-}
-
-bool sameUv(const Texture& a, const Texture& b) { return setOf(a) == setOf(b) && a.uRow == b.uRow && a.vRow == b.vRow; }
-
-} // namespace
-
-namespace {
-
-// A place in a pixel, of so many a side, from its middle in pixels.
-glm::vec2 placeOf(int place, int side)
-{
-    return (glm::vec2(float(place % side), float(place / side)) + 0.5f) / float(side) - 0.5f;
-}
-
-// What turns a texel of the material's normal map into numbers.
-f32::cotan_normal_format formatOf(const SurfaceInputs& in)
-{
-    return toFormat<f32::cotan_normal_format>(in.material->normalFormat, in.maps->normal->image->type,
-                                              double(in.material->normalScale));
-}
-
-} // namespace
 
 SurfaceNormal normalOf(const SurfaceInputs& in, const QuadPoints& quad, int lane)
 {

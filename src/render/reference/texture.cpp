@@ -126,48 +126,6 @@ void halve(const MipChain& chain, const f32::cotan_normal_format& format, int wi
     });
 }
 
-} // namespace
-
-MipChain makeMipChain(const Image& image, Content content, Convention stored, bool withLevels)
-{
-    MipChain chain{&image, content, {}};
-    if (!withLevels)
-        return chain;
-    auto format = toFormat<f32::cotan_normal_format>(stored, image.type);
-    format.green = 1; // as it is stored
-    std::vector<glm::vec4> before, averages;
-    int width = image.width, height = image.height;
-    while (width > 1 || height > 1) {
-        Image target = makeImage(std::max(1, width / 2), std::max(1, height / 2), image.type, image.name);
-        if (before.empty()) {
-            auto source = [&](int x, int y) { return toAverage(texel(chain, 0, x, y), content, format); };
-            halve(chain, format, width, height, source, target, averages);
-        } else {
-            auto source = [&](int x, int y) { return before[std::size_t(y) * std::size_t(width) + std::size_t(x)]; };
-            halve(chain, format, width, height, source, target, averages);
-        }
-        std::swap(before, averages);
-        width = target.width;
-        height = target.height;
-        chain.smaller.push_back(std::move(target));
-    }
-    return chain;
-}
-
-glm::vec4 texel(const MipChain& chain, int level, int x, int y)
-{
-    const Image& image = chain.level(level);
-    if (!isSrgb(chain)) {
-        const glm::vec4 stored = storedComponents(image, x, y);
-        // A texel of the file is one direction, whatever its alpha says.
-        return level == 0 && chain.content == Content::normal ? glm::vec4(glm::vec3(stored), 1) : stored;
-    }
-    const std::size_t at = 4 * (std::size_t(y) * std::size_t(image.width) + std::size_t(x));
-    return image.type == PixelType::unorm8 ? srgbTexel(image.bytes8(), at) : srgbTexel(image.words(), at);
-}
-
-namespace {
-
 constexpr int kMaxProbes = 8;
 
 float usable(float x) { return std::abs(x) <= kFarthestUv ? x : 0.0f; }
@@ -242,6 +200,44 @@ const MipChain* chainOf(TextureLibrary& library, const Scene& scene, const Textu
 }
 
 } // namespace
+
+MipChain makeMipChain(const Image& image, Content content, Convention stored, bool withLevels)
+{
+    MipChain chain{&image, content, {}};
+    if (!withLevels)
+        return chain;
+    auto format = toFormat<f32::cotan_normal_format>(stored, image.type);
+    format.green = 1; // as it is stored
+    std::vector<glm::vec4> before, averages;
+    int width = image.width, height = image.height;
+    while (width > 1 || height > 1) {
+        Image target = makeImage(std::max(1, width / 2), std::max(1, height / 2), image.type, image.name);
+        if (before.empty()) {
+            auto source = [&](int x, int y) { return toAverage(texel(chain, 0, x, y), content, format); };
+            halve(chain, format, width, height, source, target, averages);
+        } else {
+            auto source = [&](int x, int y) { return before[std::size_t(y) * std::size_t(width) + std::size_t(x)]; };
+            halve(chain, format, width, height, source, target, averages);
+        }
+        std::swap(before, averages);
+        width = target.width;
+        height = target.height;
+        chain.smaller.push_back(std::move(target));
+    }
+    return chain;
+}
+
+glm::vec4 texel(const MipChain& chain, int level, int x, int y)
+{
+    const Image& image = chain.level(level);
+    if (!isSrgb(chain)) {
+        const glm::vec4 stored = storedComponents(image, x, y);
+        // A texel of the file is one direction, whatever its alpha says.
+        return level == 0 && chain.content == Content::normal ? glm::vec4(glm::vec3(stored), 1) : stored;
+    }
+    const std::size_t at = 4 * (std::size_t(y) * std::size_t(image.width) + std::size_t(x));
+    return image.type == PixelType::unorm8 ? srgbTexel(image.bytes8(), at) : srgbTexel(image.words(), at);
+}
 
 glm::vec4 sample(const MipChain& chain, const Sampler& s, const UvDifferences& at, bool pointSampled)
 {
