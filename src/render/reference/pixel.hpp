@@ -26,7 +26,7 @@ struct PixelInputs {
 };
 
 // Always finite. Shaded colours are exposed and, unless the view wants them linear, tone mapped.
-Fragment shade(const PixelInputs& all, const SurfaceInputs& in, const QuadPoints& quad, int lane);
+Fragment shade(const PixelInputs& all, const SurfaceInputs& in, int lane);
 
 // The background in a pixel of the raster: the environment where the view wants it, otherwise 0.
 glm::vec4 background(const PixelInputs& all, int x, int y);

@@ -157,9 +157,8 @@ std::vector<PreparedLight> prepareLights(const View& view, glm::dvec3 eye)
     return prepared;
 }
 
-std::optional<TangentSpace> tangentSpaceOf(const SurfaceInputs& in, const SurfaceNormal& normal,
-                                           const f32::cotan_surface& surface, const std::array<double, 3>& weights,
-                                           bool orthographic)
+std::optional<TangentSpace> tangentSpaceOf(const SurfaceInputs& in, int lane, const SurfaceNormal& normal,
+                                           const f32::cotan_surface& surface, bool orthographic)
 {
     const Draw& draw = *in.draw;
     const Lighting lighting = in.view->lighting;
@@ -167,7 +166,7 @@ std::optional<TangentSpace> tangentSpaceOf(const SurfaceInputs& in, const Surfac
         return std::nullopt;
     TangentSpace space{surface};
     space.pixel = normal.frame;
-    space.weights = weights;
+    space.weights = in.points->weights[std::size_t(lane)];
     space.surface.n = normal.texel;
     space.perVertex = lighting == Lighting::tangentVertex;
     if (space.perVertex) {

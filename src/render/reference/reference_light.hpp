@@ -44,9 +44,8 @@ struct TangentSpace {
 // Nothing where the view lights in the world, where there is no normal map, and where what is asked
 // for is missing: tangents at the vertices, or a frame that can be inverted.
 // surface: in the world.
-std::optional<TangentSpace> tangentSpaceOf(const SurfaceInputs& in, const SurfaceNormal& normal,
-                                           const f32::cotan_surface& surface, const std::array<double, 3>& weights,
-                                           bool orthographic);
+std::optional<TangentSpace> tangentSpaceOf(const SurfaceInputs& in, int lane, const SurfaceNormal& normal,
+                                           const f32::cotan_surface& surface, bool orthographic);
 
 // A shaded point, beyond what the portable text's surface holds.
 struct LitPoint {

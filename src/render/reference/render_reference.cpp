@@ -79,15 +79,15 @@ void drawQuad(const Frozen& f, const RasterTriangle& triangle, const Quad& quad,
             continue;
         const bool masked = material.alphaMode == AlphaMode::mask;
         if (!points) {
-            points = interpolate(draw, triangle, quad.x, quad.y);
+            in.points = &points.emplace(interpolate(draw, triangle, quad.x, quad.y));
             for (int k = 0; masked && k < 4; ++k)
-                alphas[std::size_t(k)] = baseColorOf(in, *points, k).w;
+                alphas[std::size_t(k)] = baseColorOf(in, k).w;
         }
         if (masked)
             samples &= samplesOfMask(alphas, lane, material.alphaCutoff, pattern);
         if (!samples)
             continue;
-        Fragment fragment = shade(f, in, *points, lane);
+        Fragment fragment = shade(f, in, lane);
         if (fragment.discarded)
             continue;
         if (blended)
