@@ -36,11 +36,10 @@ void HeldPicture::hold(const Device& device, std::shared_ptr<const void> newOwne
     owner.reset();
     texture = {};
     memory = std::make_unique<Memory>(device);
-    TextureInfo info;
-    info.format = vk::Format::eR16G16B16A16Sfloat;
-    info.extent = vk::Extent2D(std::uint32_t(picture.width), std::uint32_t(picture.height));
-    info.usage = vk::ImageUsageFlagBits::eSampled | vk::ImageUsageFlagBits::eTransferDst;
-    texture = makeTexture(device, *memory, info);
+    texture = makeTexture(device, *memory,
+                          {.format = vk::Format::eR16G16B16A16Sfloat,
+                           .extent = {std::uint32_t(picture.width), std::uint32_t(picture.height)},
+                           .usage = vk::ImageUsageFlagBits::eSampled | vk::ImageUsageFlagBits::eTransferDst});
     const std::array levels{std::as_bytes(std::span(halves))};
     Uploader uploader(device, halves.size() * sizeof(glm::uint64));
     uploader.image(texture, levels, sizeof(glm::uint64));
@@ -69,15 +68,13 @@ void CommandRecorder::setAreas(DrawLists& lists, const View& view, const gpu::Co
 PipelineKey CommandRecorder::backgroundKey(const View& view) const
 {
     const PipelineKey picture = forwardKey(view, *targets_);
-    PipelineKey key;
-    key.pass = Pass::background;
-    key.toneMap = picture.toneMap;
-    key.tone = picture.tone;
-    key.backdrop = backdropOf(view);
-    key.ground = view.ground != nullptr;
-    key.samples = picture.samples;
-    key.format = picture.format;
-    return key;
+    return {.pass = Pass::background,
+            .toneMap = picture.toneMap,
+            .tone = picture.tone,
+            .backdrop = backdropOf(view),
+            .ground = view.ground != nullptr,
+            .samples = picture.samples,
+            .format = picture.format};
 }
 
 PipelineKey CommandRecorder::surroundKey(const View& view) const

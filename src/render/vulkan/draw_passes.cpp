@@ -59,13 +59,12 @@ std::uint32_t mapsNeeded(const PipelineKey& key)
 
 PipelineKey forwardKey(const View& view, const Targets& targets)
 {
-    PipelineKey key;
-    key.frame = view.frame;
-    key.output = view.output;
-    key.coarse = view.derivatives == Derivatives::coarse;
-    key.normalMaps = view.normalMaps;
-    key.samples = targets.kind().samples;
-    key.format = targets.kind().format;
+    PipelineKey key{.frame = view.frame,
+                    .output = view.output,
+                    .coarse = view.derivatives == Derivatives::coarse,
+                    .normalMaps = view.normalMaps,
+                    .samples = targets.kind().samples,
+                    .format = targets.kind().format};
     if (view.output == Output::shaded) {
         key.shading = view.shading;
         key.environment = view.environment;
@@ -279,15 +278,15 @@ void CommandRecorder::prepareShadowMap(bool needed)
     const std::uint32_t side = needed ? kShadowSize : 1;
     if (shadowMap_.extent.width >= side)
         return;
-    TextureInfo info;
-    info.format = vk::Format::eD32Sfloat;
-    info.extent = vk::Extent2D(side, side);
-    info.usage = vk::ImageUsageFlagBits::eDepthStencilAttachment | vk::ImageUsageFlagBits::eSampled;
-    info.aspect = vk::ImageAspectFlagBits::eDepth;
     shadowMap_ = {};
     shadowDrawn_.reset();
     shadowMemory_ = std::make_unique<Memory>(*device_);
-    shadowMap_ = makeTexture(*device_, *shadowMemory_, info);
+    shadowMap_ =
+        makeTexture(*device_, *shadowMemory_,
+                    {.format = vk::Format::eD32Sfloat,
+                     .extent = {side, side},
+                     .usage = vk::ImageUsageFlagBits::eDepthStencilAttachment | vk::ImageUsageFlagBits::eSampled,
+                     .aspect = vk::ImageAspectFlagBits::eDepth});
 }
 
 // Kept from one picture to the next, as long as it shows the same.
@@ -313,12 +312,9 @@ void CommandRecorder::recordShadow(const vk::raii::CommandBuffer& commands, cons
         commands.beginRendering(vk::RenderingInfo({}, area, 1, 0, 0, nullptr, &depth));
         commands.setViewport(0, vk::Viewport(0, 0, kShadowSize, kShadowSize, 0.0f, 1.0f));
         commands.setScissor(0, area);
-        PipelineKey key;
-        key.pass = Pass::shadow;
-        drawItems(commands, scene, lists.opaque, key);
-        key.pass = Pass::shadowMask;
-        drawItems(commands, scene, lists.mask, key);
-        drawItems(commands, scene, lists.veils, key);
+        drawItems(commands, scene, lists.opaque, {.pass = Pass::shadow});
+        drawItems(commands, scene, lists.mask, {.pass = Pass::shadowMask});
+        drawItems(commands, scene, lists.veils, {.pass = Pass::shadowMask});
         commands.endRendering();
     }
     transition(commands, *shadowMap_.image, kDepth, vk::ImageLayout::eDepthAttachmentOptimal,

@@ -87,11 +87,7 @@ PipelineKey CommandRecorder::layersKey(const View& view) const
 
 PipelineKey CommandRecorder::composeKey() const
 {
-    PipelineKey key;
-    key.pass = Pass::compose;
-    key.samples = targets_->kind().samples;
-    key.format = targets_->kind().format;
-    return key;
+    return {.pass = Pass::compose, .samples = targets_->kind().samples, .format = targets_->kind().format};
 }
 
 // Draws the translucent fragments of a band into their lists; returns how many there are.

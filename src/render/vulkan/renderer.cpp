@@ -95,12 +95,10 @@ Image meanOf(const Image& sum, const View& view)
 
 PipelineKey CommandRecorder::resolveKey() const
 {
-    PipelineKey key;
-    key.pass = Pass::resolve;
-    key.multisampledSource = targets_->multisampled();
-    key.levels = targets_->kind().shown == vk::Format::eR8G8B8A8Unorm;
-    key.format = targets_->kind().shown;
-    return key;
+    return {.pass = Pass::resolve,
+            .levels = targets_->kind().shown == vk::Format::eR8G8B8A8Unorm,
+            .multisampledSource = targets_->multisampled(),
+            .format = targets_->kind().shown};
 }
 
 // Resolves what was drawn in the area, and copies the picture.
