@@ -1,7 +1,6 @@
 #include "cotan/picture.hpp"
 
 #include <cmath>
-#include <filesystem>
 #include <map>
 #include <numbers>
 
@@ -9,7 +8,6 @@
 #include <fmt/ranges.h>
 
 #include "cotan/image.hpp"
-#include "cotan/view.hpp"
 #include "picture/option_words.hpp"
 #include "scene/geometry.hpp"
 

@@ -1,20 +1,14 @@
 #include "cotan/picture.hpp"
 
 #include <algorithm>
-#include <future>
-#include <utility>
 
 #include <fmt/format.h>
 
-#include "cotan/inspect.hpp"
 #include "cotan/model.hpp"
-#include "cotan/render.hpp"
-#include "cotan/scene.hpp"
-#include "cotan/view.hpp"
 #include "files/extension.hpp"
 #include "files/file_registry.hpp"
 #include "picture/option_words.hpp"
-#include "scene/geometry.hpp"
+#include "scene/bounds.hpp"
 #include "scene/meant_frame.hpp"
 #include "scene/parts.hpp"
 #include "scene/up.hpp"

@@ -1,6 +1,5 @@
 // What of a model a picture shows: light, a vector, an inspection, an error.
 #include "core/named_values.hpp"
-#include "cotan/inspect.hpp"
 #include "cotan/picture.hpp"
 #include "inspect/angles.hpp"
 
@@ -8,11 +7,10 @@ namespace cotan {
 
 namespace {
 
-constexpr Named<Output> kShows[] = {
-    {"shaded", Output::shaded},       {"normal", Output::normal}, {"tangent", Output::tangent},
-    {"bitangent", Output::bitangent}, {"uv", Output::uv},         {"depth", Output::depth},
-    {"error", Output::normal},
-};
+constexpr Named<Output> kShows[] = {{"shaded", Output::shaded},   {"normal", Output::normal},
+                                    {"tangent", Output::tangent}, {"bitangent", Output::bitangent},
+                                    {"uv", Output::uv},           {"depth", Output::depth},
+                                    {"error", Output::normal}};
 
 } // namespace
 

@@ -1,7 +1,6 @@
 #include "cotan/render.hpp"
 
 #include "core/not_built.hpp"
-#include "cotan/view.hpp"
 #include "scene/scene_check.hpp"
 
 namespace cotan {

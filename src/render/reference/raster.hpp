@@ -6,7 +6,6 @@
 #include <cstdint>
 
 #include <glm/vec2.hpp>
-#include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
 
 namespace cotan::reference {

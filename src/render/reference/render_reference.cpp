@@ -4,11 +4,9 @@
 #include <new>
 #include <optional>
 #include <span>
-#include <string>
 #include <utility>
 
 #include "core/loops.hpp"
-#include "cotan/frame.hpp"
 #include "pixel.hpp"
 #include "scene/bounds.hpp"
 #include "scene/geometry.hpp"

@@ -6,7 +6,6 @@
 #include <functional>
 #include <span>
 #include <utility>
-#include <vector>
 
 #include <glm/geometric.hpp>
 

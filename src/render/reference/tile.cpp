@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include "cotan/portable.hpp"
-
 namespace cotan::reference {
 
 Tile::Tile(Rectangle area, const SamplePattern& pattern)

@@ -1,8 +1,4 @@
 // Where the scene can be in the picture, and what is behind and around it: also pictures of light on the device.
-#include <array>
-#include <span>
-#include <utility>
-#include <vector>
 
 #include <glm/gtc/packing.hpp>
 

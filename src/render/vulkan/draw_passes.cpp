@@ -3,11 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cstring>
-#include <optional>
 
-#include "cotan/portable.hpp"
 #include "cotan/vector.hpp"
-#include "scene/environment_map.hpp"
 #include "scene/ground_map.hpp"
 #include "scene/sample_places.hpp"
 

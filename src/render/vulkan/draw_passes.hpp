@@ -4,7 +4,6 @@
 #include <memory>
 #include <optional>
 
-#include "cotan/frame.hpp"
 #include "cotan/render.hpp"
 #include "layers.hpp"
 #include "pipeline.hpp"

@@ -1,8 +1,6 @@
 #include "textures.hpp"
 
 #include <algorithm>
-#include <array>
-#include <cmath>
 
 #include "core/parallel.hpp"
 
