@@ -26,8 +26,7 @@ double usableOr(float value, double otherwise) { return std::isfinite(value) && 
 // From the middle of the raster, at distance 1 or in a plane across the view.
 glm::dvec3 sideways(const Projection& p, double x, double y)
 {
-    // The first two rows are (axis * pixels + forward * half), so their parts along the axes give
-    // the slopes back.
+    // The first two rows are (axis * pixels + forward * half), so their parts along the axes give the slopes back.
     glm::dmat4 rows = glm::transpose(p.toRaster);
     double pixelsX = glm::dot(glm::dvec3(rows[0]), p.right);
     double pixelsY = glm::dot(glm::dvec3(rows[1]), p.up);

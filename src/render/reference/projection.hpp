@@ -40,8 +40,7 @@ Projection cameraProjection(const View& view, const Ball& ball);
 // The same with the middle of each pixel seeing what lies `place` pixels from it in the raster.
 Projection movedBy(Projection projection, glm::dvec2 place);
 
-// A square map of that many texels that looks along `direction` at the whole ball. Positions
-// stay relative to `eye`.
+// A square map of that many texels that looks along `direction` at the whole ball. Positions stay relative to `eye`.
 Projection shadowProjection(glm::dvec3 direction, const Ball& ball, glm::dvec3 eye, int texels);
 
 // The unit direction, in the world, of the view ray through a raster position.

@@ -25,8 +25,7 @@ inline constexpr double kGuardBand = 16384;
 // it, bit for bit. Nothing is left (count 0) of a triangle with a non-finite corner.
 Polygon clip(const std::array<glm::dvec4, 3>& triangle, int width, int height);
 
-// Corners are snapped to 1/256 pixel, as GPUs do, so that both decide alike which pixels a
-// triangle covers.
+// Corners are snapped to 1/256 pixel, as GPUs do, so that both decide alike which pixels a triangle covers.
 inline constexpr int kSubPixels = 256;
 
 // A linear function over the raster, in pixels.
@@ -72,9 +71,8 @@ struct Quad {
     std::array<unsigned, 4> covered{}; // a bit per sample, per pixel; 0: helper lane
 };
 
-// An edge as a function of a raster position in 1/256 pixel: at least zero for what it keeps. A
-// position exactly on an edge belongs to the triangle whose top or left edge it is, which is
-// worked into the constant.
+// An edge as a function of a raster position in 1/256 pixel: at least zero for what it keeps. A position exactly on an
+// edge belongs to the triangle whose top or left edge it is, which is worked into the constant.
 struct Edge {
     std::int64_t x = 0, y = 0, constant = 0;
     std::int64_t at(std::int64_t px, std::int64_t py) const { return x * px + y * py + constant; }

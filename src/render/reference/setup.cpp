@@ -109,10 +109,9 @@ std::vector<Chunk> chunksOf(const std::vector<Draw>& draws)
     return chunks;
 }
 
-// Rows of the inverse of the matrix whose columns are (x, y, w) of the corners: the weight of each
-// vertex divided by w, as functions linear over the raster (Olano and Greer, Triangle Scan
-// Conversion using 2D Homogeneous Coordinates, 1997). They exist also where corners lie behind
-// the eye. False for a triangle that is seen edge-on.
+// Rows of the inverse of the matrix whose columns are (x, y, w) of the corners: the weight of each vertex divided by w,
+// as functions linear over the raster (Olano and Greer, Triangle Scan Conversion using 2D Homogeneous Coordinates,
+// 1997). They exist also where corners lie behind the eye. False for a triangle that is seen edge-on.
 bool makePlanes(const std::array<glm::dvec4, 3>& corner, RasterTriangle& triangle, double& orientation)
 {
     std::array<glm::dvec3, 3> p;
@@ -142,8 +141,7 @@ std::int64_t doubledArea(const std::array<glm::ivec2, 3>& c)
     return std::int64_t(c[1].x - c[0].x) * (c[2].y - c[0].y) - std::int64_t(c[1].y - c[0].y) * (c[2].x - c[0].x);
 }
 
-// The pieces of a triangle as a fan. Their inner edges are shared exactly, so no sample is covered
-// twice.
+// The pieces of a triangle as a fan. Their inner edges are shared exactly, so no sample is covered twice.
 void addPieces(const Polygon& polygon, RasterTriangle triangle, const Projection& projection,
                std::vector<RasterTriangle>& result)
 {

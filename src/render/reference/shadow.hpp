@@ -25,9 +25,8 @@ struct ShadowMap {
 ShadowMap makeShadowMap(const Scene& scene, const View& view, const std::vector<Draw>& draws,
                         const TextureLibrary& textures, glm::vec3 direction, const Ball& ball, glm::dvec3 eye);
 
-// The share of light that arrives, 0..1: nine bilinear comparisons around the point. The point is
-// first moved off its surface along n, and compared with a bias that grows with the slope, both
-// in proportion to a texel.
+// The share of light that arrives, 0..1: nine bilinear comparisons around the point. The point is first moved off its
+// surface along n, and compared with a bias that grows with the slope, both in proportion to a texel.
 // position: relative to the eye of the projection. n: unit, on the side that is seen.
 // toLight: unit.
 float lightReaching(const ShadowMap& map, glm::vec3 position, glm::vec3 n, glm::vec3 toLight);

@@ -24,13 +24,6 @@ glm::vec<N, float> interpolated(const std::vector<glm::vec<N, float>>& values, c
     return glm::vec<N, float>(sum);
 }
 
-// As above, or 0 where the mesh lacks the attribute.
-glm::vec3 interpolatedOrZero(const std::vector<glm::vec3>& values, const RasterTriangle& triangle,
-                             const std::array<double, 3>& weights)
-{
-    return values.empty() ? glm::vec3(0) : interpolated(values, triangle, weights);
-}
-
 std::size_t setOf(const Texture& texture) { return texture.texcoord == 1 ? 1 : 0; }
 
 // The two lanes whose difference a lane takes.
@@ -41,12 +34,12 @@ struct Pair {
 // Fine: along the lane's own row or column. Coarse: along the first row or column for all four.
 Pair alongX(int lane, Derivatives d)
 {
-    int first = d == Derivatives::fine ? lane & 2 : 0;
+    const int first = d == Derivatives::fine ? lane & 2 : 0;
     return {first, first | 1};
 }
 Pair alongY(int lane, Derivatives d)
 {
-    int first = d == Derivatives::fine ? lane & 1 : 0;
+    const int first = d == Derivatives::fine ? lane & 1 : 0;
     return {first, first | 2};
 }
 
@@ -135,7 +128,8 @@ Smooth smoothOf(const SurfaceInputs& in, int lane, const UvDifferences& uv)
     Smooth smooth;
     smooth.dpdx = difference(*in.points, alongX(lane, in.view->derivatives));
     smooth.dpdy = difference(*in.points, alongY(lane, in.view->derivatives));
-    smooth.raw = interpolatedOrZero(in.draw->normals, *in.triangle, in.points->weights[std::size_t(lane)]);
+    if (!in.draw->normals.empty())
+        smooth.raw = interpolated(in.draw->normals, *in.triangle, in.points->weights[std::size_t(lane)]);
     f32::cotan_differences safe = f32::cotan_scale_differences(smooth.dpdx, smooth.dpdy, uv.dx, uv.dy);
     smooth.n = f32::cotan_safe_normal(smooth.raw, safe.dpdx, safe.dpdy);
     return smooth;

@@ -22,8 +22,7 @@ public:
     void clear(const vk::raii::CommandBuffer& commands, std::uint32_t top, std::uint32_t rows) const;
     // Makes what was drawn readable for fragments to come, and the count for the host.
     void finish(const vk::raii::CommandBuffer& commands) const;
-    // How many layers were drawn. Only after the commands have been waited for. Over the capacity, some
-    // were not kept.
+    // How many layers were drawn. Only after the commands have been waited for. Over the capacity, some were not kept.
     std::uint32_t count() const;
 
 private:
