@@ -33,14 +33,9 @@ void addMesh(gpu::CotanDraw& constants, const GpuScene& scene, const GpuMesh& me
         return mesh.has(stream) ? static_cast<glm::uint>((mesh.offsets[stream] - mesh.offsets[kPosition]) / 4) : 0u;
     };
     constants.texcoords = {floatsOn(kTexcoord0), floatsOn(kTexcoord1)};
-    if (mesh.has(kTexcoord0))
-        constants.flags |= COTAN_DRAW_HAS_TEXCOORDS0;
-    if (mesh.has(kTexcoord1))
-        constants.flags |= COTAN_DRAW_HAS_TEXCOORDS1;
-    if (mesh.has(kTangent))
-        constants.flags |= COTAN_DRAW_HAS_TANGENTS;
-    if (mesh.has(kCotangentU) && mesh.has(kCotangentV))
-        constants.flags |= COTAN_DRAW_HAS_COTANGENTS;
+    constants.flags = (mesh.has(kTexcoord0) ? COTAN_DRAW_HAS_TEXCOORDS0 : 0u)
+        | (mesh.has(kTexcoord1) ? COTAN_DRAW_HAS_TEXCOORDS1 : 0u) | (mesh.has(kTangent) ? COTAN_DRAW_HAS_TANGENTS : 0u)
+        | (mesh.has(kCotangentU) && mesh.has(kCotangentV) ? COTAN_DRAW_HAS_COTANGENTS : 0u);
 }
 
 // The maps that a pipeline reads, of those that a material has.

@@ -147,16 +147,13 @@ std::uint32_t mapsOf(const Material& m, const Textures& textures)
     const std::uint32_t both = COTAN_MAP_METALLIC_ROUGHNESS | COTAN_MAP_OCCLUSION;
     if ((maps & both) == both && sameUse(m.metallicRoughnessMap, m.occlusionMap))
         maps = (maps & ~COTAN_MAP_OCCLUSION) | COTAN_MAP_OCCLUSION_SHARED;
-    if (m.coat.strength > 0)
-        maps |= COTAN_LAYER_COAT;
-    if (m.glossy())
-        maps |= COTAN_LAYER_GLOSS;
-    if (m.anisotropy.strength > 0)
-        maps |= COTAN_LAYER_ANISOTROPY;
-    if (m.transmission.strength > 0)
-        maps |= COTAN_LAYER_TRANSMISSION;
-    if (m.sheen.present())
-        maps |= COTAN_LAYER_SHEEN;
+    const std::pair<bool, std::uint32_t> layers[] = {{m.coat.strength > 0, COTAN_LAYER_COAT},
+                                                     {m.glossy(), COTAN_LAYER_GLOSS},
+                                                     {m.anisotropy.strength > 0, COTAN_LAYER_ANISOTROPY},
+                                                     {m.transmission.strength > 0, COTAN_LAYER_TRANSMISSION},
+                                                     {m.sheen.present(), COTAN_LAYER_SHEEN}};
+    for (const auto& [there, layer] : layers)
+        maps |= there ? layer : 0u;
     return maps;
 }
 
