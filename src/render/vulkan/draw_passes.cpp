@@ -20,10 +20,9 @@ glm::uvec2 split(vk::DeviceAddress address)
     return {static_cast<glm::uint>(address), static_cast<glm::uint>(address >> 32)};
 }
 
-// Addresses and flags of CotanDraw.
-void addMesh(gpu::CotanDraw& constants, const GpuScene& scene, const GpuMesh& mesh)
+// Addresses and flags of CotanDraw. base: of the buffer that the mesh lies in; 0: nobody asks for it.
+void addMesh(gpu::CotanDraw& constants, vk::DeviceAddress base, const GpuMesh& mesh)
 {
-    const vk::DeviceAddress base = scene.buffers[mesh.buffer].address;
     if (base != 0) {
         constants.positions = split(base + mesh.offsets[kPosition]);
         constants.indices = split(base + mesh.indices);
@@ -103,7 +102,9 @@ CommandRecorder::DrawLists CommandRecorder::makeLists(const GpuScene& scene, con
         item.mesh = &scene.meshes[instance.mesh];
         item.material = &scene.materials[std::size_t(item.mesh->material)];
         item.constants = drawConstants(instance.toWorld, axes.eye);
-        addMesh(item.constants, scene, *item.mesh);
+        const Buffer& buffer = scene.buffers[item.mesh->buffer];
+        item.buffer = *buffer.buffer;
+        addMesh(item.constants, buffer.address, *item.mesh);
         // A mirroring matrix and a raster whose rows run upward each turn the winding round.
         item.clockwise = (item.constants.normalX.w < 0) != view.rowsUpward;
         item.distance =
@@ -139,8 +140,11 @@ void CommandRecorder::prepare(const View& view, const CameraAxes& axes, const gp
         environment_.hold(*device_, view.environmentMap, view.environmentMap->atlas);
     if (view.ground)
         ground_.hold(*device_, view.ground, view.ground->shares);
-    if (layered)
-        prepareLayers();
+    const std::uint32_t width = targets_->kind().width;
+    if (layered && !(layers_ && layers_->width() == width)) {
+        layers_.reset(); // its memory may be needed for the new ones
+        layers_ = std::make_unique<LayerLists>(*device_, width);
+    }
     writePictureSet(layered);
 }
 
@@ -180,21 +184,6 @@ void CommandRecorder::writePictureSet(bool layered)
     write(pictureSet_, shadow, environment);
     write(composeSet_, layered && targets_->multisampled() ? depth : shadow,
           targets_->resolves() ? samples : environment);
-}
-
-void CommandRecorder::drawItem(const vk::raii::CommandBuffer& commands, const GpuScene& scene, const Item& item) const
-{
-    const GpuMesh& mesh = *item.mesh;
-    commands.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, layouts_->pipelineOf(item.material->extended()), 1,
-                                item.material->set, {});
-    std::array<vk::Buffer, kStreamCount> buffers;
-    buffers.fill(*scene.buffers[mesh.buffer].buffer);
-    // Every range ends with its buffer; the sizes are only stated to be allowed to give strides.
-    commands.bindVertexBuffers2(0, buffers, mesh.offsets, {}, mesh.strides);
-    commands.bindIndexBuffer(buffers[0], mesh.indices, vk::IndexType::eUint32);
-    commands.pushConstants<gpu::CotanDraw>(layouts_->pipelineOf(item.material->extended()), kBothStages, 0,
-                                           item.constants);
-    commands.drawIndexed(mesh.indexCount, 1, 0, 0, 0);
 }
 
 // What draws that one in the pass of the key.
@@ -239,8 +228,8 @@ void CommandRecorder::beginPipelines(const DrawLists& lists, const View& view, b
     pipelines_.begin(keys);
 }
 
-void CommandRecorder::drawItems(const vk::raii::CommandBuffer& commands, const GpuScene& scene,
-                                const std::vector<Item>& items, PipelineKey key)
+void CommandRecorder::drawItems(const vk::raii::CommandBuffer& commands, const std::vector<Item>& items,
+                                PipelineKey key)
 {
     std::optional<PipelineKey> bound;
     for (const Item& item : items) {
@@ -251,7 +240,16 @@ void CommandRecorder::drawItems(const vk::raii::CommandBuffer& commands, const G
         const bool both = isShadow(key.pass) || item.material->doubleSided;
         commands.setCullMode(both ? vk::CullModeFlagBits::eNone : vk::CullModeFlagBits::eBack);
         commands.setFrontFace(item.clockwise ? vk::FrontFace::eClockwise : vk::FrontFace::eCounterClockwise);
-        drawItem(commands, scene, item);
+        const GpuMesh& mesh = *item.mesh;
+        const vk::PipelineLayout layout = layouts_->pipelineOf(item.material->extended());
+        commands.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, layout, 1, item.material->set, {});
+        std::array<vk::Buffer, kStreamCount> buffers;
+        buffers.fill(item.buffer);
+        // Every range ends with its buffer; the sizes are only stated to be allowed to give strides.
+        commands.bindVertexBuffers2(0, buffers, mesh.offsets, {}, mesh.strides);
+        commands.bindIndexBuffer(item.buffer, mesh.indices, vk::IndexType::eUint32);
+        commands.pushConstants<gpu::CotanDraw>(layout, kBothStages, 0, item.constants);
+        commands.drawIndexed(mesh.indexCount, 1, 0, 0, 0);
     }
 }
 
@@ -282,8 +280,8 @@ void CommandRecorder::prepareShadowMap(bool needed)
 }
 
 // Kept from one picture to the next, as long as it shows the same.
-void CommandRecorder::recordShadow(const vk::raii::CommandBuffer& commands, const GpuScene& scene,
-                                   const DrawLists& lists, const ShadowView& shown)
+void CommandRecorder::recordShadow(const vk::raii::CommandBuffer& commands, const DrawLists& lists,
+                                   const ShadowView& shown)
 {
     if (shadowDrawn_ == shown)
         return;
@@ -304,9 +302,9 @@ void CommandRecorder::recordShadow(const vk::raii::CommandBuffer& commands, cons
         commands.beginRendering(vk::RenderingInfo({}, area, 1, 0, 0, nullptr, &depth));
         commands.setViewport(0, vk::Viewport(0, 0, kShadowSize, kShadowSize, 0.0f, 1.0f));
         commands.setScissor(0, area);
-        drawItems(commands, scene, lists.opaque, {.pass = Pass::shadow});
-        drawItems(commands, scene, lists.mask, {.pass = Pass::shadowMask});
-        drawItems(commands, scene, lists.veils, {.pass = Pass::shadowMask});
+        drawItems(commands, lists.opaque, {.pass = Pass::shadow});
+        drawItems(commands, lists.mask, {.pass = Pass::shadowMask});
+        drawItems(commands, lists.veils, {.pass = Pass::shadowMask});
         commands.endRendering();
     }
     transition(commands, *shadowMap_.image, kDepth, vk::ImageLayout::eDepthAttachmentOptimal,
@@ -315,17 +313,16 @@ void CommandRecorder::recordShadow(const vk::raii::CommandBuffer& commands, cons
 }
 
 // Everything that writes depth, and the background.
-void CommandRecorder::recordPicture(const vk::raii::CommandBuffer& commands, const GpuScene& scene,
-                                    const DrawLists& lists, const View& view)
+void CommandRecorder::recordPicture(const vk::raii::CommandBuffer& commands, const DrawLists& lists, const View& view)
 {
     const PipelineKey key = forwardKey(view, *targets_);
     const bool shaded = view.output == Output::shaded;
-    drawItems(commands, scene, lists.opaque, key);
-    drawItems(commands, scene, lists.mask, key);
+    drawItems(commands, lists.opaque, key);
+    drawItems(commands, lists.mask, key);
     if (shaded && (view.background || view.ground))
         drawOver(commands, backgroundKey(view));
     if (!shaded)
-        drawItems(commands, scene, lists.translucent, key);
+        drawItems(commands, lists.translucent, key);
 }
 
 const vk::raii::CommandBuffer& CommandRecorder::begin()

@@ -48,6 +48,7 @@ private:
     struct Item {
         gpu::CotanDraw constants{};
         const GpuMesh* mesh = nullptr;
+        vk::Buffer buffer; // that the mesh lies in
         const GpuMaterial* material = nullptr;
         bool clockwise = false; // front faces run clockwise over the raster
         double distance = 0;    // of the centre from the eye
@@ -69,12 +70,9 @@ private:
     void beginPipelines(const DrawLists& lists, const View& view, bool layered);
     void prepare(const View& view, const CameraAxes& axes, const gpu::CotanView& constants, bool layered);
     void prepareShadowMap(bool needed);
-    void prepareLayers();
     void writePictureSet(bool layered);
-    void recordShadow(const vk::raii::CommandBuffer& commands, const GpuScene& scene, const DrawLists& lists,
-                      const ShadowView& shown);
-    void recordPicture(const vk::raii::CommandBuffer& commands, const GpuScene& scene, const DrawLists& lists,
-                       const View& view);
+    void recordShadow(const vk::raii::CommandBuffer& commands, const DrawLists& lists, const ShadowView& shown);
+    void recordPicture(const vk::raii::CommandBuffer& commands, const DrawLists& lists, const View& view);
     static PipelineKey keyOf(PipelineKey key, const Item& item);
     PipelineKey layersKey(const View& view) const;
     PipelineKey composeKey() const;
@@ -85,12 +83,10 @@ private:
     void finish(const vk::raii::CommandBuffer& commands, const PixelArea& area);
     void drawOver(const vk::raii::CommandBuffer& commands, const PipelineKey& key);
     const vk::raii::CommandBuffer& begin();
-    Status drawLayers(const GpuScene& scene, const DrawLists& lists, const View& view);
-    std::uint32_t keepLayers(const GpuScene& scene, const DrawLists& lists, const View& view, const vk::Rect2D& band);
+    Status drawLayers(const DrawLists& lists, const View& view);
+    std::uint32_t keepLayers(const DrawLists& lists, const View& view, const vk::Rect2D& band);
     void composeLayers(const vk::Rect2D& band);
-    void drawItem(const vk::raii::CommandBuffer& commands, const GpuScene& scene, const Item& item) const;
-    void drawItems(const vk::raii::CommandBuffer& commands, const GpuScene& scene, const std::vector<Item>& items,
-                   PipelineKey key);
+    void drawItems(const vk::raii::CommandBuffer& commands, const std::vector<Item>& items, PipelineKey key);
 
     const Device* device_;
     const Layouts* layouts_;

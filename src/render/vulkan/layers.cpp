@@ -68,15 +68,6 @@ std::uint32_t LayerLists::count() const
     return count;
 }
 
-void CommandRecorder::prepareLayers()
-{
-    const std::uint32_t width = targets_->kind().width;
-    if (layers_ && layers_->width() == width)
-        return;
-    layers_.reset(); // its memory may be needed for the new ones
-    layers_ = std::make_unique<LayerLists>(*device_, width);
-}
-
 PipelineKey CommandRecorder::layersKey(const View& view) const
 {
     PipelineKey key = forwardKey(view, *targets_);
@@ -91,13 +82,12 @@ PipelineKey CommandRecorder::composeKey() const
 }
 
 // Draws the translucent fragments of a band into their lists; returns how many there are.
-std::uint32_t CommandRecorder::keepLayers(const GpuScene& scene, const DrawLists& lists, const View& view,
-                                          const vk::Rect2D& band)
+std::uint32_t CommandRecorder::keepLayers(const DrawLists& lists, const View& view, const vk::Rect2D& band)
 {
     const vk::raii::CommandBuffer& commands = begin();
     layers_->clear(commands, static_cast<std::uint32_t>(band.offset.y), band.extent.height);
     targets_->beginLayers(commands, band);
-    drawItems(commands, scene, lists.translucent, layersKey(view));
+    drawItems(commands, lists.translucent, layersKey(view));
     commands.endRendering();
     layers_->finish(commands);
     commands_.submitAndWait();
@@ -121,7 +111,7 @@ void CommandRecorder::composeLayers(const vk::Rect2D& band)
 }
 
 // The picture in bands of rows that are low enough for their layers to find room.
-Status CommandRecorder::drawLayers(const GpuScene& scene, const DrawLists& lists, const View& view)
+Status CommandRecorder::drawLayers(const DrawLists& lists, const View& view)
 {
     const PixelArea& area = lists.translucentArea;
     const auto width = static_cast<std::uint32_t>(area.x1 - area.x0), end = static_cast<std::uint32_t>(area.y1);
@@ -129,7 +119,7 @@ Status CommandRecorder::drawLayers(const GpuScene& scene, const DrawLists& lists
     for (auto top = static_cast<std::uint32_t>(area.y0); top < end && width > 0;) {
         const std::uint32_t height = std::min(rows, end - top);
         const vk::Rect2D band({area.x0, std::int32_t(top)}, {width, height});
-        const std::uint32_t count = keepLayers(scene, lists, view, band);
+        const std::uint32_t count = keepLayers(lists, view, band);
         if (count <= layers_->capacity()) {
             composeLayers(band);
             top += height;

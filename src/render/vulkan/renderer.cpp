@@ -131,15 +131,15 @@ Result<Image> CommandRecorder::drawOnce(GpuScene& scene, const View& view, std::
 
     const auto start = std::chrono::steady_clock::now();
     const vk::raii::CommandBuffer& commands = begin();
-    recordShadow(commands, scene, lists, {constants.shadowX, constants.shadowY, constants.shadowZ, view.pointSampled});
+    recordShadow(commands, lists, {constants.shadowX, constants.shadowY, constants.shadowZ, view.pointSampled});
     if (targets_->resolves())
         recordSurround(commands, view, area);
     targets_->begin(commands, rectangle(area), layered);
-    recordPicture(commands, scene, lists, view);
+    recordPicture(commands, lists, view);
     if (layered) {
         targets_->endOpaque(commands);
         commands_.submitAndWait();
-        if (const Status ok = drawLayers(scene, lists, view); !ok)
+        if (const Status ok = drawLayers(lists, view); !ok)
             return ok.error();
         finish(begin(), area);
     } else {
