@@ -6,17 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include "cotanComposeFrag.h"
-#include "cotanComposeMultisampledFrag.h"
-#include "cotanForwardExactExtendedFrag.h"
-#include "cotanForwardExactExtendedLayersFrag.h"
-#include "cotanForwardExactFrag.h"
-#include "cotanForwardExactLayersFrag.h"
-#include "cotanForwardExtendedFrag.h"
-#include "cotanForwardExtendedMaskedFrag.h"
-#include "cotanForwardFrag.h"
-#include "cotanForwardLayersFrag.h"
-#include "cotanForwardVert.h"
+#include "cotan_shaders.h"
 #include "gpu_structs.hpp"
 
 namespace cotan {

@@ -6,28 +6,7 @@
 #include <memory>
 
 #include "core/parallel.hpp"
-#include "cotanBackgroundFrag.h"
-#include "cotanBackgroundVert.h"
-#include "cotanComposeFrag.h"
-#include "cotanComposeMultisampledFrag.h"
-#include "cotanComposeVert.h"
-#include "cotanForwardExactExtendedFrag.h"
-#include "cotanForwardExactExtendedLayersFrag.h"
-#include "cotanForwardExactExtendedMaskedFrag.h"
-#include "cotanForwardExactFrag.h"
-#include "cotanForwardExactLayersFrag.h"
-#include "cotanForwardExactMaskedFrag.h"
-#include "cotanForwardExtendedFrag.h"
-#include "cotanForwardExtendedLayersFrag.h"
-#include "cotanForwardExtendedMaskedFrag.h"
-#include "cotanForwardFrag.h"
-#include "cotanForwardLayersFrag.h"
-#include "cotanForwardMaskedFrag.h"
-#include "cotanForwardVert.h"
-#include "cotanResolveFrag.h"
-#include "cotanResolveMultisampledFrag.h"
-#include "cotanShadowFrag.h"
-#include "cotanShadowVert.h"
+#include "cotan_shaders.h"
 #include "gpu_structs.hpp"
 #include "scene/sample_places.hpp"
 #include "scene_upload.hpp"
@@ -51,20 +30,20 @@ struct Specialization {
     vk::SpecializationInfo info;
 
     explicit Specialization(const PipelineKey& key)
-        : values{static_cast<std::uint32_t>(key.frame),
-                 static_cast<std::uint32_t>(key.output),
-                 static_cast<std::uint32_t>(key.shading),
-                 static_cast<std::uint32_t>(key.alphaMode),
+        : values{std::uint32_t(key.frame),
+                 std::uint32_t(key.output),
+                 std::uint32_t(key.shading),
+                 std::uint32_t(key.alphaMode),
                  key.coarse,
                  key.normalMaps,
                  key.environment,
                  key.shadows,
                  key.toneMap,
                  key.maps,
-                 static_cast<std::uint32_t>(key.tone),
+                 std::uint32_t(key.tone),
                  key.environmentMap,
                  key.softShadows,
-                 static_cast<std::uint32_t>(key.backdrop),
+                 std::uint32_t(key.backdrop),
                  key.ground,
                  key.samples != vk::SampleCountFlagBits::e1,
                  key.specularAntialiasing,
@@ -73,8 +52,7 @@ struct Specialization {
     {
         for (std::uint32_t i = 0; i < entries.size(); ++i)
             entries[i] = vk::SpecializationMapEntry(i, i * 4, 4);
-        info = vk::SpecializationInfo(static_cast<std::uint32_t>(entries.size()), entries.data(), sizeof values,
-                                      values.data());
+        info = vk::SpecializationInfo(std::uint32_t(entries.size()), entries.data(), sizeof values, values.data());
     }
     Specialization(const Specialization&) = delete; // info points into this
 };
