@@ -3,7 +3,7 @@
 // both, by area, is the surface's normal. A ray sees one of them, by the area that faces it, and goes from one to the
 // other until it leaves: nothing is lost. The shadowing of NormalMapping::shadowed is that of A. Conty Estevez,
 // P. Lecocq, C. Stein, A Microfacet-Based Shadowing Function to Solve the Bump Terminator Problem, 2019.
-#include "facets.hpp"
+#include "reference_light.hpp"
 
 #include <algorithm>
 #include <array>
@@ -86,22 +86,20 @@ float nextRandom(std::uint32_t& state) // M. O'Neill's PCG, RXS-M-XS
 class FacetMaterial {
 public:
     FacetMaterial(const f32::cotan_surface& s, const f32::cotan_gloss& gloss)
-        : roughness_(std::max(s.roughness, 0.045f))
+        : roughness_(std::max(s.roughness, 0.045f)), lobes_{{.f0 = gloss.f0,
+                                                             .f90 = gloss.f90,
+                                                             .weight = 1 - s.metallic,
+                                                             .tint = s.base_color * (1 - gloss.transmission),
+                                                             .white = std::max({gloss.f0.x, gloss.f0.y, gloss.f0.z})},
+                                                            {.f0 = s.base_color, .weight = s.metallic}}
     {
-        Lobe &dielectric = lobes_[0], &metal = lobes_[1];
-        dielectric.f0 = gloss.f0;
-        dielectric.f90 = gloss.f90;
-        dielectric.weight = 1 - s.metallic;
-        dielectric.tint = s.base_color * (1 - gloss.transmission);
-        dielectric.white = std::max({gloss.f0.x, gloss.f0.y, gloss.f0.z});
-        metal.f0 = s.base_color;
-        metal.weight = s.metallic;
         constexpr int kSteps = 32;
         for (int i = 0; i < kSteps; ++i)
             for (Lobe& lobe : lobes_) {
                 const float nv = (float(i) + 0.5f) / kSteps;
                 lobe.mean += 2 * nv * albedo(lobe, factors(nv)) / kSteps;
             }
+        Lobe& metal = lobes_[1];
         const glm::vec3 once = metal.f0 + (1.0f - metal.f0) / 21.0f; // Schlick's term, its mean over the cosine
         metal.tint = once * once * metal.mean / (1.0f - once * (1 - metal.mean));
     }

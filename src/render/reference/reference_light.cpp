@@ -7,7 +7,6 @@
 
 #include <glm/geometric.hpp>
 
-#include "facets.hpp"
 #include "scene/environment_map.hpp"
 
 namespace cotan::reference {

@@ -71,4 +71,26 @@ glm::vec3 radianceOf(const f32::cotan_surface& surface, const Layers& layers, co
 // The factors, by colour, of what is behind a surface that transmits.
 glm::vec3 transmittanceOf(const f32::cotan_surface& surface, const Layers& layers);
 
+// ---- what a turned normal does to light on rays: classic normal mapping, and two facets of a surface (facets.cpp)
+// ----
+
+// Light from one direction, of that irradiance perpendicular to it.
+struct ArrivingLight {
+    glm::vec3 toLight{0};
+    glm::vec3 irradiance{0};
+};
+
+// A point seen by rays. All in the world.
+struct FacetPoint {
+    f32::cotan_surface surface; // its n is the turned normal
+    f32::cotan_gloss gloss;     // even highlights: anisotropy counts as 0
+    glm::vec3 normal{0};        // not turned, unit, on the eye's side
+    std::uint32_t seed = 0;     // of the random numbers
+};
+
+// Linear radiance towards the eye of what lights and, where the view has one, the environment give, by one of
+// View::normalMapping's ways but `shading`: the mean of 64 walks. Emission is not in it.
+// A direction to the eye below the surface counts as one along it.
+glm::vec3 radianceByRays(const FacetPoint& point, const View& view, const std::vector<ArrivingLight>& lights);
+
 } // namespace cotan::reference

@@ -1,4 +1,5 @@
-// One picture from what is recorded: the samples of its pixels drawn at once, or one after the other.
+// The Vulkan renderer, and one picture from what is recorded: the samples of its pixels drawn at once, or one after the
+// other.
 #include "cotan/render.hpp"
 
 #include <algorithm>

@@ -36,7 +36,7 @@ public:
     void beginSurround(const vk::raii::CommandBuffer& commands);
     // Starts drawing in the area: cleared to 0 (depth is reversed, so 0 is far away); ends with endOpaque where
     // translucent layers follow, else with endRendering.
-    void begin(const vk::raii::CommandBuffer& commands, const vk::Rect2D& area, bool layersFollow = false);
+    void begin(const vk::raii::CommandBuffer& commands, const vk::Rect2D& area, bool layersFollow);
     // Ends drawing that began with layersFollow: the depth can be read from here on.
     void endOpaque(const vk::raii::CommandBuffer& commands);
     // Starts fragments that write no target and are tested against the depth; ends with endRendering.
