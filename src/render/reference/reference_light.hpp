@@ -71,8 +71,8 @@ glm::vec3 radianceOf(const f32::cotan_surface& surface, const Layers& layers, co
 // The factors, by colour, of what is behind a surface that transmits.
 glm::vec3 transmittanceOf(const f32::cotan_surface& surface, const Layers& layers);
 
-// ---- what a turned normal does to light on rays: classic normal mapping, and two facets of a surface (facets.cpp)
-// ----
+// ---- light on rays: classic normal mapping, and two facets that make a surface of a turned normal
+// --------------------
 
 // Light from one direction, of that irradiance perpendicular to it.
 struct ArrivingLight {
