@@ -283,11 +283,7 @@ void GpuScene::loadMaterials(const Scene& scene, const Layouts& layouts, Uploade
             maps_[i][k++] = {use.texture->sampler, textures_.view(use)};
 
         GpuMaterial& gpu = materials[i];
-        gpu.alphaMode = m.alphaMode;
-        gpu.doubleSided = m.doubleSided;
-        gpu.translucent = m.translucent();
-        gpu.throwsShadow = m.throwsShadow();
-        gpu.maps = mapsOf(m, textures_);
+        gpu = {m.alphaMode, m.doubleSided, m.translucent(), m.throwsShadow(), mapsOf(m, textures_), {}};
         gpu.set = allocateSet(*device_, pool_, layouts.materialOf(gpu.extended()));
         const vk::DescriptorBufferInfo buffer(*materialBuffer_.buffer, i * stride, sizeof(gpu::CotanMaterial));
         device_->device.updateDescriptorSets(

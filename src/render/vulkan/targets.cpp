@@ -20,15 +20,6 @@ vk::DeviceSize bytesPerPixel(vk::Format format)
     return format == vk::Format::eR32G32B32A32Sfloat ? 16 : format == vk::Format::eR16G16B16A16Sfloat ? 8 : 4;
 }
 
-TextureInfo attachmentInfo(const Targets::Kind& kind)
-{
-    TextureInfo info;
-    info.format = kind.format;
-    info.extent = vk::Extent2D(kind.width, kind.height);
-    info.samples = kind.samples;
-    return info;
-}
-
 } // namespace
 
 vk::DeviceSize Targets::bytes(const Kind& kind)
@@ -40,23 +31,26 @@ vk::DeviceSize Targets::bytes(const Kind& kind)
 
 Targets::Targets(const Device& device, const Kind& kind) : memory_(device), kind_(kind)
 {
-    TextureInfo info = attachmentInfo(kind);
-    info.usage = vk::ImageUsageFlagBits::eColorAttachment;
-    info.usage |= resolves() ? vk::ImageUsageFlagBits::eSampled : vk::ImageUsageFlagBits::eTransferSrc;
-    color_ = makeTexture(device, memory_, info);
-    if (resolves()) {
-        info.format = kind.shown;
-        info.samples = vk::SampleCountFlagBits::e1;
-        info.usage = vk::ImageUsageFlagBits::eColorAttachment | vk::ImageUsageFlagBits::eTransferSrc;
-        resolved_ = makeTexture(device, memory_, info);
-    }
-    TextureInfo depth = attachmentInfo(kind);
-    depth.format = vk::Format::eD32Sfloat;
-    depth.usage = vk::ImageUsageFlagBits::eDepthStencilAttachment;
+    using Usage = vk::ImageUsageFlagBits;
+    const vk::Extent2D extent(kind.width, kind.height);
+    color_ = makeTexture(device, memory_,
+                         {.format = kind.format,
+                          .extent = extent,
+                          .samples = kind.samples,
+                          .usage = Usage::eColorAttachment | (resolves() ? Usage::eSampled : Usage::eTransferSrc)});
+    if (resolves())
+        resolved_ = makeTexture(
+            device, memory_,
+            {.format = kind.shown, .extent = extent, .usage = Usage::eColorAttachment | Usage::eTransferSrc});
+    vk::ImageUsageFlags depthUsage = Usage::eDepthStencilAttachment;
     if (multisampled()) // then the hidden samples of translucent layers are found by it
-        depth.usage |= vk::ImageUsageFlagBits::eSampled;
-    depth.aspect = vk::ImageAspectFlagBits::eDepth;
-    depth_ = makeTexture(device, memory_, depth);
+        depthUsage |= Usage::eSampled;
+    depth_ = makeTexture(device, memory_,
+                         {.format = vk::Format::eD32Sfloat,
+                          .extent = extent,
+                          .samples = kind.samples,
+                          .usage = depthUsage,
+                          .aspect = vk::ImageAspectFlagBits::eDepth});
     readBack_ = makeHostBuffer(device, memory_, vk::DeviceSize(kind.width) * kind.height * bytesPerPixel(kind.shown),
                                vk::BufferUsageFlagBits::eTransferDst, /*readBack*/ true);
 }
