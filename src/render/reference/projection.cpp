@@ -21,8 +21,6 @@ glm::dmat4 fromRows(glm::dvec4 x, glm::dvec4 y, glm::dvec4 z, glm::dvec4 w)
     return glm::transpose(glm::dmat4(x, y, z, w));
 }
 
-double usableOr(float value, double otherwise) { return std::isfinite(value) && value > 0 ? double(value) : otherwise; }
-
 // From the middle of the raster, at distance 1 or in a plane across the view.
 glm::dvec3 sideways(const Projection& p, double x, double y)
 {
@@ -58,11 +56,11 @@ Projection cameraProjection(const View& view, const Ball& ball)
     double pixels; // per unit of slope, or of length
     glm::dvec4 z, w;
     if (camera.orthographic) {
-        pixels = view.height / usableOr(camera.verticalExtent, 2);
+        pixels = view.height / double(camera.verticalExtent);
         z = glm::dvec4(-p.forward / (reach * 1.01), 1);
         w = {0, 0, 0, 1};
     } else {
-        double angle = std::min(usableOr(camera.verticalFieldOfView, 0.785398), 3.1);
+        double angle = std::min(double(camera.verticalFieldOfView), 3.1);
         pixels = halfHeight / std::tan(0.5 * angle);
         z = {0, 0, 0, 1e-4 * reach};
         w = glm::dvec4(p.forward, 0);

@@ -32,9 +32,8 @@ struct Ball {
 // The sphere around the box of all finite vertex positions; the default one if there are none.
 Ball boundingBall(const Scene& scene);
 
-// The view's camera. The near plane lies at 1e-4 of the distance to the far side of the ball, so
-// that models seen from inside are cut as late as possible. Degenerate cameras (no direction, up
-// along it, no field of view) are replaced by the nearest usable ones.
+// The view's camera; checkView has passed the view. The near plane lies at 1e-4 of the distance to the far side of the
+// ball, so that models seen from inside are cut as late as possible.
 Projection cameraProjection(const View& view, const Ball& ball);
 
 // The same with the middle of each pixel seeing what lies `place` pixels from it in the raster.

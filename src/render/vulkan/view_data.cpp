@@ -19,11 +19,6 @@ using glm::dvec3;
 
 constexpr double kShortest = 1e-30; // a vector that has a direction
 
-double positiveOr(float value, double otherwise)
-{
-    return std::isfinite(value) && value > 0 ? double(value) : otherwise;
-}
-
 gpu::vec4 row(const dvec3& v, double w) { return gpu::vec4(float(v.x), float(v.y), float(v.z), float(w)); }
 
 std::array<dvec3, 8> corners(const Bounds& b)
@@ -67,8 +62,8 @@ void cameraRows(gpu::CotanView& g, const View& view, const CameraAxes& axes, con
 {
     const bool flat = view.camera.orthographic;
     // Of the picture: a length, or the tangent of an angle.
-    const double halfY = flat ? positiveOr(view.camera.verticalExtent, 2) / 2
-                              : std::tan(std::min(positiveOr(view.camera.verticalFieldOfView, 0.785398), 3.1) / 2);
+    const double halfY = flat ? double(view.camera.verticalExtent) / 2
+                              : std::tan(std::min(double(view.camera.verticalFieldOfView), 3.1) / 2);
     const double halfX = halfY * view.width / view.height;
     const double down = view.rowsUpward ? 1 : -1; // Vulkan's clip y points down the raster
     g.clipX = row(axes.right / halfX, 0);
