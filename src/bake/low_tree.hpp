@@ -12,7 +12,7 @@
 
 namespace cotan {
 
-// Triangles in Embree's acceleration structure, for single questions from several threads.
+// Triangles in Embree's acceleration structure, for single questions from several threads. Copies share them.
 class LowTree {
 public:
     // positions, indices: of the triangles, copied. shown: one a triangle: the part of the high surface that it shows,
@@ -20,10 +20,6 @@ public:
     // memory does not suffice, or without Embree.
     static Result<LowTree> make(std::vector<glm::vec3> positions, std::vector<std::uint32_t> indices,
                                 std::vector<std::int64_t> shown, int threads);
-
-    LowTree(LowTree&&) noexcept;
-    LowTree& operator=(LowTree&&) noexcept;
-    ~LowTree();
 
     struct Nearest {
         bool found = false;
@@ -53,16 +49,14 @@ public:
     // The same, of those that show something that `triangle` shows too.
     Met firstBeside(std::uint32_t triangle, Ray ray) const;
 
-    glm::vec3 corner(std::uint32_t triangle, std::size_t i) const;
     // Unit, by the order of the corners; zero without area.
     glm::vec3 face(std::uint32_t triangle) const;
-    std::size_t triangleCount() const;
 
 private:
     struct State;
-    explicit LowTree(std::unique_ptr<State> state);
+    explicit LowTree(std::shared_ptr<const State> state) : state_(std::move(state)) {}
     Nearest nearestOf(glm::vec3 to, float radius, const void* accepts, bool (*call)(const void*, std::uint32_t)) const;
-    std::unique_ptr<State> state_;
+    std::shared_ptr<const State> state_;
 };
 
 } // namespace cotan
