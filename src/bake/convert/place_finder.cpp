@@ -68,7 +68,7 @@ void PlaceFinder::findRow(const Layer& layer, int y, std::vector<std::vector<Fou
         };
     UvRow row;
     for (int j = 0; j < foldV; ++j) {
-        layer.raster->row(j == 0 ? y : 2 * height_ - 1 - y, UvReach::gaps, row, few);
+        layer.raster->row(j == 0 ? y : 2 * height_ - 1 - y, row, few);
         for (int x = 0; x < width_ * foldU; ++x) {
             auto& texel = texels[std::size_t(x < width_ ? x : 2 * width_ - 1 - x)];
             for (std::uint32_t i = row.first[std::size_t(x)]; i < row.first[std::size_t(x) + 1]; ++i) {
