@@ -175,10 +175,7 @@ private:
             const auto stored = decodeImage(file->bytes, field, options_.limits);
             if (!stored)
                 return stored.error();
-            std::vector<const MapUse*> all;
-            for (const MapUse& use : *uses)
-                all.push_back(&use);
-            const ValueSummary lossy = mapError(*map, *stored, all, options_.frames, expansions.written);
+            const ValueSummary lossy = mapError(*map, *stored, *uses, options_.frames, expansions.written);
             if (lossy.mean <= std::max(kSeen, 0.5 * unconverted.mean)) {
                 done.figures.error = lossy;
             } else { // else converting would be for nothing
@@ -222,10 +219,7 @@ private:
     // How far the old map is off when it is read with the new frame.
     ValueSummary errorAsItIs(const Image& map, const std::vector<MapUse>& uses) const
     {
-        std::vector<const MapUse*> all;
-        for (const MapUse& use : uses)
-            all.push_back(&use);
-        return mapErrors(map, map, all, {&options_.frames, 1}, {}, pointsOfEach(surfaces_)).front();
+        return mapErrors(map, map, uses, {&options_.frames, 1}, {}, pointsOfEach(surfaces_)).front();
     }
 
     // Rows of texels under all triangles, those of a surface once.

@@ -107,10 +107,9 @@ Result<Mesh> meshFor(const GltfDocument& document, std::size_t m, std::size_t p,
 // The surface on which a map is read; slot: which the mesh is for (meshFor).
 MappedSurface surfaceFor(const std::shared_ptr<const Mesh>& mesh, NormalSlot slot, const FrameSet& frames)
 {
-    const glm::dmat3 asItStands(1);
     return slot == NormalSlot::coat
-        ? makeCoatSurface(mesh, Texture{}, Texture{.image = 0, .texcoord = 1, .sampler = {}}, asItStands, frames)
-        : makeSurface(mesh, Texture{}, asItStands, frames);
+        ? makeCoatSurface(mesh, Texture{}, Texture{.image = 0, .texcoord = 1, .sampler = {}}, frames)
+        : makeSurface(mesh, Texture{}, glm::dmat3(1), frames);
 }
 
 // One primitive with one of its materials, added to the job of a normal map of that material.

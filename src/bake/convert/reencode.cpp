@@ -9,7 +9,6 @@
 
 #include "bake/convert/solve_texel.hpp"
 #include "bake/lint/texel.hpp"
-#include "bake/lint/value_summary.hpp"
 #include "bake/surface/nearest_texels.hpp"
 #include "core/loops.hpp"
 #include "place_finder.hpp"
@@ -84,11 +83,8 @@ public:
         }
         result_.moved = summaryOf(std::move(moved_));
         result_.disagreement = summaryOf(std::move(disagreement_));
-        std::vector<const MapUse*> shown;
-        for (const MapUse& use : uses_)
-            shown.push_back(&use);
-        result_.unconverted = mapError(map_, map_, shown, frames_);
-        result_.error = mapError(map_, result_.image, shown, frames_, expansion_);
+        result_.unconverted = mapError(map_, map_, uses_, frames_);
+        result_.error = mapError(map_, result_.image, uses_, frames_, expansion_);
         return std::move(result_);
     }
 

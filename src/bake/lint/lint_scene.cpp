@@ -2,16 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <map>
 #include <memory>
+#include <utility>
 
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 
 #include "bake/lint/map_fit.hpp"
-#include "bake/lint/texel.hpp"
 #include "lint_parts.hpp"
 #include "scene/bounds.hpp"
 #include "scene/meant_frame.hpp"
@@ -80,8 +79,10 @@ Frame madeFor(const Material& material) { return material.normalFrame.value_or(F
 // What lint reads at vertices: the maps' own frame, and the one of those that may be advised that needs it.
 FrameSet framesOfLint(const Material& material)
 {
-    FrameSet frames = frameSet({Frame::mikktspace, Frame::smooth});
-    return frames.set(std::size_t(madeFor(material)));
+    FrameSet frames;
+    for (const Frame frame : {Frame::mikktspace, Frame::smooth, madeFor(material)})
+        frames.set(std::size_t(frame));
+    return frames;
 }
 
 // Tells how much is done, in triangles, and remembers a wish to stop.
@@ -200,11 +201,8 @@ void addMaps(LintReport& report, const Scene& scene)
     }
 }
 
-// A clear coat's map, as a primitive reads it.
-struct CoatUse {
-    int image = -1;
-    MapUse use;
-};
+// A clear coat's image, and how a primitive reads it.
+using CoatUse = std::pair<int, MapUse>;
 
 // The frames that the normal maps of the images are for: that of the first material with each.
 std::map<int, Frame> framesOfImages(const Scene& scene)
@@ -219,20 +217,18 @@ std::map<int, Frame> framesOfImages(const Scene& scene)
 // How each map would do as it is with the frames that may be advised.
 void addFits(LintReport& report, const Scene& scene, const std::vector<MapUse>& uses, const std::vector<CoatUse>& coats)
 {
-    std::map<int, std::vector<const MapUse*>> readers;
+    std::map<int, std::vector<MapUse>> readers;
     for (std::size_t i = 0; i < uses.size(); ++i)
         if (report.primitives[i].image >= 0)
-            readers[report.primitives[i].image].push_back(&uses[i]);
-    for (const CoatUse& coat : coats)
-        readers[coat.image].push_back(&coat.use);
+            readers[report.primitives[i].image].push_back(uses[i]);
+    for (const auto& [image, use] : coats)
+        readers[image].push_back(use);
     const TangentOrigin from = lint::distrustStored(report) ? TangentOrigin::generated : TangentOrigin::stored;
     const std::map<int, Frame> frames = framesOfImages(scene);
-    for (const auto& [image, users] : readers) {
+    for (auto& [image, shown] : readers) {
         const Image& map = scene.images[std::size_t(image)];
         MapFit fit{{}, image, map.name};
-        std::vector<const MapUse*> shown;
-        std::copy_if(users.begin(), users.end(), std::back_inserter(shown),
-                     [](const MapUse* u) { return u->surface.hasUv(); });
+        std::erase_if(shown, [](const MapUse& use) { return !use.surface.hasUv(); });
         if (hasPixels(map)) {
             std::vector<FramePair> pairs;
             FrameSummaries order; // of the frames, as eachAdvised has it
@@ -295,12 +291,11 @@ Result<LintReport> lintScene(const Scene& scene, const LintOptions& options, con
         const Material& material = scene.materials[std::size_t(mesh.material)];
         const Sampler& sampler = material.normalMap.sampler;
         const std::shared_ptr<const Mesh> held(std::shared_ptr<void>(), &mesh); // the scene outlives the surfaces
-        const glm::dmat3 asItStands(1);
-        const MappedSurface own = makeSurface(held, material.normalMap, asItStands, framesOfLint(material));
+        const FrameSet frames = framesOfLint(material);
+        const MappedSurface own = makeSurface(held, material.normalMap, glm::dmat3(1), frames);
         MappedSurface ofCoat;
         if (material.coat.normalMap.present())
-            ofCoat =
-                makeCoatSurface(held, material.normalMap, material.coat.normalMap, asItStands, framesOfLint(material));
+            ofCoat = makeCoatSurface(held, material.normalMap, material.coat.normalMap, frames);
         const std::size_t count = std::min(placed[i].size(), kMaxPlacings);
         const double share = double(mesh.triangleCount()) / double(std::max<std::size_t>(count, 1));
         if (!counted.add(kOfSurface * double(mesh.triangleCount())))

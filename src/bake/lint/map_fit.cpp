@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "bake/lint/texel.hpp"
-#include "bake/lint/value_summary.hpp"
 #include "lint_parts.hpp"
 #include "scene/normal_format.hpp"
 
@@ -20,18 +19,16 @@ constexpr std::size_t kMaxUses = kMaxPoints / kLeast; // of more, evenly chosen 
 glm::dvec3 normalOf(const Image& map, const MapUse& use, const Convention& stored, Frame frame, TangentOrigin tangents,
                     const MeshPoint& p)
 {
-    Texture texture;
-    texture.sampler.wrapU = use.wrapU;
-    texture.sampler.wrapV = use.wrapV;
     const auto format = toFormat<f64::cotan_normal_format>(stored, map.type, use.strength);
-    const glm::dvec3 m = decodedAt(map, texture, format, uvAt(use.surface, p.triangle, p.barycentric));
+    const glm::dvec3 m = decodedAt(map, use.wrapU, use.wrapV, format, uvAt(use.surface, p.triangle, p.barycentric));
     const f64::cotan_frame f = frameAt(use.surface, frame, tangents, p.triangle, p.barycentric);
     return f64::cotan_normalize_or(f64::cotan_apply(f, m), f.n);
 }
 
 double mappedArea(const MappedSurface& s, std::size_t triangle)
 {
-    return orientationOf(s, triangle) != 0 ? areaOf(s, triangle) : 0;
+    const TriangleEdges edges = edgesOf(s, triangle);
+    return orientationOf(s, triangle, edges) != 0 ? areaOf(edges) : 0;
 }
 
 // A generated frame that is read at the vertices.
@@ -72,7 +69,7 @@ std::vector<MeshPoint> pointsOver(const MappedSurface& s, std::size_t count, dou
     return points;
 }
 
-std::vector<ValueSummary> mapErrors(const Image& before, const Image& after, const std::vector<const MapUse*>& uses,
+std::vector<ValueSummary> mapErrors(const Image& before, const Image& after, std::span<const MapUse> uses,
                                     std::span<const FramePair> frames, std::optional<Expansion> expansionAfter,
                                     std::size_t most)
 {
@@ -81,18 +78,18 @@ std::vector<ValueSummary> mapErrors(const Image& before, const Image& after, con
     std::vector<ValueStatistics> errors(frames.size());
     const std::size_t step = (uses.size() + kMaxUses - 1) / kMaxUses;
     for (std::size_t k = 0; k < uses.size(); k += step) {
-        const MapUse* const use = uses[k];
-        if (!(std::abs(use->strength) > kFlattened))
+        const MapUse& use = uses[k];
+        if (!(std::abs(use.strength) > kFlattened))
             continue;
         double area = 0;
-        const std::vector<MeshPoint> points = pointsOver(use->surface, count, &area);
-        Convention stored = use->stored; // of `after`
+        const std::vector<MeshPoint> points = pointsOver(use.surface, count, &area);
+        Convention stored = use.stored; // of `after`
         stored.expansion = expansionAfter.value_or(stored.expansion);
         for (const MeshPoint& p : points)
             for (std::size_t i = 0; i < frames.size(); ++i)
                 errors[i].add(
-                    lint::degreesBetween(normalOf(before, *use, use->stored, frames[i].from, frames[i].fromTangents, p),
-                                         normalOf(after, *use, stored, frames[i].to, frames[i].toTangents, p)),
+                    lint::degreesBetween(normalOf(before, use, use.stored, frames[i].from, frames[i].fromTangents, p),
+                                         normalOf(after, use, stored, frames[i].to, frames[i].toTangents, p)),
                     area / double(count));
     }
     std::vector<ValueSummary> summaries;
@@ -107,8 +104,8 @@ std::size_t pointsOfEach(std::size_t surfaces)
     return std::clamp(kAll / std::max<std::size_t>(surfaces, 1), kFewest, kPointsOfSurface);
 }
 
-ValueSummary mapError(const Image& before, const Image& after, const std::vector<const MapUse*>& uses,
-                      const FramePair& frames, std::optional<Expansion> expansionAfter)
+ValueSummary mapError(const Image& before, const Image& after, std::span<const MapUse> uses, const FramePair& frames,
+                      std::optional<Expansion> expansionAfter)
 {
     return mapErrors(before, after, uses, {&frames, 1}, expansionAfter).front();
 }

@@ -7,12 +7,19 @@
 #include <vector>
 
 #include "bake/surface/mapped_surface.hpp"
+#include "core/value_statistics.hpp"
 #include "cotan/convention.hpp"
 #include "cotan/convert.hpp"
 #include "cotan/lint.hpp"
 #include "cotan/scene.hpp"
 
 namespace cotan {
+
+// A set of values in short, as reports of lint and convert say it. Takes it by value, because a percentile sorts.
+inline ValueSummary summaryOf(ValueStatistics values)
+{
+    return {values.count(), values.mean(), values.percentile(0.95), values.maximum()};
+}
 
 // One surface that reads the map, and how.
 struct MapUse {
@@ -39,14 +46,14 @@ std::vector<MeshPoint> pointsOver(const MappedSurface& surface, std::size_t coun
 // points spread over the surfaces, weighted by area. Nearest texel of the finest level. Both images: with all
 // their data, of any sizes; `after` is stored with the expansion given, or as `before`. Empty (count 0) where no use
 // shows anything: no triangle with area in space and uv.
-ValueSummary mapError(const Image& before, const Image& after, const std::vector<const MapUse*>& uses,
-                      const FramePair& frames, std::optional<Expansion> expansionAfter = {});
+ValueSummary mapError(const Image& before, const Image& after, std::span<const MapUse> uses, const FramePair& frames,
+                      std::optional<Expansion> expansionAfter = {});
 
 // The points of one surface by which single figures of a primitive are measured.
 inline constexpr std::size_t kPointsOfSurface = 4096;
 
 // The same for several pairs of frames, at the same points. points: of a surface at most; fewer of many surfaces.
-std::vector<ValueSummary> mapErrors(const Image& before, const Image& after, const std::vector<const MapUse*>& uses,
+std::vector<ValueSummary> mapErrors(const Image& before, const Image& after, std::span<const MapUse> uses,
                                     std::span<const FramePair> frames, std::optional<Expansion> expansionAfter = {},
                                     std::size_t points = kPointsOfSurface);
 

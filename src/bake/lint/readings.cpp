@@ -2,8 +2,8 @@
 
 #include "bake/lint/map_fit.hpp"
 #include "bake/lint/texel.hpp"
-#include "bake/lint/value_summary.hpp"
 #include "lint_parts.hpp"
+#include "scene/normal_format.hpp"
 
 namespace cotan::lint {
 
@@ -47,11 +47,13 @@ std::vector<Reading> readings(const MappedSurface& s, const std::vector<MeshPoin
     if (s.hasStored() && madeFor == Frame::mikktspace)
         readers.push_back({"stored", Frame::mikktspace, TangentOrigin::stored, {}});
 
-    const f64::cotan_normal_format format = formatOf(material, map.type);
+    const auto format =
+        toFormat<f64::cotan_normal_format>(material.normalFormat, map.type, double(material.normalScale));
+    const Sampler& sampler = material.normalMap.sampler;
     const std::vector<double> weights = seen(s, points, material.doubleSided, maxPixels);
     for (std::size_t k = 0; k < points.size(); ++k) {
         const MeshPoint& p = points[k];
-        const glm::dvec3 m = decodedAt(map, material.normalMap, format, uvAt(s, p.triangle, p.barycentric));
+        const glm::dvec3 m = decodedAt(map, sampler.wrapU, sampler.wrapV, format, uvAt(s, p.triangle, p.barycentric));
         const auto readBy = [&](Frame frame, TangentOrigin tangents) {
             return f64::cotan_apply(frameAt(s, frame, tangents, p.triangle, p.barycentric), m);
         };

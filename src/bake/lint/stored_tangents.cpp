@@ -2,8 +2,7 @@
 
 #include <glm/geometric.hpp>
 
-#include "bake/lint/stored_corner.hpp"
-#include "bake/lint/value_summary.hpp"
+#include "bake/lint/triangle_uv.hpp"
 #include "lint_parts.hpp"
 
 namespace cotan {
@@ -17,7 +16,7 @@ std::array<StoredCorner, 3> storedCorners(const MappedSurface& s, std::size_t tr
         StoredCorner& result = corners[k];
         const std::size_t corner = 3 * triangle + k;
         // Tangent first: t along dP/du, b on the side of +v.
-        const f64::cotan_frame f = frameOf(spotAtCorner(s, edges, corner), Frame::orthonormal);
+        const f64::cotan_frame f = frameOf(spotOf(edges, s.normal(corner)), Frame::orthonormal);
         if (f.t == glm::dvec3(0))
             continue;
         const glm::dvec4 stored = s.stored(corner);
@@ -31,11 +30,7 @@ std::array<StoredCorner, 3> storedCorners(const MappedSurface& s, std::size_t tr
     return corners;
 }
 
-} // namespace cotan
-
-namespace cotan::lint {
-
-StoredTangents storedTangents(const MappedSurface& s)
+StoredTangents lint::storedTangents(const MappedSurface& s)
 {
     StoredTangents result;
     result.present = s.hasStored();
@@ -61,4 +56,4 @@ StoredTangents storedTangents(const MappedSurface& s)
     return result;
 }
 
-} // namespace cotan::lint
+} // namespace cotan

@@ -7,11 +7,10 @@
 #include <glm/trigonometric.hpp>
 
 #include "bake/lint/triangle_uv.hpp"
-#include "bake/lint/value_summary.hpp"
 #include "cotan/vector.hpp"
 #include "lint_parts.hpp"
 
-namespace cotan::lint {
+namespace cotan {
 
 namespace {
 
@@ -52,9 +51,6 @@ double shearOf(const Gradients& g)
 }
 
 } // namespace
-} // namespace cotan::lint
-
-namespace cotan {
 
 TriangleUv triangleUv(const MappedSurface& surface, std::size_t triangle)
 {
@@ -63,27 +59,23 @@ TriangleUv triangleUv(const MappedSurface& surface, std::size_t triangle)
 
 TriangleUv triangleUv(const MappedSurface& surface, std::size_t triangle, const TriangleEdges& edges)
 {
-    const lint::Gradients g = lint::gradientsOf(edges);
+    const Gradients g = gradientsOf(edges);
     TriangleUv t;
     t.usable = g.usable;
     if (!g.usable)
         return t;
-    t.stretch = lint::stretchOf(g);
+    t.stretch = stretchOf(g);
     t.degenerate = !(t.stretch > 0);
     t.gradient = std::max(glm::length(g.u), glm::length(g.v));
     t.density = std::sqrt(glm::length(glm::cross(g.u, g.v)));
     if (t.degenerate)
         return t;
-    t.shear = lint::shearOf(g);
+    t.shear = shearOf(g);
     t.orientation = orientationOf(surface, triangle, edges);
     return t;
 }
 
-} // namespace cotan
-
-namespace cotan::lint {
-
-UvQuality uvQuality(const MappedSurface& s)
+UvQuality lint::uvQuality(const MappedSurface& s)
 {
     UvQuality q;
     ValueStatistics stretch, shear, gradient;
@@ -120,4 +112,4 @@ UvQuality uvQuality(const MappedSurface& s)
     return q;
 }
 
-} // namespace cotan::lint
+} // namespace cotan

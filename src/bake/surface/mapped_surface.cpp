@@ -185,14 +185,6 @@ std::size_t CornerPlaces::of(std::size_t corner, std::uint32_t vertex) const
     return found != elsewhere_.end() && found->corner == corner ? found->place : vertex;
 }
 
-FrameSet frameSet(std::initializer_list<Frame> list)
-{
-    FrameSet set;
-    for (const Frame frame : list)
-        set.set(std::size_t(frame));
-    return set;
-}
-
 bool MappedSurface::hasStored() const
 {
     return shared && !shared->mesh->tangents.empty() && shared->mesh->tangents.size() == shared->mesh->vertexCount();
@@ -237,7 +229,7 @@ SurfaceBytes surfaceBytes(std::size_t vertices, std::size_t triangles, const Fra
 }
 
 MappedSurface makeCoatSurface(std::shared_ptr<const Mesh> mesh, const Texture& surfaceMap, const Texture& coatMap,
-                              const glm::dmat3& linear, const FrameSet& wanted)
+                              const FrameSet& wanted)
 {
     auto shared = shareMesh(std::move(mesh), surfaceMap, wanted);
     std::vector<glm::vec2> uv = uvOfMap(*shared->mesh, coatMap);
@@ -246,13 +238,7 @@ MappedSurface makeCoatSurface(std::shared_ptr<const Mesh> mesh, const Texture& s
         shared->cotangents = {};
         shared->ofCoat = true;
     }
-    return placed(std::move(shared), linear);
-}
-
-MappedSurface makeCoatSurface(const Mesh& mesh, const Texture& surfaceMap, const Texture& coatMap,
-                              const glm::dmat3& linear)
-{
-    return makeCoatSurface(copied(mesh), surfaceMap, coatMap, linear, kAllFrames);
+    return placed(std::move(shared), glm::dmat3(1));
 }
 
 MappedSurface placedBy(const MappedSurface& surface, const glm::dmat3& linear)
@@ -275,24 +261,15 @@ f64::cotan_frame frameAt(const MappedSurface& s, Frame frame, TangentOrigin tang
     return frameOf(spot, frame);
 }
 
-namespace {
-
-SurfaceSpot spotOf(const TriangleEdges& edges, glm::dvec3 interpolated)
-{
-    const f64::cotan_differences d = f64::cotan_scale_differences(edges.p1, edges.p2, glm::dvec2(0), glm::dvec2(0));
-    return {edges, interpolated, f64::cotan_safe_normal(interpolated, d.dpdx, d.dpdy)};
-}
-
-} // namespace
-
 SurfaceSpot spotAt(const MappedSurface& s, std::size_t triangle, glm::dvec3 barycentric)
 {
     return spotOf(edgesOf(s, triangle), normalAt(s, triangle, barycentric));
 }
 
-SurfaceSpot spotAtCorner(const MappedSurface& s, const TriangleEdges& edges, std::size_t corner)
+SurfaceSpot spotOf(const TriangleEdges& edges, glm::dvec3 interpolated)
 {
-    return spotOf(edges, s.normal(corner));
+    const f64::cotan_differences d = f64::cotan_scale_differences(edges.p1, edges.p2, glm::dvec2(0), glm::dvec2(0));
+    return {edges, interpolated, f64::cotan_safe_normal(interpolated, d.dpdx, d.dpdy)};
 }
 
 f64::cotan_frame frameOf(const SurfaceSpot& spot, Frame frame)
@@ -331,12 +308,10 @@ TriangleEdges edgesOf(const MappedSurface& s, std::size_t triangle)
     return e;
 }
 
-UvRaster repeatedRaster(const MappedSurface& s, int width, int height, glm::ivec2 copies)
+UvRaster repeatedRaster(const MappedSurface& s, int width, int height)
 {
-    if (!s.hasUv())
-        return UvRaster({}, width * copies.x, height * copies.y, {0, 0}, true);
-    return UvRaster({s.shared->uv, s.shared->mesh->indices, 1.0f / glm::vec2(copies)}, width * copies.x,
-                    height * copies.y, {0, 0}, true);
+    const UvTriangles triangles = s.hasUv() ? UvTriangles{s.shared->uv, s.shared->mesh->indices} : UvTriangles{};
+    return UvRaster(triangles, width, height, {0, 0}, /*wrap*/ true);
 }
 
 double rowsUnder(const MappedSurface& s, int height)
