@@ -4,7 +4,6 @@
 
 #include <fmt/format.h>
 
-#include "bake/convert/drop_tangents.hpp"
 #include "bake/convert/map_jobs.hpp"
 #include "cotan/gltf.hpp"
 #include "cotan/image.hpp"

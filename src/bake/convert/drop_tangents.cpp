@@ -1,11 +1,10 @@
-#include "bake/convert/drop_tangents.hpp"
+#include "bake/convert/map_jobs.hpp"
 
 #include <memory>
 #include <set>
 
 #include <fmt/format.h>
 
-#include "bake/convert/map_jobs.hpp"
 #include "gltf/json/lookup.hpp"
 #include "gltf/json/placed.hpp"
 

@@ -143,18 +143,31 @@ Status addUse(const GltfDocument& document, std::size_t m, std::size_t p, MapSlo
     job.name = imageName(root, image);
     if (std::ranges::find(job.places, place) == job.places.end())
         job.places.push_back(place);
-    MapReader& reader = job.readers.emplace_back();
-    reader.mesh = m;
-    reader.primitive = p;
-    reader.place = place;
-    reader.strength = strengthOf(root["materials"][place.material], map, place.slot);
-    reader.wrapU = sampler.wrapU;
-    reader.wrapV = sampler.wrapV;
-    reader.placed = placed;
-    reader.vertices = mesh->vertexCount();
-    reader.triangles = mesh->triangleCount();
-    reader.stored = !mesh->tangents.empty();
+    job.readers.push_back({.mesh = m,
+                           .primitive = p,
+                           .place = place,
+                           .strength = strengthOf(root["materials"][place.material], map, place.slot),
+                           .wrapU = sampler.wrapU,
+                           .wrapV = sampler.wrapV,
+                           .placed = placed,
+                           .vertices = mesh->vertexCount(),
+                           .triangles = mesh->triangleCount(),
+                           .stored = !mesh->tangents.empty()});
     return Done{};
+}
+
+// The image that stands in a texture, or that an extension names which is not read; -1 where there is none.
+int anyImage(const Json& root, int texture)
+{
+    if (const int image = textureAt(root, texture).image; image >= 0)
+        return image;
+    const Json& json = root["textures"][std::size_t(texture)];
+    if (json.contains("extensions"))
+        for (const Json& extension : json["extensions"])
+            if (extension.is_object() && extension.contains("source") && extension["source"].is_number_unsigned()
+                && extension["source"] < countOf(root, "images"))
+                return extension["source"];
+    return -1;
 }
 
 } // namespace
@@ -179,24 +192,6 @@ std::vector<MapSlot> foreignNormalMaps(const GltfDocument& document)
         }
     return foreign;
 }
-
-namespace {
-
-// The image that stands in a texture, or that an extension names which is not read; -1 where there is none.
-int anyImage(const Json& root, int texture)
-{
-    if (const int image = textureAt(root, texture).image; image >= 0)
-        return image;
-    const Json& json = root["textures"][std::size_t(texture)];
-    if (json.contains("extensions"))
-        for (const Json& extension : json["extensions"])
-            if (extension.is_object() && extension.contains("source") && extension["source"].is_number_unsigned()
-                && extension["source"] < countOf(root, "images"))
-                return extension["source"];
-    return -1;
-}
-
-} // namespace
 
 std::vector<UnreadMap> unreadNormalMaps(const GltfDocument& document)
 {
@@ -227,14 +222,13 @@ Result<std::vector<MapJob>> mapJobs(const GltfDocument& document, std::vector<st
     const std::vector<MapSlot> foreign = foreignNormalMaps(document);
     std::map<std::size_t, MapJob> jobs;
     const Status status = forEachPrimitive(root, [&](std::size_t m, std::size_t p) -> Status {
-        for (const std::size_t material : materialsOf(root, root["meshes"][m]["primitives"][p])) {
+        for (const std::size_t material : materialsOf(root, root["meshes"][m]["primitives"][p]))
             for (const NormalSlot slot : kNormalSlots) {
                 const MapSlot place{material, slot};
                 const bool unread = std::binary_search(foreign.begin(), foreign.end(), place);
                 if (Status added = addUse(document, m, p, place, unread, placed[m], jobs, notes); !added)
                     return added;
             }
-        }
         return Done{};
     });
     if (!status)
