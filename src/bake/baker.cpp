@@ -36,8 +36,7 @@ Status measureRayStarts(const LowSurface& low, const HighSurface& high, BakeOpti
 {
     if (options.starts || !options.cage.empty() || options.search != BakeSearch::first)
         return Done{};
-    auto starts =
-        makeRayStarts(low, high, {options.extrusion, options.maxDistance, options.matched, options.threads}, rest);
+    auto starts = makeRayStarts(low, high, options, rest);
     if (!starts)
         return starts.error();
     options.starts = std::make_shared<const RayStarts>(std::move(*starts));

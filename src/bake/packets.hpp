@@ -79,21 +79,16 @@ struct EmbreeScene {
 // packet by the signs as they were: a lane with -1e-18 beside lanes with +0.2 loses the hits of all of them. Components
 // that are this small against a unit vector move no hit by a unit in the last place.
 inline float flushed(float component) { return std::abs(component) < 1e-12f ? 0.0f : component; }
-inline glm::vec3 flushed(glm::vec3 direction)
-{
-    return {flushed(direction.x), flushed(direction.y), flushed(direction.z)};
-}
 
 inline RTCRayHit toEmbree(const Ray& ray)
 {
     RTCRayHit r{};
-    const glm::vec3 direction = flushed(ray.direction);
     r.ray.org_x = ray.origin.x;
     r.ray.org_y = ray.origin.y;
     r.ray.org_z = ray.origin.z;
-    r.ray.dir_x = direction.x;
-    r.ray.dir_y = direction.y;
-    r.ray.dir_z = direction.z;
+    r.ray.dir_x = flushed(ray.direction.x);
+    r.ray.dir_y = flushed(ray.direction.y);
+    r.ray.dir_z = flushed(ray.direction.z);
     r.ray.tnear = ray.nearest;
     r.ray.tfar = ray.farthest;
     r.ray.mask = ~0u;
@@ -202,10 +197,9 @@ struct Packet {
     void traceAlone(std::size_t i, RTCScene scene, Asked asked)
     {
         const RTCRay16& r = rays.ray;
-        RTCRayHit one{};
-        one.ray = {r.org_x[i], r.org_y[i], r.org_z[i], 0,   r.dir_x[i], r.dir_y[i],
-                   r.dir_z[i], 0,          length[i],  ~0u, r.id[i],    0};
-        one.hit.geomID = one.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+        RTCRayHit one =
+            toEmbree({{r.org_x[i], r.org_y[i], r.org_z[i]}, {r.dir_x[i], r.dir_y[i], r.dir_z[i]}, 0, length[i]});
+        one.ray.id = r.id[i];
         intersect(scene, asked.query, one);
         if (one.hit.geomID == RTC_INVALID_GEOMETRY_ID)
             return;

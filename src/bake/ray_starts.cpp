@@ -106,7 +106,7 @@ struct Body {
     float diagonal = 0, edge = 0;    // of the box; about that of a triangle
 };
 
-Result<Body> bodyOf(const LowSurface& low, const LowRest& rest, const RayStartOptions& options)
+Result<Body> bodyOf(const LowSurface& low, const LowRest& rest, const BakeOptions& options)
 {
     Body body;
     std::vector<glm::vec3> positions = low.positions, normals = low.normals;
@@ -151,7 +151,7 @@ struct Last {
 
 class Measuring {
 public:
-    Measuring(const LowSurface& low, const HighSurface& high, const RayStartOptions& options, const Body& body,
+    Measuring(const LowSurface& low, const HighSurface& high, const BakeOptions& options, const Body& body,
               const Groups& groups, const RayStarts& starts)
         : low_(low), high_(high), options_(options), body_(body), groups_(groups), starts_(starts),
           distances_(groups.count, 0), reached_(groups.count, 0)
@@ -293,7 +293,7 @@ private:
 
     const LowSurface& low_;
     const HighSurface& high_;
-    const RayStartOptions& options_;
+    const BakeOptions& options_;
     const Body& body_;
     const Groups& groups_;
     const RayStarts& starts_;
@@ -431,7 +431,7 @@ float openDistance(const LowTree& tree, std::uint32_t triangle, glm::vec3 point,
     return glm::dot(tree.face(met.triangle), direction) > 0 ? met.distance / 2 : met.distance;
 }
 
-Result<RayStarts> makeRayStarts(const LowSurface& low, const HighSurface& high, const RayStartOptions& options,
+Result<RayStarts> makeRayStarts(const LowSurface& low, const HighSurface& high, const BakeOptions& options,
                                 const LowRest& rest)
 {
     RayStarts starts;

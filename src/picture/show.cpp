@@ -1,5 +1,5 @@
 // What of a model a picture shows: light, a vector, an inspection, an error.
-#include "bake/report_words.hpp"
+#include "bake/reports.hpp"
 #include "cotan/inspect.hpp"
 #include "cotan/picture.hpp"
 #include "inspect/angles.hpp"
