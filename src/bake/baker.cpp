@@ -75,9 +75,7 @@ void Baker::aim(const LowPoints& points, std::span<const UvSample> places, Probe
 void Baker::aimFromCage(const UvSample& place, std::size_t i, Probes& probes) const
 {
     const std::uint32_t* v = &low_.indices[3 * std::size_t(place.triangle)];
-    const glm::vec3 cage = options_.cage[v[0]] * (1 - place.b1 - place.b2) + options_.cage[v[1]] * place.b1
-        + options_.cage[v[2]] * place.b2;
-    const glm::vec3 way = cage - probes.point.at(i);
+    const glm::vec3 way = atVertices(options_.cage, v, place.b1, place.b2) - probes.point.at(i);
     const float before = glm::length(way);
     probes.before[i] = before;
     probes.reach[i] = options_.cageReach > 0 && before > 0 ? options_.cageReach - before : before;
@@ -88,15 +86,12 @@ void Baker::aimFromStart(const LowPoints& points, const UvSample& place, std::si
 {
     const RayStarts& starts = *options_.starts;
     const std::uint32_t* v = &low_.indices[3 * std::size_t(place.triangle)];
-    const float b0 = 1 - place.b1 - place.b2;
-    glm::vec3 sum = points.from.raw.at(i); // of the normals
-    if (starts.bent)
-        sum = starts.directions[v[0]] * b0 + starts.directions[v[1]] * place.b1 + starts.directions[v[2]] * place.b2;
+    const glm::vec3 sum =
+        starts.bent ? atVertices(starts.directions, v, place.b1, place.b2) : points.from.raw.at(i); // of the normals
     const float length = std::sqrt(glm::dot(sum, sum));
     if (starts.bent && length > 0)
         probes.direction.set(i, sum / length);
-    probes.before[i] =
-        length * (starts.distances[v[0]] * b0 + starts.distances[v[1]] * place.b1 + starts.distances[v[2]] * place.b2);
+    probes.before[i] = length * atVertices(starts.distances, v, place.b1, place.b2);
     if (starts.crossed[place.triangle])
         probes.before[i] = openDistance(*starts.tree, place.triangle, probes.point.at(i), probes.direction.at(i),
                                         starts.skip, probes.before[i]);

@@ -11,6 +11,7 @@
 #include <glm/mat3x3.hpp>
 #include <glm/matrix.hpp>
 
+#include "bake/surface/surface_triangle.hpp"
 #include "cotan/covector.hpp"
 #include "curved_normals.hpp"
 #include "packets.hpp"
@@ -103,12 +104,8 @@ struct HighSurface::State {
             normals[i] = part.normals.data();
             __builtin_prefetch(corners[i]);
         }
-        for (std::size_t i = 0; i < count; ++i) {
-            const float b1 = hits.b1[i], b2 = hits.b2[i];
-            const std::uint32_t* c = corners[i];
-            const glm::vec3* n = normals[i];
-            hits.normal.set(i, n[c[0]] * (1 - b1 - b2) + n[c[1]] * b1 + n[c[2]] * b2);
-        }
+        for (std::size_t i = 0; i < count; ++i)
+            hits.normal.set(i, atVertices(normals[i], corners[i], hits.b1[i], hits.b2[i]));
     }
     // Zero where there is none.
     glm::vec3 curvedNormal(std::uint32_t instance, std::uint32_t triangle, float b1, float b2,

@@ -167,36 +167,32 @@ Json listsOf(const LintReport& report)
 Json toJson(const ConvertedMap& map)
 {
     const ReencodeFigures& r = map.figures;
+    Json json = {{"image", map.image},
+                 {"name", map.name},
+                 {"surfaces", map.surfaces},
+                 {"size", {map.width, map.height}},
+                 {"kept", map.kept},
+                 {"bits", map.bits},
+                 {"format", map.format},
+                 {"quality", map.quality > 0 ? Json(map.quality) : Json(nullptr)},
+                 {"texels_covered", r.covered},
+                 {"texels_padded", r.padded},
+                 {"texels_in_several_places", r.several},
+                 {"texels_that_disagree", r.disagreeing},
+                 {"disagreement_degrees", toJson(r.disagreement)},
+                 {"moved_degrees", toJson(r.moved)},
+                 {"degrees_unconverted", toJson(r.unconverted)},
+                 {"degrees_after_rounding", toJson(r.error)},
+                 {"below_horizon", r.belowHorizon},
+                 {"kept_elsewhere", map.alsoElsewhere},
+                 {"bytes_before", map.bytesBefore},
+                 {"bytes_after", map.bytesAfter}};
     if (map.kept)
-        return {{"image", map.image},
-                {"name", map.name},
-                {"surfaces", map.surfaces},
-                {"size", {map.width, map.height}},
-                {"kept", true},
-                {"format", map.format},
-                {"degrees_unconverted", toJson(r.unconverted)},
-                {"bytes_before", map.bytesBefore},
-                {"bytes_after", map.bytesAfter}};
-    return {{"image", map.image},
-            {"name", map.name},
-            {"surfaces", map.surfaces},
-            {"size", {map.width, map.height}},
-            {"kept", false},
-            {"bits", map.bits},
-            {"format", map.format},
-            {"quality", map.quality > 0 ? Json(map.quality) : Json(nullptr)},
-            {"texels_covered", r.covered},
-            {"texels_padded", r.padded},
-            {"texels_in_several_places", r.several},
-            {"texels_that_disagree", r.disagreeing},
-            {"disagreement_degrees", toJson(r.disagreement)},
-            {"moved_degrees", toJson(r.moved)},
-            {"degrees_unconverted", toJson(r.unconverted)},
-            {"degrees_after_rounding", toJson(r.error)},
-            {"below_horizon", r.belowHorizon},
-            {"kept_elsewhere", map.alsoElsewhere},
-            {"bytes_before", map.bytesBefore},
-            {"bytes_after", map.bytesAfter}};
+        for (const char* figure :
+             {"bits", "quality", "texels_covered", "texels_padded", "texels_in_several_places", "texels_that_disagree",
+              "disagreement_degrees", "moved_degrees", "degrees_after_rounding", "below_horizon", "kept_elsewhere"})
+            json.erase(figure);
+    return json;
 }
 
 Json tangentsJson(const ConvertModelReport& report)

@@ -325,12 +325,7 @@ double areaOf(const TriangleEdges& e)
     return std::isfinite(area) ? area : 0;
 }
 
-double areaOf(const MappedSurface& s, std::size_t triangle)
-{
-    const glm::dvec3 p0 = s.position(3 * triangle);
-    return areaOf(TriangleEdges{s.position(3 * triangle + 1) - p0, s.position(3 * triangle + 2) - p0, glm::dvec2(0),
-                                glm::dvec2(0)});
-}
+double areaOf(const MappedSurface& s, std::size_t triangle) { return areaOf(edgesOf(s, triangle)); }
 
 int orientationOf(const MappedSurface& s, std::size_t triangle)
 {

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 #include <glm/vec2.hpp>
@@ -19,6 +20,12 @@ template<class Vec> auto atCorners(const std::vector<Vec>& values, const Corners
 {
     using Wide = glm::vec<Vec::length(), double>;
     return Wide(values[at[0]]) * weights.x + Wide(values[at[1]]) * weights.y + Wide(values[at[2]]) * weights.z;
+}
+
+// The same in the type of the values; v: the numbers of the corners' vertices, b1, b2: weights of the last two.
+template<class Values> auto atVertices(const Values& values, const std::uint32_t* v, float b1, float b2)
+{
+    return values[v[0]] * (1 - b1 - b2) + values[v[1]] * b1 + values[v[2]] * b2;
 }
 
 // From a triangle's first corner to the two others, in space and in uv: what every frame of a triangle is made from.
