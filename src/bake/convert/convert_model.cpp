@@ -65,9 +65,7 @@ public:
                 nameFrame(document_, place.material, options_.frames.to);
         if (Status settled = settleTangents(); !settled)
             return settled;
-        const bool changed =
-            std::any_of(report_.maps.begin(), report_.maps.end(), [](const ConvertedMap& m) { return !m.kept; });
-        if (changed && options_.frames.to != Frame::mikktspace)
+        if (!std::ranges::all_of(report_.maps, &ConvertedMap::kept) && options_.frames.to != Frame::mikktspace)
             report_.notes.push_back(
                 fmt::format("the maps are now for the frame {}; readers that make MikkTSpace tangents where TANGENT is "
                             "missing, as glTF asks, will show them wrongly",

@@ -66,13 +66,6 @@ std::string whyNotJudged(const PrimitiveLint& p, const Image& map)
     return p.readings.front().error.count == 0 ? "no triangle has area, also in uv" : "";
 }
 
-template<class Make> void eachAdvised(FrameSummaries& summaries, const Make& make)
-{
-    summaries.orthonormal = make(Frame::orthonormal);
-    summaries.cotangent = make(Frame::cotangent);
-    summaries.smooth = make(Frame::smooth);
-}
-
 // The frame that a material's maps are for: the one that the file names, or else glTF's.
 Frame madeFor(const Material& material) { return material.normalFrame.value_or(Frame::mikktspace); }
 
@@ -126,10 +119,9 @@ PrimitiveLint lintPrimitive(const Scene& scene, const Mesh& mesh, const MappedSu
     p.material = material.name;
     p.tangentsFor = material.tangentsFor;
     const std::vector<MeshPoint> points = pointsOver(surface, limits.points);
+    const auto turned = [&](Frame to) { return directionTurn(surface, points, {.from = Frame::mikktspace, .to = to}); };
     if (!p.tangentsFor.empty())
-        eachAdvised(p.turned, [&](Frame frame) {
-            return directionTurn(surface, points, {.from = Frame::mikktspace, .to = frame});
-        });
+        p.turned = {turned(Frame::orthonormal), turned(Frame::cotangent), turned(Frame::smooth)};
     const Texture& coat = material.coat.normalMap;
     if (coat.present() && !hasPixels(scene.images[std::size_t(coat.image)])) { // it is not converted
         p.tangentsFor = "KHR_materials_clearcoat";
@@ -148,14 +140,13 @@ PrimitiveLint lintPrimitive(const Scene& scene, const Mesh& mesh, const MappedSu
     if (material.greenReversed) // w of the file, not of the scene
         p.stored.reversedW = 1 - p.stored.reversedW;
     addPrecision(p, distance);
-    const int image = material.normalMap.image;
-    if (material.normalMap.present() && std::size_t(image) < scene.images.size()) {
-        p.image = image;
-        if (p.hasUv && hasPixels(scene.images[std::size_t(image)]))
-            p.readings = lint::readings(surface, points, madeFor(material), material, scene.images[std::size_t(image)],
-                                        limits.pixels);
-        p.unread = !hasPixels(scene.images[std::size_t(image)]);
-        p.notJudged = whyNotJudged(p, scene.images[std::size_t(image)]);
+    if (material.normalMap.present()) {
+        p.image = material.normalMap.image;
+        const Image& map = scene.images[std::size_t(p.image)];
+        p.unread = !hasPixels(map);
+        if (p.hasUv && !p.unread)
+            p.readings = lint::readings(surface, points, p.madeFor, material, map, limits.pixels);
+        p.notJudged = whyNotJudged(p, map);
     }
     counted.add(kOfLook * triangles);
     return p;
@@ -190,7 +181,7 @@ void addMaps(LintReport& report, const Scene& scene)
     std::vector<bool> done(scene.images.size());
     for (const Material& m : scene.materials) {
         const int image = m.normalMap.image;
-        if (!m.normalMap.present() || std::size_t(image) >= scene.images.size() || done[std::size_t(image)])
+        if (!m.normalMap.present() || done[std::size_t(image)])
             continue;
         done[std::size_t(image)] = true;
         const Image& map = scene.images[std::size_t(image)];
@@ -231,15 +222,12 @@ void addFits(LintReport& report, const Scene& scene, const std::vector<MapUse>& 
         std::erase_if(shown, [](const MapUse& use) { return !use.surface.hasUv(); });
         if (hasPixels(map)) {
             std::vector<FramePair> pairs;
-            FrameSummaries order; // of the frames, as eachAdvised has it
-            const Frame made = frames.at(image);
-            eachAdvised(order, [&](Frame frame) {
-                pairs.push_back({made, frame, from, TangentOrigin::generated});
-                return ValueSummary{};
-            });
+            for (const Frame frame : {Frame::orthonormal, Frame::cotangent, Frame::smooth})
+                pairs.push_back({frames.at(image), frame, from, TangentOrigin::generated});
             const std::vector<ValueSummary> errors = mapErrors(map, map, shown, pairs, {}, pointsOfEach(uses.size()));
-            std::size_t next = 0;
-            eachAdvised(fit, [&](Frame) { return errors[next++]; });
+            fit.orthonormal = errors[0];
+            fit.cotangent = errors[1];
+            fit.smooth = errors[2];
         }
         report.fits.push_back(std::move(fit));
     }
