@@ -26,7 +26,8 @@ Result<ValueSummary> turnOf(const GltfDocument& document, std::size_t m, std::si
         makeSurface(mesh, Texture{}, glm::dmat3(1), framesRead(frames, !mesh->tangents.empty()));
     ValueSummary worst;
     for (const glm::dmat3& linear : placed) {
-        const ValueSummary turn = directionTurn(placedBy(surface, linear), frames);
+        const MappedSurface moved = placedBy(surface, linear);
+        const ValueSummary turn = directionTurn(moved, pointsOver(moved, kPointsOfSurface), frames);
         if (turn.count == 0)
             return turn;
         if (worst.count == 0 || turn.percentile95 > worst.percentile95)

@@ -272,17 +272,14 @@ Result<std::vector<MapUse>> usesOf(const GltfDocument& document, const MapJob& j
 std::size_t bytesOf(const MapJob& job, const FramePair& frames)
 {
     constexpr std::size_t kVertex = sizeof(glm::vec3) * 2 + sizeof(glm::vec2);
-    std::size_t kept = 0, most = 0;
+    std::size_t kept = 0, most = 0, rasters = 0; // rasters: once all surfaces are made
     for (const MapReader& r : job.readers) {
         const SurfaceBytes bytes = surfaceBytes(r.vertices, r.triangles, framesRead(frames, r.stored));
-        kept += (kVertex + (r.stored ? sizeof(glm::vec4) : 0)) * r.vertices + 3 * sizeof(std::uint32_t) * r.triangles;
-        kept += bytes.kept;
+        const std::size_t indices = 3 * sizeof(std::uint32_t) * r.triangles;
+        kept += (kVertex + (r.stored ? sizeof(glm::vec4) : 0)) * r.vertices + indices + bytes.kept;
         most = std::max(most, bytes.making);
+        rasters += kRasterBytes * r.triangles + sizeof(glm::vec2) * r.vertices + indices;
     }
-    std::size_t rasters = 0; // once all surfaces are made
-    for (const MapReader& r : job.readers)
-        rasters +=
-            kRasterBytes * r.triangles + sizeof(glm::vec2) * r.vertices + 3 * sizeof(std::uint32_t) * r.triangles;
     return kept + std::max(most, rasters);
 }
 

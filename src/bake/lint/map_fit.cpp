@@ -127,11 +127,6 @@ ValueSummary directionTurn(const MappedSurface& surface, const std::vector<MeshP
     return summaryOf(std::move(turns));
 }
 
-ValueSummary directionTurn(const MappedSurface& surface, const FramePair& frames)
-{
-    return directionTurn(surface, pointsOver(surface, kPointsOfSurface), frames);
-}
-
 FrameSet framesRead(const FramePair& frames, bool stored)
 {
     FrameSet set;

@@ -61,10 +61,7 @@ std::vector<ValueSummary> mapErrors(const Image& before, const Image& after, std
 std::size_t pointsOfEach(std::size_t surfaces);
 
 // Degrees between the ways in which frames.from and frames.to stretch highlights (KHR_materials_anisotropy), as lines,
-// at points spread over the surface, weighted by area. Empty where no triangle has area in space and uv, or a frame
-// no direction.
-ValueSummary directionTurn(const MappedSurface& surface, const FramePair& frames);
-// The same where the points are known: pointsOver(surface, kPointsOfSurface).
+// at points spread over the surface (pointsOver). Empty where there are none, or a frame has no direction.
 ValueSummary directionTurn(const MappedSurface& surface, const std::vector<MeshPoint>& points, const FramePair& frames);
 
 // What of a surface has to be derived for mapError and directionTurn with frames.from and frames.to. stored: whether

@@ -19,9 +19,8 @@ struct TriangleUv {
     int orientation = 0;     // as orientationOf: -1 mirrored
 };
 
-// surface: with uv.
-TriangleUv triangleUv(const MappedSurface& surface, std::size_t triangle);
-TriangleUv triangleUv(const MappedSurface& surface, std::size_t triangle, const TriangleEdges& edges); // edgesOf it
+// Of a triangle with these edges (edgesOf). surface: with uv.
+TriangleUv triangleUv(const MappedSurface& surface, std::size_t triangle, const TriangleEdges& edges);
 
 // A stored tangent at one corner of a triangle, against the texture coordinates.
 struct StoredCorner {
@@ -30,8 +29,7 @@ struct StoredCorner {
     double degrees = 0;    // from dP/du, in the plane of the normal; 180 where the tangent has no direction there
 };
 
-// All corners of a triangle with these edges (edgesOf). surface: with uv. Nothing is compared where the triangle's uv
-// have no area.
+// All corners of such a triangle. Nothing is compared where its uv have no area.
 std::array<StoredCorner, 3> storedCorners(const MappedSurface& surface, std::size_t triangle,
                                           const TriangleEdges& edges);
 

@@ -52,11 +52,6 @@ double shearOf(const Gradients& g)
 
 } // namespace
 
-TriangleUv triangleUv(const MappedSurface& surface, std::size_t triangle)
-{
-    return triangleUv(surface, triangle, edgesOf(surface, triangle));
-}
-
 TriangleUv triangleUv(const MappedSurface& surface, std::size_t triangle, const TriangleEdges& edges)
 {
     const Gradients g = gradientsOf(edges);
