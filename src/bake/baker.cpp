@@ -4,7 +4,6 @@
 #include <cmath>
 #include <numbers>
 
-#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
 #include "core/other_axis.hpp"

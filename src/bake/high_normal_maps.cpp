@@ -5,8 +5,6 @@
 
 #include <fmt/format.h>
 
-#include <glm/geometric.hpp>
-
 #include "cotan/vector.hpp"
 #include "scene/normal_format.hpp"
 #include "scene/texture_sample.hpp"

@@ -2,9 +2,6 @@
 
 #include <cmath>
 
-#include <fmt/format.h>
-
-#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
 #include "packets.hpp"

@@ -4,9 +4,6 @@
 #include <cmath>
 #include <limits>
 
-#include <glm/common.hpp>
-#include <glm/geometric.hpp>
-
 #include "bake/surface/nearest_texels.hpp"
 #include "core/loops.hpp"
 #include "scene/normal_format.hpp"

@@ -5,7 +5,6 @@
 #include <utility>
 
 #include <glm/geometric.hpp>
-#include <glm/trigonometric.hpp>
 
 #include "bake/convert/solve_texel.hpp"
 #include "bake/lint/texel.hpp"

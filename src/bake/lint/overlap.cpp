@@ -2,8 +2,6 @@
 #include <functional>
 #include <limits>
 
-#include <glm/common.hpp>
-
 #include "lint_parts.hpp"
 
 namespace cotan::lint {

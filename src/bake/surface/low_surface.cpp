@@ -5,7 +5,6 @@
 
 #include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
-#include <glm/matrix.hpp>
 
 #include "cotan/covector.hpp"
 #include "cotan/tangents.hpp"
