@@ -29,6 +29,26 @@ void copyHit(const Hits& from, std::size_t i, Hits& to)
     to.away[i] = from.away[i];
 }
 
+// Where anything lies on the lines, up to farthest(i) away from their points either way; negative: not asked. Returns
+// how many rays that took.
+template<class Farthest>
+std::size_t anyAround(const HighSurface& high, const Probes& probes, Lanes<int>& any, const Farthest& farthest)
+{
+    any.fill(0);
+    Probes lines = probes;
+    std::size_t rays = 0;
+    for (std::size_t i = 0; i < probes.count; ++i)
+        if (const float length = farthest(i); length < 0) {
+            lines.direction.set(i, glm::vec3(0));
+        } else {
+            lines.before[i] = lines.reach[i] = length;
+            ++rays;
+        }
+    if (rays > 0)
+        high.anyBetween(lines, any);
+    return rays;
+}
+
 } // namespace
 
 Status measureRayStarts(const LowSurface& low, const HighSurface& high, BakeOptions& options, const LowRest& rest)
@@ -150,21 +170,10 @@ std::size_t Baker::somethingNearer(const Probes& probes, const Hits& hits, Lanes
     if (!measured())
         return 0;
     // What was found behind the low surface has had nothing before it on the ray, which came from further out.
-    Probes between = probes;
-    std::size_t rays = 0;
-    for (std::size_t i = 0; i < probes.count; ++i) {
+    return anyAround(high_, probes, nearer, [&](std::size_t i) {
         const float off = hits.distance[i], skip = std::max(4 * lift_, 1e-3f * off);
-        if (hits.found(i) && off > 2 * skip) {
-            between.before[i] = off - skip;
-            between.reach[i] = off - skip;
-            ++rays;
-        } else {
-            between.direction.set(i, glm::vec3(0));
-        }
-    }
-    if (rays > 0)
-        high_.anyBetween(between, nearer);
-    return rays;
+        return hits.found(i) && off > 2 * skip ? off - skip : -1;
+    });
 }
 
 bool Baker::standsOff(const Hits& hits) const
@@ -177,21 +186,10 @@ bool Baker::standsOff(const Hits& hits) const
 
 std::size_t Baker::somethingFurther(const Probes& probes, const Hits& hits, Lanes<int>& further) const
 {
-    further.fill(0);
-    Probes line = probes;
-    std::size_t rays = 0;
     const glm::vec3 middle = (high_.low() + high_.high()) * 0.5f;
-    for (std::size_t i = 0; i < probes.count; ++i) {
-        if (hits.found(i)) {
-            line.direction.set(i, glm::vec3(0));
-            continue;
-        }
-        line.before[i] = line.reach[i] = glm::length(middle - probes.point.at(i)) + diagonalOf(high_);
-        ++rays;
-    }
-    if (rays > 0)
-        high_.anyBetween(line, further);
-    return rays;
+    return anyAround(high_, probes, further, [&](std::size_t i) {
+        return hits.found(i) ? -1 : glm::length(middle - probes.point.at(i)) + diagonalOf(high_);
+    });
 }
 
 std::size_t Baker::valuesOf(const LowPoints& points, const Probes& probes, const Hits& hits,

@@ -104,14 +104,6 @@ Result<Mesh> meshFor(const GltfDocument& document, std::size_t m, std::size_t p,
     return mesh;
 }
 
-// The surface on which a map is read; slot: which the mesh is for (meshFor).
-MappedSurface surfaceFor(const std::shared_ptr<const Mesh>& mesh, NormalSlot slot, const FrameSet& frames)
-{
-    return slot == NormalSlot::coat
-        ? makeCoatSurface(mesh, Texture{}, Texture{.image = 0, .texcoord = 1, .sampler = {}}, frames)
-        : makeSurface(mesh, Texture{}, glm::dmat3(1), frames);
-}
-
 // One primitive with one of its materials, added to the job of a normal map of that material.
 Status addUse(const GltfDocument& document, std::size_t m, std::size_t p, MapSlot place, bool foreign,
               const std::vector<glm::dmat3>& placed, std::map<std::size_t, MapJob>& jobs,
@@ -261,8 +253,11 @@ Result<std::vector<MapUse>> usesOf(const GltfDocument& document, const MapJob& j
         auto mesh = meshFor(document, r.mesh, r.primitive, r.place, why);
         if (!mesh)
             return mesh.error();
-        const MappedSurface surface =
-            surfaceFor(std::make_shared<const Mesh>(*std::move(mesh)), r.place.slot, framesRead(frames, r.stored));
+        const auto held = std::make_shared<const Mesh>(*std::move(mesh));
+        const FrameSet read = framesRead(frames, r.stored);
+        const MappedSurface surface = r.place.slot == NormalSlot::coat
+            ? makeCoatSurface(held, Texture{}, Texture{.image = 0, .texcoord = 1, .sampler = {}}, read)
+            : makeSurface(held, Texture{}, glm::dmat3(1), read);
         for (const glm::dmat3& linear : r.placed)
             uses.push_back({placedBy(surface, linear), Convention{}, r.strength, r.wrapU, r.wrapV});
     }

@@ -119,9 +119,9 @@ f64::cotan_frame frameOfVertices(const MappedSurface& s, Frame frame, TangentOri
         const glm::dvec4 t = tangentAt(s, frame, source, triangle, barycentric);
         return evaluateTangents(frame, n, glm::dvec3(t), t.w);
     }
-    if (s.shared->cotangents.empty())
-        return evaluateCotangents(frame, n, glm::dvec3(0), glm::dvec3(0));
     const CornerCotangents& made = s.shared->cotangents;
+    if (made.values.u.empty())
+        return evaluateCotangents(frame, n, glm::dvec3(0), glm::dvec3(0));
     const auto gradient = [&](const std::vector<glm::vec3>& values) {
         return blended(triangle, barycentric, [&](std::size_t corner) {
             return movedCovector(s.linear, values[made.places.of(corner, s.vertexOf(corner))]);

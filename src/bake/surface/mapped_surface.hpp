@@ -45,16 +45,12 @@ private:
 struct CornerTangents {
     std::vector<glm::vec4> values; // as glTF has them
     CornerPlaces places;
-
-    bool empty() const { return values.empty(); }
 };
 
 // Gradients of u and v, likewise.
 struct CornerCotangents {
     Cotangents values;
     CornerPlaces places;
-
-    bool empty() const { return values.u.empty(); }
 };
 
 // What all placings of a mesh share, in the mesh's own space.
@@ -95,7 +91,7 @@ struct MappedSurface {
     // Of the file, as tangentAlongV: xyz along +u; w * cross(n, xyz) along +v. Where there are any.
     glm::dvec4 stored(std::size_t corner) const;
     // Of a frame that reads tangents, likewise.
-    bool hasGenerated(Frame frame) const { return shared && !shared->generated[std::size_t(frame)].empty(); }
+    bool hasGenerated(Frame frame) const { return shared && !shared->generated[std::size_t(frame)].values.empty(); }
     glm::dvec4 generated(Frame frame, std::size_t corner) const;
 };
 
