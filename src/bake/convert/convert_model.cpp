@@ -19,12 +19,12 @@ constexpr double kMaxRows = 4e7; // of texels under all triangles together
 
 class ModelConverter {
 public:
-    ModelConverter(const GltfDocument& document, const ConvertModelOptions& options)
-        : options_(options), document_(document)
+    ModelConverter(GltfDocument& document, const ConvertModelOptions& options)
+        : options_(options), given_(document), document_(document)
     {
     }
 
-    Status run()
+    Result<ConvertModelReport> run()
     {
         const auto named = namedFrame(document_);
         if (!named)
@@ -44,7 +44,7 @@ public:
                 "needs: {}",
                 map.name, map.format, map.advice));
         if (Status fits = checkMemory(*jobs); !fits)
-            return fits;
+            return fits.error();
         for (const MapJob& job : *jobs)
             surfaces_ += surfacesOf(job);
         if (jobs->empty() && report_.unread.empty()) // else their notes say why
@@ -64,17 +64,15 @@ public:
             for (const MapSlot& place : options_.keepMaps ? std::vector<MapSlot>{} : job.places)
                 nameFrame(document_, place.material, options_.frames.to);
         if (Status settled = settleTangents(); !settled)
-            return settled;
+            return settled.error();
         if (!std::ranges::all_of(report_.maps, &ConvertedMap::kept) && options_.frames.to != Frame::mikktspace)
             report_.notes.push_back(
                 fmt::format("the maps are now for the frame {}; readers that make MikkTSpace tangents where TANGENT is "
                             "missing, as glTF asks, will show them wrongly",
                             name(options_.frames.to)));
-        return Done{};
+        given_ = std::move(document_);
+        return std::move(report_);
     }
-
-    GltfDocument& document() { return document_; }
-    ConvertModelReport& report() { return report_; }
 
 private:
     std::string fieldOf(const MapJob& job) const
@@ -270,7 +268,8 @@ private:
     }
 
     const ConvertModelOptions& options_;
-    GltfDocument document_; // a copy, so that an error leaves the caller's as it was
+    GltfDocument& given_;
+    GltfDocument document_; // a copy, so that an error leaves the given one as it was
     ConvertModelReport report_;
     std::size_t surfaces_ = 0; // of all maps
     bool named_ = false;       // the materials say for which frame their maps are
@@ -291,11 +290,7 @@ Result<ConvertModelReport> convertModel(GltfDocument& document, const ConvertMod
         return usageError(
             fmt::format("convert: where maps stay tangents go; expected a frame that reads none, found {}",
                         options.keepTangents ? "keepTangents" : name(options.frames.to)));
-    ModelConverter converter(document, options);
-    if (Status done = converter.run(); !done)
-        return done.error();
-    document = std::move(converter.document());
-    return std::move(converter.report());
+    return ModelConverter(document, options).run();
 }
 
 } // namespace cotan
