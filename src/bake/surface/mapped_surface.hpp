@@ -1,6 +1,5 @@
-// A mesh as its normal map sees it: with the uv that the map is read with, and every frame at every
-// point. In double; made once, asked often. For one frame in the world, as it is baked, see
-// low_surface.hpp.
+// A mesh as its normal map sees it: with the uv that the map is read with, and every frame at every point. In double;
+// made once, asked often. For one frame in the world, as it is baked, see low_surface.hpp.
 #pragma once
 
 #include <array>

@@ -32,8 +32,7 @@ double edge(glm::dvec2 a, glm::dvec2 b, glm::dvec2 p)
     return swapped ? -e : e;
 }
 
-// Of two triangles on either side of an edge exactly one takes the points on it: the fill rule of
-// rasterisers.
+// Of two triangles on either side of an edge exactly one takes the points on it: the fill rule of rasterisers.
 bool takesEdge(glm::dvec2 a, glm::dvec2 b) { return b.y < a.y || (b.y == a.y && b.x < a.x); }
 
 glm::dvec2 nearestOn(glm::dvec2 a, glm::dvec2 b, glm::dvec2 p)
