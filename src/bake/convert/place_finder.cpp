@@ -61,7 +61,7 @@ void PlaceFinder::findRow(const Layer& layer, int y, std::vector<std::vector<Fou
     if (layer.wrapU == Wrap::clamp || layer.wrapV == Wrap::clamp)
         few.counts = [&](const UvSample& p) {
             const std::uint32_t* const v = &layer.indices[3 * std::size_t(p.triangle)];
-            const glm::dvec2 uv = atCorners(layer.texcoords, {v[0], v[1], v[2]}, barycentricOf(p));
+            const glm::dvec2 uv = atCorners(layer.texcoords, v, barycentricOf(p));
             return (layer.wrapU != Wrap::clamp || (uv.x >= 0 && uv.x <= 1))
                 && (layer.wrapV != Wrap::clamp || (uv.y >= 0 && uv.y <= 1));
         };
