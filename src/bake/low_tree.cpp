@@ -116,7 +116,7 @@ LowTree::Nearest LowTree::nearestOf(glm::vec3 to, float radius, const void* acce
             Nearest& best = q.best;
             if (distance > best.distance || (best.found && distance == best.distance && a->primID > best.triangle))
                 return false;
-            best = {true, a->primID, on.b1, on.b2, point, distance, best.asked};
+            best = {{true, a->primID, on.b1, on.b2, distance}, point, best.asked};
             // A little more than the distance, so that all that are equally near are asked about.
             a->query->radius = distance * 1.00001f;
             return true;

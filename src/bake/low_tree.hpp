@@ -21,12 +21,14 @@ public:
     static Result<LowTree> make(std::vector<glm::vec3> positions, std::vector<std::uint32_t> indices,
                                 std::vector<std::int64_t> shown, int threads);
 
-    struct Nearest {
+    struct Met {
         bool found = false;
         std::uint32_t triangle = 0;
         float b1 = 0, b2 = 0; // barycentric coordinates of its corners 1 and 2
-        glm::vec3 point{0};
         float distance = 0;
+    };
+    struct Nearest : Met {
+        glm::vec3 point{0};
         std::size_t asked = 0; // triangles that were looked at
     };
     // The nearest point, at most `radius` away, of the triangles that `accepts` takes; of equally near ones that of the
@@ -38,12 +40,6 @@ public:
         });
     }
 
-    struct Met {
-        bool found = false;
-        std::uint32_t triangle = 0;
-        float b1 = 0, b2 = 0;
-        float distance = 0;
-    };
     // The first triangle on a ray.
     Met first(const Ray& ray) const;
     // The same, of those that show something that `triangle` shows too.

@@ -54,8 +54,7 @@ void PlaceFinder::findRow(const Layer& layer, int y, std::vector<std::vector<Fou
 {
     const int foldU = foldOf(layer.wrapU), foldV = foldOf(layer.wrapV);
     const auto partOf = [&](std::uint32_t triangle) -> const Part& {
-        return *std::prev(std::upper_bound(layer.parts.begin(), layer.parts.end(), triangle,
-                                           [](std::uint32_t t, const Part& part) { return t < part.firstTriangle; }));
+        return *std::prev(std::ranges::upper_bound(layer.parts, triangle, {}, &Part::firstTriangle));
     };
     UvFew few{.most = most_};
     if (layer.wrapU == Wrap::clamp || layer.wrapV == Wrap::clamp)

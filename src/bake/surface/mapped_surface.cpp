@@ -33,11 +33,6 @@ glm::dvec4 moved(const LinearMap<double>& m, glm::vec4 gltf)
     return {direction, double(t.w) * (m.determinant() < 0 ? -1 : 1)};
 }
 
-glm::dvec3 movedCovector(const LinearMap<double>& m, glm::vec3 c)
-{
-    return m.planeImage(Covector3d(glm::dvec3(c))).raw();
-}
-
 // The values of corners, once for the corners of a vertex that have the same bits, as far as these are among the first
 // kMaxCompared of the vertex. Further values of a vertex come after the first values of all vertices.
 CornerTangents gathered(std::size_t vertices, const std::vector<std::uint32_t>& indices,
@@ -124,7 +119,8 @@ f64::cotan_frame frameOfVertices(const MappedSurface& s, Frame frame, TangentOri
         return evaluateCotangents(frame, n, glm::dvec3(0), glm::dvec3(0));
     const auto gradient = [&](const std::vector<glm::vec3>& values) {
         return blended(triangle, barycentric, [&](std::size_t corner) {
-            return movedCovector(s.linear, values[made.places.of(corner, s.vertexOf(corner))]);
+            const glm::dvec3 own(values[made.places.of(corner, s.vertexOf(corner))]);
+            return s.linear.planeImage(Covector3d(own)).raw();
         });
     };
     return evaluateCotangents(frame, n, gradient(made.values.u), gradient(made.values.v));
@@ -180,8 +176,7 @@ std::size_t CornerPlaces::of(std::size_t corner, std::uint32_t vertex) const
 {
     if (several_.empty() || !several_[vertex])
         return vertex;
-    const auto found = std::lower_bound(elsewhere_.begin(), elsewhere_.end(), corner,
-                                        [](const Elsewhere& e, std::size_t c) { return e.corner < c; });
+    const auto found = std::ranges::lower_bound(elsewhere_, corner, {}, &Elsewhere::corner);
     return found != elsewhere_.end() && found->corner == corner ? found->place : vertex;
 }
 
