@@ -111,13 +111,9 @@ Status checkPlaces(const std::vector<glm::vec3>& points, const char* what)
 // A transform of zero, for one, leaves none.
 Status checkArea(const LowSurface& low)
 {
-    for (std::size_t i = 0; i < low.indices.size(); i += 3) {
-        const glm::dvec3 p(low.positions[low.indices[i]]);
-        if (glm::cross(glm::dvec3(low.positions[low.indices[i + 1]]) - p,
-                       glm::dvec3(low.positions[low.indices[i + 2]]) - p)
-            != glm::dvec3(0))
+    for (std::size_t f = 0; f < low.triangleCount(); ++f)
+        if (const TriangleEdges edges = edgesOf(low, f); glm::cross(edges.p1, edges.p2) != glm::dvec3(0))
             return Done{};
-    }
     return inputError(
         fmt::format("low: expected a triangle with an area; all {} have none as they are placed", low.triangleCount()));
 }
