@@ -48,7 +48,7 @@ struct LowRest {
 // options: extrusion is the distance of all vertices, 0 measures; maxDistance the limit, 0 for 10 % of the diagonal of
 // the low surface's box, LowRest included; matched and threads.
 Result<RayStarts> makeRayStarts(const LowSurface& low, const HighSurface& high, const BakeOptions& options,
-                                const LowRest& rest);
+                                const LowRest& rest = {});
 
 // How far a ray may start in front of a point of `triangle`: `wanted`, or where another part of the low surface that
 // shows the same detail stands in between, the distance to it; half of that, if one sees it from behind. `skip`: parts
