@@ -1,7 +1,7 @@
 // cotan.h: a model's maps made for another frame, in memory, in one step or in two.
 #include <algorithm>
 
-#include "bake/convert_report.hpp"
+#include "bake/reports.hpp"
 #include "cotan/convert.hpp"
 #include "cotan/gltf.hpp"
 #include "gltf/json/lookup.hpp"

@@ -3,7 +3,7 @@
 #include <set>
 
 #include "bake/convert/map_jobs.hpp"
-#include "bake/lint_report.hpp"
+#include "bake/reports.hpp"
 #include "cotan/gltf.hpp"
 #include "cotan/lint.hpp"
 #include "gltf/json/lookup.hpp"

@@ -1,5 +1,5 @@
 // cotan.h: the picture that `cotan render` draws.
-#include "bake/report_words.hpp"
+#include "bake/reports.hpp"
 #include "core/loops.hpp"
 #include "cotan/picture.hpp"
 #include "inspect/statistics.hpp"
