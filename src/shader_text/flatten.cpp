@@ -1,7 +1,7 @@
-#include "flatten.hpp"
-
 #include <map>
 #include <stdexcept>
+
+#include "specialise.hpp"
 
 namespace cotan::shader_text {
 

@@ -1,7 +1,6 @@
 #include <algorithm>
 
 #include "entry.hpp"
-#include "fill.hpp"
 #include "godot.hpp"
 #include "languages.hpp"
 
@@ -9,27 +8,13 @@ namespace cotan::shader_text {
 
 namespace {
 
-std::string_view channelsText(Channels c)
-{
-    switch (c) {
-    case Channels::xyz: return "three channels";
-    case Channels::orthographic: return "two channels, z = sqrt(1 - x^2 - y^2)";
-    case Channels::stereographic: return "two channels, (x, y)/(1 + z)";
-    case Channels::slope: break;
-    }
-    return "two channels, slopes";
-}
-
-std::string_view expansionText(Expansion e)
-{
-    switch (e) {
-    case Expansion::exact: return "(255c - 128)/127";
-    case Expansion::exact16: return "(65535c - 32768)/32767";
-    case Expansion::biased: return "2c - 1";
-    case Expansion::signedValues: break;
-    }
-    return "signed values as sampled";
-}
+// In the order of Channels, Expansion and Form.
+constexpr std::string_view kChannelTexts[] = {"three channels", "two channels, z = sqrt(1 - x^2 - y^2)",
+                                              "two channels, (x, y)/(1 + z)", "two channels, slopes"};
+constexpr std::string_view kExpansionTexts[] = {"(255c - 128)/127", "2c - 1", "signed values as sampled",
+                                                "(65535c - 32768)/32767"};
+constexpr std::string_view kFormTexts[] = {"fused", "total form", "fused, normal on the side that is seen",
+                                           "fused, for square texels"};
 
 std::string declared(Language language, const std::string& value)
 {
@@ -110,21 +95,10 @@ std::string needs(const Choice& choice)
     if (hasScreenEntry(choice))
         return text
             + fill("//   derivatives of position and uv: taken here by {} and {}\n",
-                   infoOf(choice.language).grammar.ddx, infoOf(choice.language).grammar.ddy);
+                   wordOf(choice.language, "cotan_ddx"), wordOf(choice.language, "cotan_ddy"));
     return text
         + "//   derivatives of position and uv: yours, along any two directions, the same for both\n"
           "//              (screen derivatives, ray differentials, neighbours in a raster)\n";
-}
-
-std::string_view formText(Form form)
-{
-    switch (form) {
-    case Form::fused: return "fused";
-    case Form::total: return "total form";
-    case Form::seen: return "fused, normal on the side that is seen";
-    case Form::area: return "fused, for square texels";
-    }
-    return {};
 }
 
 std::string_view sidesOf(Frame frame)
@@ -237,8 +211,8 @@ std::string introduction(const Choice& choice, Form form)
                 "//\n"
                 "// Normal map: {}, {}, green {} increasing v.\n"
                 "//\n{}//\n// Call:\n//   {}\n// It returns {}.\n//\n{}//\n{}{}\n",
-                name(choice.frame), formText(form), halfs ? language.titleWithHalfs : language.title,
-                channelsText(c.channels), expansionText(c.expansion), greenAlongV(c) ? "along" : "against",
+                name(choice.frame), kFormTexts[int(form)], halfs ? language.titleWithHalfs : language.title,
+                kChannelTexts[int(c.channels)], kExpansionTexts[int(c.expansion)], greenAlongV(c) ? "along" : "against",
                 needs(choice), call(choice, form),
                 choice.stage == Stage::vertex || choice.stage == Stage::mesh
                     ? "three words, the same for the whole triangle"

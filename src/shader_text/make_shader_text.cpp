@@ -4,12 +4,9 @@
 #include <set>
 
 #include "entry.hpp"
-#include "fill.hpp"
 #include "godot.hpp"
 #include "languages.hpp"
 #include "parse.hpp"
-#include "portable_parts.hpp"
-#include "print.hpp"
 #include "specialise.hpp"
 
 namespace cotan::shader_text {

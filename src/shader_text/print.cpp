@@ -1,9 +1,7 @@
-#include "print.hpp"
-
 #include <set>
 
-#include "flatten.hpp"
 #include "languages.hpp"
+#include "specialise.hpp"
 
 namespace cotan::shader_text {
 
@@ -155,14 +153,14 @@ private:
                 return number(inside.text + ".0");
             return inside.kind == Kind::binary ? "(" + expression(inside) + ")" : expression(inside);
         }
-        const bool vector = e.text.rfind("cotan_vec", 0) == 0;
+        const bool vector = e.text.starts_with("cotan_vec");
         const bool braces = vector && grammar_.braces;
         return word(e.text) + (braces ? "{" : "(") + arguments(e.children) + (braces ? "}" : ")");
     }
 
     static bool isReal(const std::string& text)
     {
-        return text.rfind("0x", 0) != 0 && text.find_first_of(".e") != std::string::npos;
+        return !text.starts_with("0x") && text.find_first_of(".e") != std::string::npos;
     }
 
     std::string number(const std::string& text) const

@@ -112,9 +112,7 @@ void dropParameter(Module& module, const std::string& function, const std::strin
 {
     for (Function& f : module.functions)
         if (f.name == function)
-            f.parameters.erase(std::remove_if(f.parameters.begin(), f.parameters.end(),
-                                              [&](const Variable& p) { return p.name == name; }),
-                               f.parameters.end());
+            std::erase_if(f.parameters, [&](const Variable& p) { return p.name == name; });
 }
 
 void simplify(Function& function)
