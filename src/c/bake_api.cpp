@@ -1,6 +1,5 @@
 // cotan.h: baking, from arrays and from models.
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstring>
@@ -17,29 +16,22 @@ using namespace cotan::c;
 
 namespace {
 
-BakeKind kindOf(std::string_view wanted)
-{
-    constexpr std::array<std::pair<std::string_view, BakeKind>, 4> kKinds = {{{"normal", BakeKind::normal},
-                                                                              {"object-normal", BakeKind::objectNormal},
-                                                                              {"height", BakeKind::height},
-                                                                              {"occlusion", BakeKind::occlusion}}};
-    for (const auto& [name, kind] : kKinds)
-        if (name == wanted)
-            return kind;
-    fail(ErrorKind::usage,
-         "options.kind: expected normal, object-normal, height or occlusion, found '" + std::string(wanted) + "'");
-}
+constexpr Named<BakeKind> kKinds[] = {{"normal", BakeKind::normal},
+                                      {"object-normal", BakeKind::objectNormal},
+                                      {"height", BakeKind::height},
+                                      {"occlusion", BakeKind::occlusion}};
+
+constexpr Named<HighNormals> kHighNormals[] = {{"smooth", HighNormals::smooth},
+                                               {"curved", HighNormals::curved},
+                                               {"face", HighNormals::face},
+                                               {"map", HighNormals::smooth}};
 
 // How normals of the detailed side are found.
 void readHigh(const cotan_bake_options& o, BakeModelOptions& options, HighModel& high)
 {
-    using N = HighNormals;
     const std::string_view wanted = o.high_normals ? o.high_normals : "smooth";
     options.ownMaps = wanted == "map";
-    options.bake.highNormals = wanted == "curved" ? N::curved : wanted == "face" ? N::face : N::smooth;
-    if (wanted != "smooth" && options.bake.highNormals == N::smooth && !options.ownMaps)
-        fail(ErrorKind::usage,
-             "options.high_normals: expected smooth, curved, face or map, found '" + std::string(wanted) + "'");
+    options.bake.highNormals = valueOf(kHighNormals, wanted, "options.high_normals");
     if (!options.ownMaps && (o.high_map_count > 0 || o.high_frame || o.high_convention))
         fail(ErrorKind::usage,
              "options.high_normals: expected map where a map, frame or convention is given, found '"
@@ -67,7 +59,7 @@ BakeModelOptions bakeOptionsOf(const cotan_bake_options& o, const cotan_picture&
     const std::string_view tangents = o.tangents ? o.tangents : "generated";
     require(tangents == "stored" || tangents == "generated", "options.tangents: expected stored or generated");
     BakeOptions& b = options.bake;
-    b.kind = kindOf(o.kind ? o.kind : "normal");
+    b.kind = valueOf(kKinds, o.kind ? o.kind : "normal", "options.kind");
     b.frame = frameOr(o.frame, Frame::mikktspace, "options.frame");
     b.width = map.width;
     b.height = map.height;

@@ -5,7 +5,6 @@
 #include "cotan/convert.hpp"
 #include "cotan/gltf.hpp"
 #include "gltf/json/lookup.hpp"
-#include "json_text.hpp"
 #include "model_files.hpp"
 
 using namespace cotan;
@@ -218,8 +217,7 @@ cotan_status cotan_convert_end(cotan_conversion* conversion, cotan_bytes** glb, 
 {
     return call(message, message_size, [&] {
         require(conversion && glb, "conversion and glb: expected both, found null");
-        require(std::all_of(conversion->pictures.begin(), conversion->pictures.end(),
-                            [](const auto& p) { return p.given; }),
+        require(std::ranges::all_of(conversion->pictures, &cotan_conversion::Picture::given),
                 "conversion: expected the PNG files of all pictures");
         auto made = std::make_unique<cotan_bytes>(cotan_bytes{valueOf(glbBytes(conversion->document))});
         giveText("cotan-convert-result", convertJson(conversion->report), json);

@@ -1,12 +1,5 @@
 // cotan.h: frames and tangents.
-
-#include <glm/vec2.hpp>
-#include <glm/vec3.hpp>
-#include <glm/vec4.hpp>
-
-#include "call.hpp"
 #include "cotan/frame.hpp"
-#include "cotan/tangents.hpp"
 #include "meshes.hpp"
 
 using namespace cotan;

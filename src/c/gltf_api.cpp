@@ -7,7 +7,6 @@
 #include "cotan/gltf.hpp"
 #include "cotan/lint.hpp"
 #include "gltf/json/lookup.hpp"
-#include "json_text.hpp"
 #include "model_files.hpp"
 #include "models_api.hpp"
 

@@ -53,6 +53,15 @@ inline void checkFinite(const std::string& name, const float* numbers, std::size
                                                : "-inf"));
 }
 
+// The arrays of a checked mesh; those that are left out are empty.
+inline MeshView arraysOf(const cotan_mesh& m)
+{
+    return {{reinterpret_cast<const glm::vec3*>(m.positions), m.vertex_count},
+            {reinterpret_cast<const glm::vec3*>(m.normals), m.normals ? m.vertex_count : 0},
+            {reinterpret_cast<const glm::vec2*>(m.texcoords), m.texcoords ? m.vertex_count : 0},
+            {m.indices, m.index_count}};
+}
+
 // A mesh with uv as the library takes it.
 inline MeshView viewOf(const cotan_mesh* given)
 {
@@ -60,10 +69,7 @@ inline MeshView viewOf(const cotan_mesh* given)
     checkFinite("mesh.positions", m.positions, 3, m.vertex_count);
     checkFinite("mesh.normals", m.normals, 3, m.vertex_count);
     checkFinite("mesh.texcoords", m.texcoords, 2, m.vertex_count);
-    return {{reinterpret_cast<const glm::vec3*>(m.positions), m.vertex_count},
-            {reinterpret_cast<const glm::vec3*>(m.normals), m.vertex_count},
-            {reinterpret_cast<const glm::vec2*>(m.texcoords), m.vertex_count},
-            {m.indices, m.index_count}};
+    return arraysOf(m);
 }
 
 } // namespace cotan::c

@@ -14,10 +14,7 @@ namespace cotan::c {
 // One mesh, checked, as the library has it; its material is the first.
 inline Mesh meshOf(const cotan_mesh& m)
 {
-    const MeshView view{{reinterpret_cast<const glm::vec3*>(m.positions), m.vertex_count},
-                        {reinterpret_cast<const glm::vec3*>(m.normals), m.normals ? m.vertex_count : 0},
-                        {reinterpret_cast<const glm::vec2*>(m.texcoords), m.texcoords ? m.vertex_count : 0},
-                        {m.indices, m.index_count}};
+    const MeshView view = arraysOf(m);
     Mesh mesh;
     mesh.positions.assign(view.positions.begin(), view.positions.end());
     mesh.normals.assign(view.normals.begin(), view.normals.end());
