@@ -1,6 +1,9 @@
 #include "cotan/convention.hpp"
 
+#include <algorithm>
 #include <array>
+
+#include "core/named_values.hpp"
 
 namespace cotan {
 
@@ -18,8 +21,7 @@ constexpr Convention tangent(bool greenUp, VDirection v)
 // What a person gives to each importer, by the documents and sources of the engines:
 // glTF: specification 2.0, 3.9.3: "+X is right and +Y is up"; uv begin at the top left.
 // Unity: manual, "Normal map": "Unity uses Y+ normal maps, sometimes known as OpenGL format"; the texture type Normal
-// map
-//   makes two channels of the file (DXT5nm: x in alpha, y in green; or BC5).
+//   map makes two channels of the file (DXT5nm: x in alpha, y in green; or BC5).
 // Unreal: its exporter of glTF, whose maps are Y+, flips green (GLTFExportOptions.adjust_normalmaps); TC_Normalmap is
 //   BC5. NormalMapIdentification.cpp tells a normal map by texels near (0, 0, 1), blue included: without blue it is
 //   taken for a picture of colours.
@@ -71,6 +73,84 @@ std::string_view word(MapKind k)
     return k == tangentSpace ? "tangent space" : k == objectSpace ? "object space" : "height";
 }
 
+// What is said after a preset's name, or without one.
+using Said = Named<void (*)(StatedConvention&)>;
+
+template<Channels channels> void say(StatedConvention& s)
+{
+    s.convention.channels = channels;
+    s.channels = true;
+}
+
+constexpr Said kWords[] = {
+    {"green-up", [](StatedConvention& s) { s.convention.greenUp = true; }},
+    {"green-down", [](StatedConvention& s) { s.convention.greenUp = false; }},
+    {"exact", [](StatedConvention& s) { s.convention.expansion = Expansion::exact; }},
+    {"biased", [](StatedConvention& s) { s.convention.expansion = Expansion::biased; }},
+    {"signed", [](StatedConvention& s) { s.convention.expansion = Expansion::signedValues; }},
+    {"xyz", say<Channels::xyz>},
+    {"xy", say<Channels::orthographic>},
+    {"orthographic", say<Channels::orthographic>}, // the same
+    {"stereographic", say<Channels::stereographic>},
+    {"slope", say<Channels::slope>},
+    // Axes of a mesh: all three are needed, and green has no picture to be turned against.
+    {"object",
+     [](StatedConvention& s) {
+         say<Channels::xyz>(s);
+         s.convention.kind = objectSpace;
+         s.convention.greenUp = true;
+     }},
+};
+
+constexpr Said kDamageWords[] = {
+    {"srgb", [](StatedConvention& s) { s.damage.curve = Damage::Curve::srgb; }},
+    {"linearised", [](StatedConvention& s) { s.damage.curve = Damage::Curve::linearised; }},
+    {"bgr", [](StatedConvention& s) { s.damage.order = Damage::Order::bgr; }},
+    {"grb", [](StatedConvention& s) { s.damage.order = Damage::Order::grb; }},
+};
+
+Error unknownWord(std::string_view word, bool damages)
+{
+    const std::string found = word.empty() ? "nothing" : "'" + std::string(word) + "'";
+    std::string message = "expected ";
+    message += conventionWords(); // gcc 12 warns wrongly where a string is put before one that is moved
+    if (damages)
+        for (const Said& w : kDamageWords)
+            message.append(" ").append(w.word);
+    return {ErrorKind::usage, message + "; found " + found};
+}
+
+Result<StatedConvention> parsed(std::string_view text, bool damages)
+{
+    if (text.empty())
+        return unknownWord(text, damages);
+    StatedConvention stated;
+    for (bool first = true; !text.empty(); first = false) {
+        const std::string_view word = text.substr(0, text.find(','));
+        if (const auto preset = first ? conventionFromName(word) : std::nullopt)
+            stated.convention = *preset;
+        else if (const auto say = valueOf(kWords, word))
+            (*say)(stated);
+        else if (const auto damage = valueOf(kDamageWords, word))
+            (*damage)(stated);
+        else
+            return unknownWord(word, damages);
+        text.remove_prefix(std::min(word.size() + 1, text.size()));
+    }
+    return stated;
+}
+
+// For what is to be written, or read by a shader.
+Result<StatedConvention> undamaged(std::string_view text)
+{
+    auto stated = parsed(text, false);
+    if (stated && stated->damage.any())
+        return usageError("srgb, linearised, bgr and grb say how a broken map is stored; expected a convention without "
+                          "them, found '"
+                          + std::string(text) + "'");
+    return stated;
+}
+
 } // namespace
 
 std::span<const ConventionPreset> conventionPresets() { return kPresets; }
@@ -101,5 +181,48 @@ std::string describe(const Convention& c)
     }
     return s;
 }
+
+std::string conventionWords()
+{
+    std::string words;
+    for (const ConventionPreset& p : conventionPresets())
+        words += (words.empty() ? "" : " ") + std::string(p.name);
+    words += "; then, after commas,";
+    for (const Said& w : kWords)
+        words.append(" ").append(w.word);
+    return words;
+}
+
+std::vector<std::string> conventionWordList()
+{
+    std::vector<std::string> words;
+    for (const ConventionPreset& p : conventionPresets())
+        words.emplace_back(p.name);
+    for (const Said& w : kWords)
+        words.emplace_back(w.word);
+    return words;
+}
+
+std::vector<std::string> damageWords() { return wordsOf(kDamageWords); }
+
+Result<Convention> parseConvention(std::string_view text)
+{
+    const auto stated = undamaged(text);
+    return stated ? Result<Convention>(stated->convention) : stated.error();
+}
+
+Result<Convention> parseSampledConvention(std::string_view text)
+{
+    const auto stated = undamaged(text);
+    if (!stated || stated->channels)
+        return stated ? Result<Convention>(stated->convention) : stated.error();
+    Convention convention = stated->convention;
+    for (const ConventionPreset& p : conventionPresets())
+        if (p.name == text.substr(0, text.find(',')))
+            convention.channels = onCard(p).channels;
+    return convention;
+}
+
+Result<StatedConvention> parseStatedConvention(std::string_view text) { return parsed(text, true); }
 
 } // namespace cotan
