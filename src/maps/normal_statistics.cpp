@@ -10,7 +10,6 @@
 #include <glm/geometric.hpp>
 
 #include "maps/texels.hpp"
-#include "srgb.hpp"
 
 namespace cotan::maps {
 
