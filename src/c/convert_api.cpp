@@ -83,11 +83,13 @@ ConvertModelOptions optionsFor(const cotan_convert_options& o, const ModelFiles&
     return convert;
 }
 
-// Where the caller names none: the frame that the document names.
-void chooseFrom(const cotan_convert_options& o, const GltfDocument& document, ConvertModelOptions& convert)
+// The document of a model; it says what frame it is in where the caller names none.
+GltfDocument opened(const ModelFiles& source, const cotan_convert_options& o, ConvertModelOptions& convert)
 {
+    GltfDocument document = valueOf(openGltfDocument(source.name(), convert.limits));
     if (!o.from)
         convert.frames.from = valueOf(namedFrame(document)).value_or(convert.frames.from);
+    return document;
 }
 
 // Bytes that no file has twice.
@@ -148,8 +150,7 @@ cotan_status cotan_convert_gltf(const void* model, size_t model_size, const cota
             checked(result, "result");
         const ModelFiles source(model, model_size, files);
         ConvertModelOptions convert = optionsFor(o, source);
-        GltfDocument document = valueOf(openGltfDocument(source.name(), convert.limits));
-        chooseFrom(o, document, convert);
+        GltfDocument document = opened(source, o, convert);
         const ConvertModelReport report = valueOf(convertModel(document, convert));
         auto made = std::make_unique<cotan_bytes>(cotan_bytes{valueOf(glbBytes(std::move(document), convert.limits))});
         giveText("cotan-convert-result", convertJson(report), json);
@@ -175,8 +176,7 @@ cotan_status cotan_convert_begin(const void* model, size_t model_size, const cot
             made->pictures.push_back({image, placeholderOf(made->pictures.size())});
             return made->pictures.back().placeholder;
         };
-        made->document = valueOf(openGltfDocument(source.name(), convert.limits));
-        chooseFrom(o, made->document, convert);
+        made->document = opened(source, o, convert);
         made->report = valueOf(convertModel(made->document, convert));
         made->document = closedDocument(made->document, convert.limits);
         if (result)
