@@ -54,12 +54,6 @@ private:
     std::vector<std::uint32_t> byLeaving, byComing;
     std::vector<std::uint64_t> keys; // another vertex, and the corner below it
 
-    void join(std::uint32_t i, std::uint32_t j)
-    {
-        left[i] = j;
-        right[j] = i;
-    }
-
     void pair();
 };
 
