@@ -6,7 +6,7 @@
 
 #include "call.hpp"
 #include "cotan/bake.hpp"
-#include "models_api.hpp"
+#include "meshes.hpp"
 #include "pictures.hpp"
 #include "scene/normal_format.hpp"
 #include "scene/stored_green.hpp"

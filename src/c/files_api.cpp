@@ -2,7 +2,7 @@
 #include "cotan/image.hpp"
 #include "cotan/model.hpp"
 #include "cotan/picture.hpp"
-#include "models_api.hpp"
+#include "meshes.hpp"
 #include "pictures.hpp"
 
 using namespace cotan;

@@ -1,5 +1,5 @@
 // cotan.h: models and pictures as such.
-#include "models_api.hpp"
+#include "meshes.hpp"
 
 #include "pictures.hpp"
 #include "scene/geometry.hpp"

@@ -46,32 +46,12 @@ constexpr std::array kPresets = {
     ConventionPreset{"source", tangent(false, VDirection::down), false, "green down, v down"},
 };
 
-std::string_view word(Expansion e)
-{
-    switch (e) {
-    case Expansion::exact: return "exact expansion";
-    case Expansion::exact16: return "exact expansion of 16 bits";
-    case Expansion::biased: return "biased expansion";
-    case Expansion::signedValues: break;
-    }
-    return "signed";
-}
-
-std::string_view word(Channels c)
-{
-    switch (c) {
-    case Channels::xyz: return "xyz";
-    case Channels::orthographic: return "two channels (orthographic)";
-    case Channels::stereographic: return "two channels (stereographic)";
-    case Channels::slope: break;
-    }
-    return "slopes";
-}
-
-std::string_view word(MapKind k)
-{
-    return k == tangentSpace ? "tangent space" : k == objectSpace ? "object space" : "height";
-}
+// In the order of MapKind, Channels and Expansion.
+constexpr std::string_view kKindTexts[] = {"tangent space", "object space", "height"};
+constexpr std::string_view kChannelTexts[] = {"xyz", "two channels (orthographic)", "two channels (stereographic)",
+                                              "slopes"};
+constexpr std::string_view kExpansionTexts[] = {"exact expansion", "biased expansion", "signed",
+                                                "exact expansion of 16 bits"};
 
 // What is said after a preset's name, or without one.
 using Said = Named<void (*)(StatedConvention&)>;
@@ -173,13 +153,12 @@ Convention onCard(const ConventionPreset& preset)
 
 std::string describe(const Convention& c)
 {
-    std::string s(word(c.kind));
-    for (std::string_view part : {word(c.channels), std::string_view(c.greenUp ? "green up" : "green down"),
-                                  std::string_view(c.v == VDirection::up ? "v up" : "v down"), word(c.expansion)}) {
-        s += ", ";
-        s += part;
-    }
-    return s;
+    std::string text(kKindTexts[int(c.kind)]);
+    for (std::string_view part :
+         {kChannelTexts[int(c.channels)], std::string_view(c.greenUp ? "green up" : "green down"),
+          std::string_view(c.v == VDirection::up ? "v up" : "v down"), kExpansionTexts[int(c.expansion)]})
+        text.append(", ").append(part);
+    return text;
 }
 
 std::string conventionWords()

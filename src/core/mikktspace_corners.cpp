@@ -1,7 +1,7 @@
-#include "mikktspace_corners.hpp"
-
 #include <algorithm>
 #include <utility>
+
+#include "mikktspace.hpp"
 
 namespace cotan::mikktspace {
 

@@ -1,13 +1,12 @@
-#include "mikktspace_triangles.hpp"
-
 #include <algorithm>
+
+#include "mikktspace.hpp"
 
 namespace cotan::mikktspace {
 
 namespace {
 
 using tangents::fastArcCosine;
-using tangents::kNone;
 using tangents::projectedAngle;
 using tangents::projectedUnit;
 using tangents::put;
@@ -132,6 +131,14 @@ void gather(const Triangles& t, std::size_t first, std::size_t lanes, Batch& bat
         }
 }
 
+// The angle with which a corner's triangle counts; 0 for one without a direction.
+float weightOf(const Triangles& t, std::size_t c)
+{
+    if (t.has(c / 3, kJoinsAny))
+        return 0;
+    return projectedAngle(t.position(c), t.position(previousCorner(c)), t.position(nextCorner(c)), t.normal(c));
+}
+
 void scatter(const Batch& batch, std::size_t first, std::size_t lanes, Triangles& t, std::span<glm::vec4> contributions)
 {
     for (std::size_t l = 0; l < lanes; ++l) {
@@ -201,13 +208,6 @@ glm::vec3 alongU(const Triangles& t, std::size_t f)
     return directionsOf(t.position(3 * f), t.position(3 * f + 1), t.position(3 * f + 2), t.texcoord(3 * f),
                         t.texcoord(3 * f + 1), t.texcoord(3 * f + 2))
         .u;
-}
-
-float weightOf(const Triangles& t, std::size_t c)
-{
-    if (t.has(c / 3, kJoinsAny))
-        return 0;
-    return projectedAngle(t.position(c), t.position(previousCorner(c)), t.position(nextCorner(c)), t.normal(c));
 }
 
 } // namespace cotan::mikktspace

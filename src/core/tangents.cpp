@@ -11,7 +11,7 @@
 #include <glm/trigonometric.hpp>
 
 #include "corner_groups.hpp"
-#include "mikktspace_triangles.hpp"
+#include "mikktspace.hpp"
 #include "tangents_mesh.hpp"
 
 namespace cotan {
@@ -30,6 +30,18 @@ glm::vec3 alongU(const Edges& e)
 {
     const glm::dvec3 t = (e.dp1 * e.duv2.y - e.dp2 * e.duv1.y) * (e.uvArea() < 0 ? -1.0 : 1.0);
     return unitOrZero(t);
+}
+
+// A unit vector perpendicular to n; n may be zero or not finite.
+glm::vec3 anyPerpendicular(glm::vec3 n)
+{
+    // Crossed with the axis that n is farthest from.
+    const glm::vec3 a = glm::abs(n);
+    const glm::vec3 axis = a.x <= a.y && a.x <= a.z ? glm::vec3(1, 0, 0)
+        : a.y <= a.z                                ? glm::vec3(0, 1, 0)
+                                                    : glm::vec3(0, 0, 1);
+    const glm::vec3 t = tangents::normalizeOrZero(axis - n * (glm::dot(axis, n) / glm::dot(n, n)));
+    return glm::dot(t, t) > 0.5f ? t : glm::vec3(1, 0, 0);
 }
 
 } // namespace
@@ -52,8 +64,8 @@ std::vector<glm::vec4> vertexTangents(const MeshView& mesh)
         const glm::vec3 n = mesh.normals[vertex];
         const Side side = tangents::sideOrNearest(sides[c], vertex, isEmpty);
         const glm::vec3 t = tangents::projectedUnit(sums[slot(vertex, side)], n);
-        out[c] = glm::dot(t, t) > 0.5f ? glm::vec4(t, side == Side::mirrored ? -1 : 1)
-                                       : glm::vec4(tangents::anyPerpendicular(n), 1);
+        out[c] =
+            glm::dot(t, t) > 0.5f ? glm::vec4(t, side == Side::mirrored ? -1 : 1) : glm::vec4(anyPerpendicular(n), 1);
     }
     return out;
 }

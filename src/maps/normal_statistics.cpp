@@ -392,17 +392,15 @@ NormalStatistics statisticsOfMap(const Image& image)
 
 std::string describe(Content content)
 {
-    switch (content) {
-    case Content::tangentSpace: return "tangent space";
-    case Content::objectSpace: return "object space (directions on both sides)";
-    case Content::twoChannel: return "two channels (x and y; z is to be rebuilt)";
-    case Content::slopes: return "two channels outside the unit disc: a slope map";
-    case Content::signedValues: return "tangent space, stored signed";
-    case Content::flat: return "one value everywhere";
-    case Content::grey: return "grey: a height map, not a normal map";
-    case Content::other: break;
-    }
-    return "not a normal map: lengths far from 1";
+    constexpr const char* kTexts[] = {"tangent space",
+                                      "object space (directions on both sides)",
+                                      "two channels (x and y; z is to be rebuilt)",
+                                      "two channels outside the unit disc: a slope map",
+                                      "tangent space, stored signed",
+                                      "one value everywhere",
+                                      "grey: a height map, not a normal map",
+                                      "not a normal map: lengths far from 1"};
+    return kTexts[int(content)];
 }
 
 } // namespace cotan::maps
