@@ -61,24 +61,9 @@ Tables tablesOf(const RecodeSettings& s)
     return t;
 }
 
-void recodeRow(const Image& map, int y, const Tables& t, const std::array<std::uint8_t, 3>& flat, Image& out,
-               std::size_t& invalid)
-{
-    const std::size_t start = std::size_t(y) * std::size_t(map.width) * 4, count = std::size_t(map.width);
-    const std::uint8_t* from = map.bytes8() + start;
-    std::uint8_t* to = out.bytes8() + start;
-    for (std::size_t i = 0; i < count; ++i, from += 4, to += 4) {
-        const bool valid = t.square[0][from[0]] + t.square[1][from[1]] + t.square[2][from[2]] >= 1e-6f;
-        invalid += !valid;
-        for (std::size_t k = 0; k < 3; ++k)
-            to[k] = valid ? t.stored[k][from[k]] : flat[k];
-        to[3] = from[3];
-    }
-}
-
 Image recodeByComponent(const Image& map, const RecodeSettings& s, RecodeCounts& counts)
 {
-    const Tables tables = tablesOf(s);
+    const Tables t = tablesOf(s);
     Image flatTexel = makeImage(1, 1, PixelType::unorm8);
     const glm::vec4 encoded = encodeTexel(glm::vec3(0), s.to, PixelType::unorm8, true);
     storeRow(flatTexel, 0, std::span(&encoded, 1));
@@ -87,9 +72,17 @@ Image recodeByComponent(const Image& map, const RecodeSettings& s, RecodeCounts&
     Image out = makeImage(map.width, map.height, s.type, map.name);
     std::atomic<std::size_t> invalid = 0;
     forRowBands(map.height, [&](int first, int last) {
+        const std::size_t width = std::size_t(map.width), start = 4 * std::size_t(first) * width;
+        const std::uint8_t* from = map.bytes8() + start;
+        std::uint8_t* to = out.bytes8() + start;
         std::size_t here = 0;
-        for (int y = first; y < last; ++y)
-            recodeRow(map, y, tables, flat, out, here);
+        for (std::size_t i = 0; i < std::size_t(last - first) * width; ++i, from += 4, to += 4) {
+            const bool valid = t.square[0][from[0]] + t.square[1][from[1]] + t.square[2][from[2]] >= 1e-6f;
+            here += !valid;
+            for (std::size_t k = 0; k < 3; ++k)
+                to[k] = valid ? t.stored[k][from[k]] : flat[k];
+            to[3] = from[3];
+        }
         invalid += here;
     });
     counts = {invalid, 0};

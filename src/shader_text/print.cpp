@@ -191,14 +191,6 @@ private:
     std::set<std::string> changed_; // variables that are assigned to after their declaration
 };
 
-bool callsAny(const Module& module, const std::set<std::string>& names)
-{
-    bool found = false;
-    for (const Function& f : module.functions)
-        visitBody(f.body, [&](const Expression& e) { found = found || (e.kind == Kind::call && names.count(e.text)); });
-    return found;
-}
-
 } // namespace
 
 std::string print(const Module& whole, Language language)
@@ -207,7 +199,12 @@ std::string print(const Module& whole, Language language)
     const Module module = info.grammar.structs ? whole : withoutStructs(whole);
     Printer printer(language);
     std::string text(info.prelude);
-    if (callsAny(module, {"cotan_pack_half", "cotan_unpack_half"}))
+    bool halfs = false;
+    for (const Function& f : module.functions)
+        visitBody(f.body, [&](const Expression& e) {
+            halfs |= e.kind == Kind::call && (e.text == "cotan_pack_half" || e.text == "cotan_unpack_half");
+        });
+    if (halfs)
         text += info.halfs;
     for (const Struct& s : module.structs)
         text += printer.structure(s) + '\n';

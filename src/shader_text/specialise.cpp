@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <set>
+#include <span>
 
 namespace cotan::shader_text {
 
@@ -47,7 +48,7 @@ bool reads(const Expression& e, const std::string& variable)
     return found;
 }
 
-bool reads(const std::vector<Statement>& body, const std::string& variable)
+bool reads(std::span<const Statement> body, const std::string& variable)
 {
     bool found = false;
     visitBody(body, [&](const Expression& x) { found |= x.kind == Kind::name && x.text == variable; });
@@ -128,16 +129,16 @@ void simplify(Function& function)
             ++i;
         }
     for (std::size_t i = body.size(); i-- > 0;) {
-        const std::vector<Statement> after(body.begin() + static_cast<std::ptrdiff_t>(i + 1), body.end());
-        if (body[i].kind == Statement::Kind::declare && !reads(after, body[i].name))
+        if (body[i].kind == Statement::Kind::declare && !reads(std::span(body).subspan(i + 1), body[i].name))
             body.erase(body.begin() + static_cast<std::ptrdiff_t>(i));
     }
     // A variable that only the next declaration reads, and only as it is, is that declaration.
     for (std::size_t i = 0; i + 1 < body.size(); ++i) {
-        const std::vector<Statement> after(body.begin() + static_cast<std::ptrdiff_t>(i + 2), body.end());
+        const std::span<const Statement> statements(body);
         const Statement& next = body[i + 1];
         if (body[i].kind == Statement::Kind::declare && next.kind == Statement::Kind::declare
-            && next.value.kind == Kind::name && next.value.text == body[i].name && !reads(after, body[i].name)) {
+            && next.value.kind == Kind::name && next.value.text == body[i].name
+            && !reads(statements.subspan(i + 2), body[i].name)) {
             body[i + 1].value = std::move(body[i].value);
             body.erase(body.begin() + static_cast<std::ptrdiff_t>(i));
         }
