@@ -94,7 +94,7 @@ void checkMask(const cotan_picture& mask, const cotan_picture& map)
 // An error of bakeModel, about the field of C that this is: of its own structs the message begins with another.
 Error aboutFieldOfC(Error error)
 {
-    constexpr std::pair<std::string_view, std::string_view> kFields[] = {
+    constexpr Named<std::string_view> kFields[] = {
         {"options.bake.width", "map"},
         {"options.bake.samples", "options.samples"},
         {"options.bake.frame", "options.frame"},
@@ -106,12 +106,10 @@ Error aboutFieldOfC(Error error)
         {"options.tiles", "options.tile"},
         {"high.maps", "options.high_maps"},
     };
-    for (const auto& [theirs, ours] : kFields)
-        if (error.field == theirs) {
-            error.message.replace(0, theirs.size(), ours);
-            error.field = ours;
-            break;
-        }
+    if (const auto ours = cotan::valueOf(kFields, error.field)) {
+        error.message.replace(0, error.field.size(), *ours);
+        error.field = *ours;
+    }
     return error;
 }
 

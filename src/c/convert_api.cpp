@@ -127,16 +127,6 @@ void replacePlaceholder(GltfDocument& document, const Bytes& placeholder, const 
             replaceGltfImage(document, i, png, "image/png");
 }
 
-// Those that have new pictures, in their order.
-std::vector<ConvertedMap*> convertedMaps(ConvertModelReport& report)
-{
-    std::vector<ConvertedMap*> converted;
-    for (ConvertedMap& map : report.maps)
-        if (!map.kept)
-            converted.push_back(&map);
-    return converted;
-}
-
 } // namespace
 
 cotan_status cotan_convert_gltf(const void* model, size_t model_size, const cotan_model_files* files,
@@ -207,7 +197,10 @@ cotan_status cotan_conversion_set(cotan_conversion* conversion, size_t number, c
         require(png && png_size > 0, "png: expected bytes, found none");
         require(!picture.given, "number: expected a picture that has no PNG file yet");
         replacePlaceholder(conversion->document, picture.placeholder, copied(png, png_size));
-        convertedMaps(conversion->report)[number]->bytesAfter = png_size;
+        std::size_t converted = 0; // maps so far: each has one of the pictures, in their order
+        for (ConvertedMap& map : conversion->report.maps)
+            if (!map.kept && converted++ == number)
+                map.bytesAfter = png_size;
         picture.given = true;
     });
 }

@@ -24,17 +24,14 @@ void fold(Expression& e)
     for (Expression& child : e.children)
         fold(child);
     if (e.kind == Kind::paren && e.children[0].kind != Kind::binary && e.children[0].kind != Kind::select) {
-        Expression inside = std::move(e.children[0]);
-        e = std::move(inside);
+        e = Expression(std::move(e.children[0]));
     } else if (e.kind == Kind::binary && e.text == "==" && e.children[0].kind == Kind::number
                && e.children[1].kind == Kind::number) {
         e = {Kind::name, e.children[0].text == e.children[1].text ? "true" : "false", {}};
     } else if (e.kind == Kind::select && (isBoolean(e.children[0], true) || isBoolean(e.children[0], false))) {
-        Expression chosen = std::move(e.children[isBoolean(e.children[0], true) ? 1 : 2]);
-        e = std::move(chosen);
+        e = Expression(std::move(e.children[isBoolean(e.children[0], true) ? 1 : 2]));
     } else if (e.kind == Kind::binary && e.text == "*" && isNumber(e.children[1], "1.0")) {
-        Expression left = std::move(e.children[0]);
-        e = std::move(left);
+        e = Expression(std::move(e.children[0]));
     } else if (e.kind == Kind::binary && e.text == "*" && isMinusOne(e.children[1])) {
         Expression left = std::move(e.children[0]);
         e = {Kind::unary, "-", {std::move(left)}};
@@ -91,10 +88,8 @@ void bindArgument(Module& module, const std::string& function, const std::string
                 const bool whole = field.empty() && e.kind == Kind::name && e.text == name;
                 const bool part = !field.empty() && e.kind == Kind::member && e.text == field
                     && e.children[0].kind == Kind::name && e.children[0].text == name;
-                if (whole || part) {
-                    Expression copy = constant;
-                    e = std::move(copy);
-                }
+                if (whole || part)
+                    e = constant;
             });
             if (!field.empty())
                 return;
