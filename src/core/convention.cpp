@@ -164,7 +164,7 @@ std::string describe(const Convention& c)
 std::string conventionWords()
 {
     std::string words;
-    for (const ConventionPreset& p : conventionPresets())
+    for (const ConventionPreset& p : kPresets)
         words += (words.empty() ? "" : " ") + std::string(p.name);
     words += "; then, after commas,";
     for (const Said& w : kWords)
@@ -175,7 +175,7 @@ std::string conventionWords()
 std::vector<std::string> conventionWordList()
 {
     std::vector<std::string> words;
-    for (const ConventionPreset& p : conventionPresets())
+    for (const ConventionPreset& p : kPresets)
         words.emplace_back(p.name);
     for (const Said& w : kWords)
         words.emplace_back(w.word);
@@ -193,11 +193,11 @@ Result<Convention> parseConvention(std::string_view text)
 Result<Convention> parseSampledConvention(std::string_view text)
 {
     const auto stated = undamaged(text);
-    if (!stated || stated->channels)
-        return stated ? Result<Convention>(stated->convention) : stated.error();
+    if (!stated)
+        return stated.error();
     Convention convention = stated->convention;
-    for (const ConventionPreset& p : conventionPresets())
-        if (p.name == text.substr(0, text.find(',')))
+    for (const ConventionPreset& p : kPresets)
+        if (!stated->channels && p.name == text.substr(0, text.find(',')))
             convention.channels = onCard(p).channels;
     return convention;
 }
