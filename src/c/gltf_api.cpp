@@ -7,9 +7,8 @@
 #include "cotan/gltf.hpp"
 #include "cotan/lint.hpp"
 #include "gltf/json/lookup.hpp"
-#include "json_text.hpp"
+#include "meshes.hpp"
 #include "model_files.hpp"
-#include "models_api.hpp"
 
 using namespace cotan;
 using namespace cotan::c;
