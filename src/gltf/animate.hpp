@@ -1,4 +1,4 @@
-// A model at a moment of one of its animations.
+// A model at a moment of one of its animations, and where it gets to.
 #pragma once
 
 #include <vector>
@@ -17,5 +17,8 @@ void poseGltf(GltfModel& model);
 
 // The animations of the file and how long they are. Never fails: what is damaged in one is said where it is asked for.
 std::vector<GltfAnimation> gltfAnimations(GltfModel& model);
+
+// As AnimatedGltf::reach, each time anew.
+Result<std::vector<glm::vec3>> pointsReached(AnimatedGltf& model, const std::string& animation);
 
 } // namespace cotan

@@ -7,10 +7,8 @@
 #include <draco/core/decoder_buffer.h>
 #include <fmt/format.h>
 
-#include "codes.hpp"
-#include "draco_streams.hpp"
 #include "elements.hpp"
-#include "gltf/json/views.hpp"
+#include "gltf/draco.hpp"
 #include "problem.hpp"
 
 namespace cotan::gltf {

@@ -3,8 +3,8 @@
 
 #include "cotan/vector.hpp"
 #include "edit_state.hpp"
+#include "mesh.hpp"
 #include "scene/texture_uv.hpp"
-#include "vertices.hpp"
 
 namespace cotan {
 

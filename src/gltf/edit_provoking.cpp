@@ -2,7 +2,7 @@
 #include <map>
 
 #include "edit_state.hpp"
-#include "vertices.hpp"
+#include "mesh.hpp"
 
 namespace cotan {
 

@@ -11,7 +11,6 @@
 #include "files/extension.hpp"
 #include "files/output.hpp"
 #include "image/format_table.hpp"
-#include "parse_json.hpp"
 
 namespace cotan {
 

@@ -8,7 +8,6 @@
 #include <string>
 #include <vector>
 
-#include "codes.hpp"
 #include "gltf/json/views.hpp"
 
 namespace cotan::gltf {

@@ -56,6 +56,13 @@ struct GltfFile {
     GltfPacked packed;                                                   // what they were made of
 };
 
+// Deeper JSON is refused: what walks through a document recurses once a level.
+inline constexpr int kGltfDepth = 128;
+
+// In time that grows with the length of the text alone. Of members of the same name the last counts. Throws
+// GltfProblem where it is no JSON, and where it is nested too deep.
+gltf::Json parseGltfJson(std::span<const std::byte> text);
+
 // Reads the file, splits a GLB into chunks and parses the JSON. Every length is checked against
 // the file.
 GltfFile openGltf(const std::filesystem::path& path, const LoadLimits& limits, GltfWarnings& warnings);
@@ -83,5 +90,28 @@ void checkGltfShape(const gltf::Json& root, const LoadLimits& limits, GltfWarnin
 
 // The same for what poseGltf reads.
 void checkGltfAnimations(const gltf::Json& root);
+
+// ---- compressed geometry: KHR_draco_mesh_compression, EXT_ and KHR_meshopt_compression ------
+
+// Decodes what the extensions hold into new buffers, points views and accessors there, and takes the extensions out of
+// the JSON: nothing behind this has to know of them. Where the plain numbers are in the file too, those are taken. The
+// buffers must be loaded. Decoded bytes count in GltfFile::unpacked; over limits.geometryBytes and 64 times the size of
+// the file they are refused before they are decoded.
+// Throws GltfProblem: damaged streams; ErrorKind::unavailable where this build lacks the decoder.
+void unpackGltf(GltfFile& file, const LoadLimits& limits);
+
+namespace gltf {
+
+// A buffer view as EXT_meshopt_compression has it.
+struct MeshoptView {
+    std::span<const std::byte> bytes;
+    std::size_t count = 0, stride = 0; // of the elements
+    std::string mode, filter;          // the extension's words
+};
+
+// count * stride bytes. field: for messages. Throws GltfProblem.
+std::vector<std::byte> decodeMeshopt(const MeshoptView& view, const std::string& field);
+
+} // namespace gltf
 
 } // namespace cotan

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <glm/mat4x4.hpp>
@@ -15,7 +16,49 @@
 #include "elements.hpp"
 #include "gltf_file.hpp"
 #include "problem.hpp"
-#include "structure.hpp"
+
+namespace cotan::gltf {
+
+// A material without its textures, and how it uses those.
+struct MaterialSource {
+    Material factors;
+    TextureUse baseColor, metallicRoughness, normal, occlusion, emissive;
+    TextureUse coat, coatRoughness, coatNormal, anisotropy, specular, specularColor, sheenColor, sheenRoughness,
+        transmission;
+    std::string frame; // that the maps were made for, by the extras; empty if they say nothing
+};
+
+// Lights and cameras stand at the origin and look along -z, until a node places them.
+struct Structure {
+    std::vector<std::vector<int>> scenes; // the nodes that each lists
+    int defaultScene = -1;
+    std::vector<Node> nodes;
+    std::vector<Mesh> meshes;
+    std::vector<Skin> skins;
+    std::vector<Camera> cameras;
+    std::vector<Light> lights;
+    std::vector<MaterialSource> materials;
+    std::vector<Texture> textures;
+    std::vector<Image> images; // their URIs point into the JSON
+    std::vector<Sampler> samplers;
+};
+
+// root: has passed checkGltfShape. Throws GltfProblem where a camera or a spot light is not described.
+Structure readStructure(const Json& root);
+
+// Calls read(object) for each of a collection of the root, or of an extension of it.
+template<class Read> auto readAll(const Json* owner, const char* collection, const Read& read)
+{
+    std::vector<decltype(read(std::declval<const Json&>()))> all;
+    if (const Json* const list = owner ? member(*owner, collection) : nullptr) {
+        all.reserve(list->size());
+        for (const Json& item : *list)
+            all.push_back(read(item));
+    }
+    return all;
+}
+
+} // namespace cotan::gltf
 
 namespace cotan {
 
@@ -43,6 +86,10 @@ inline std::size_t gltfAllowance(const GltfModel& model)
 {
     return model.limits.geometryBytes + 16 * model.file.size + 4 * model.file.unpacked;
 }
+
+// The place in names of what is wanted, by its name, of several the first, or by its number. what: for the message, in
+// the plural. Throws GltfProblem with ErrorKind::usage, which lists the names, where there is no such thing.
+std::size_t findNamed(const std::vector<std::string>& names, const std::string& wanted, const char* what);
 
 // Counts bytes before they are allocated. field: for the message where they are too many.
 void takeGltfBytes(GltfModel& model, std::size_t bytes, const std::string& field);

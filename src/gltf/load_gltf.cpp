@@ -8,7 +8,6 @@
 #include "material.hpp"
 #include "mesh.hpp"
 #include "nodes.hpp"
-#include "reach.hpp"
 #include "scene/stored_green.hpp"
 
 namespace cotan {

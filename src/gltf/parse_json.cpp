@@ -1,11 +1,9 @@
-#include "parse_json.hpp"
-
 #include <algorithm>
 #include <map>
 #include <string_view>
 #include <vector>
 
-#include "problem.hpp"
+#include "gltf_file.hpp"
 
 namespace cotan {
 

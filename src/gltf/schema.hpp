@@ -8,7 +8,7 @@
 #include <span>
 #include <string_view>
 
-#include "codes.hpp"
+#include "gltf/json/views.hpp"
 
 namespace cotan::gltf_schema {
 

@@ -1,10 +1,10 @@
-#include "structure.hpp"
+// The collections of a glTF file as plain values.
+#include "gltf_model.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
-#include "problem.hpp"
 #include "schema.hpp"
 
 namespace cotan::gltf {

@@ -7,7 +7,6 @@
 
 #include "bake/convert/map_jobs.hpp"
 #include "gltf/json/lookup.hpp"
-#include "gltf/json/placed.hpp"
 
 namespace cotan {
 

@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include <glm/mat3x3.hpp>
+
 #include "cotan/gltf.hpp"
 #include "cotan/result.hpp"
 #include "gltf/json/views.hpp"
@@ -65,5 +67,20 @@ std::set<std::size_t> texturesBesideNormalMaps(const nlohmann::ordered_json& mat
 
 // Takes an extension out of the lists of those used and required.
 void takeOffExtension(nlohmann::ordered_json& root, const std::string& name);
+
+// ---- the geometry as it stands in the world -------------------------------------------------
+
+// For each mesh the linear maps under which nodes show it; of those that differ by rotations, mirroring
+// and uniform scale only one, since all frames go along with these. The identity for a mesh that no node
+// shows. root: as openGltfDocument has checked it.
+std::vector<std::vector<glm::dmat3>> gltfPlacings(const nlohmann::ordered_json& root);
+
+// Makes normals unit; those of length 0 stay so. Those that are unit up to rounding keep their bits, which MikkTSpace's
+// welding compares.
+void makeUnit(std::vector<glm::vec3>& normals);
+
+// The geometry as a mesh whose uv set 0 is what the normal map reads, with unit normals. Without NORMAL each triangle
+// gets vertices of its own with its flat normal, as glTF asks; zero where it has no area.
+Mesh gltfMesh(GltfGeometry geometry);
 
 } // namespace cotan

@@ -24,6 +24,21 @@ namespace cotan::gltf {
 
 using Json = nlohmann::ordered_json; // members stay in the order of the file
 
+// ---- the numbers that stand for types and modes, from OpenGL --------------------------------
+
+inline constexpr int kByte = 5120, kUnsignedByte = 5121, kShort = 5122, kUnsignedShort = 5123, kUnsignedInt = 5125,
+                     kFloat = 5126;
+
+inline constexpr int kTriangles = 4, kTriangleStrip = 5, kTriangleFan = 6;
+
+// Targets of buffer views.
+inline constexpr int kArrayBuffer = 34962, kElementArrayBuffer = 34963;
+
+inline constexpr int kNearest = 9728, kLinear = 9729, kNearestMipmapNearest = 9984, kLinearMipmapNearest = 9985,
+                     kNearestMipmapLinear = 9986, kLinearMipmapLinear = 9987;
+
+inline constexpr int kRepeat = 10497, kClampToEdge = 33071, kMirroredRepeat = 33648;
+
 // ---- JSON -----------------------------------------------------------------------------------
 
 // A member of an object; null where it is missing, and where `object` is none.
