@@ -88,7 +88,7 @@ private:
         takeGltfBytes(model_, choice.size() * width * sizeof(float), field_);
         std::vector<float> numbers(choice.size() * width);
         if (!numbers.empty())
-            gltf::readFloats(model_.accessors[std::size_t(accessor)], choice, width, numbers.data());
+            gltf::readNumbers(model_.accessors[std::size_t(accessor)], choice, width, numbers.data());
         return numbers;
     }
 
@@ -191,7 +191,7 @@ double lastKey(const GltfModel& model, int input)
         return 0;
     float last = 0;
     const std::vector<std::uint32_t> chosen = {std::uint32_t(a.count - 1)};
-    gltf::readFloats(times, Choice(a.count, chosen), 1, &last);
+    gltf::readNumbers(times, Choice(a.count, chosen), 1, &last);
     return std::max(double(last), 0.0);
 }
 

@@ -90,19 +90,6 @@ void checkHeader(const DracoJob& job)
                  job.vertices, vertices);
 }
 
-// Calls use(T()) with the type of a component.
-template<class Use> void withType(int componentType, const Use& use)
-{
-    switch (componentType) {
-    case kByte: return use(std::int8_t());
-    case kUnsignedByte: return use(std::uint8_t());
-    case kShort: return use(std::int16_t());
-    case kUnsignedShort: return use(std::uint16_t());
-    case kUnsignedInt: return use(std::uint32_t());
-    default: return use(float());
-    }
-}
-
 std::vector<std::byte> valuesOf(const draco::Mesh& mesh, const DracoAttribute& wanted, const DracoJob& job)
 {
     const draco::PointAttribute* const attribute = mesh.GetAttributeByUniqueId(wanted.id);

@@ -34,7 +34,7 @@ std::vector<std::uint32_t> readTriangles(const GltfDocument& document, const glt
     if (primitive.indices >= 0) {
         const gltf::Elements indices = elementsOf(document, accessors[std::size_t(primitive.indices)]);
         order.resize(indices.accessor.count);
-        gltf::readIntegers(indices, order.size(), 1, order.data());
+        gltf::readNumbers(indices, order.size(), 1, order.data());
     } else if (positions >= 0) {
         order.resize(accessors[std::size_t(positions)]["count"].get<std::size_t>());
         std::iota(order.begin(), order.end(), 0u);

@@ -50,21 +50,6 @@ std::pair<int, std::vector<std::byte>> smallestIndices(std::span<const std::uint
     return {gltf::kUnsignedInt, asBytes<std::uint32_t>(values)};
 }
 
-// The place of a vertex among the sparse values, or their number. The indices rise.
-std::size_t sparsePlace(const gltf::Elements& elements, std::uint32_t vertex)
-{
-    std::size_t first = 0, end = elements.sparseIndices.count;
-    while (first < end) {
-        const std::size_t middle = first + (end - first) / 2;
-        if (elements.sparseIndex(middle) < vertex)
-            first = middle + 1;
-        else
-            end = middle;
-    }
-    const bool found = first < elements.sparseIndices.count && elements.sparseIndex(first) == vertex;
-    return found ? first : elements.sparseIndices.count;
-}
-
 // Puts the sparse part for the new vertices into the accessor: copies of a replaced element are replaced as well.
 void renewSparse(GltfDocument& document, const gltf::Elements& old, Json& accessor, Sources sources)
 {
@@ -72,8 +57,8 @@ void renewSparse(GltfDocument& document, const gltf::Elements& old, Json& access
     std::vector<std::uint32_t> places;
     std::vector<std::byte> values;
     for (std::uint32_t i = 0; i < sources.size(); ++i) {
-        const std::size_t found = sparsePlace(old, sources[i]);
-        if (found == old.sparseIndices.count)
+        const std::size_t found = old.sparsePlace(sources[i]);
+        if (found == old.sparseIndices.count || old.sparseIndex(found) != sources[i])
             continue;
         places.push_back(i);
         const std::byte* const from = old.sparseValues.at(found);

@@ -36,6 +36,10 @@ struct Elements {
     Run sparseIndices, sparseValues; // equally many; the indices rise once checkSparse has looked at them
 
     std::uint32_t sparseIndex(std::size_t i) const;
+
+    // The place of the sparse value of an element, from `first` on, or of the next one; their number where none
+    // follows.
+    std::size_t sparsePlace(std::uint32_t element, std::size_t first = 0) const;
 };
 
 // Throws GltfProblem where something lies outside its view. field: for the message.
@@ -73,6 +77,19 @@ struct Role {
 const char* nameOf(ElementType type);
 const char* nameOfComponent(int componentType);
 
+// Calls use(T()) with the type of a component.
+template<class Use> void withType(int componentType, const Use& use)
+{
+    switch (componentType) {
+    case kByte: return use(std::int8_t());
+    case kUnsignedByte: return use(std::uint8_t());
+    case kShort: return use(std::int16_t());
+    case kUnsignedShort: return use(std::uint16_t());
+    case kUnsignedInt: return use(std::uint32_t());
+    default: return use(float());
+    }
+}
+
 // Throws GltfProblem for another type or number of elements.
 void expectElements(const Accessor& accessor, ElementType type, std::size_t count, const Role& role);
 
@@ -80,9 +97,8 @@ void expectElements(const Accessor& accessor, ElementType type, std::size_t coun
 void expectIndices(const Accessor& accessor, const Role& role);
 
 // The numbers of the chosen elements, sparse values put in: integers that are normalised become [0,1]
-// or [-1,1], others their value. out: zeros; an element has room for `room` numbers there.
-void readFloats(const Elements& elements, const Choice& choice, std::size_t room, float* out);
-void readIntegers(const Elements& elements, const Choice& choice, std::size_t room, std::uint32_t* out);
+// or [-1,1], others their value. Out: float or std::uint32_t. out: zeros; an element has room for `room` numbers there.
+template<class Out> void readNumbers(const Elements& elements, const Choice& choice, std::size_t room, Out* out);
 
 // The same as vectors. Throws GltfProblem where the elements are none, and for unsigned integers.
 template<class Vector>

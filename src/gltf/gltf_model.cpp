@@ -192,7 +192,7 @@ std::vector<glm::uvec4> readGltfJoints(GltfModel& model, int accessor, const Cho
                  gltf::nameOfComponent(a.componentType));
     std::vector<glm::uvec4> joints = makeArray(model, choice.size(), glm::uvec4(0), field);
     if (!joints.empty())
-        gltf::readIntegers(model.accessors[std::size_t(accessor)], choice, 4, &joints[0].x);
+        gltf::readNumbers(model.accessors[std::size_t(accessor)], choice, 4, &joints[0].x);
     return joints;
 }
 
@@ -206,7 +206,7 @@ std::vector<glm::mat4> readGltfMatrices(GltfModel& model, int accessor, std::siz
         failGltf("{}: expected {} matrices in accessors[{}], found {}", field, count, accessor, a.count);
     std::vector<glm::mat4> matrices = makeArray(model, count, glm::mat4(0), field);
     if (count > 0)
-        gltf::readFloats(model.accessors[std::size_t(accessor)], count, 16, &matrices[0][0].x);
+        gltf::readNumbers(model.accessors[std::size_t(accessor)], count, 16, &matrices[0][0].x);
     return matrices;
 }
 
@@ -220,7 +220,7 @@ std::vector<std::uint32_t> readGltfIndices(GltfModel& model, int accessor, std::
     if (a.count > model.limits.triangles * 3)
         failGltf("{}: the limit is {} indices, found {}", field, model.limits.triangles * 3, a.count);
     std::vector<std::uint32_t> indices = makeArray(model, a.count, std::uint32_t(0), field);
-    gltf::readIntegers(model.accessors[std::size_t(accessor)], a.count, 1, indices.data());
+    gltf::readNumbers(model.accessors[std::size_t(accessor)], a.count, 1, indices.data());
     const std::uint32_t restart = 0xFFFFFFFFu >> (32 - 8 * gltf::componentSize(a.componentType));
     for (std::size_t i = 0; i < indices.size(); ++i) {
         if (indices[i] == restart)
