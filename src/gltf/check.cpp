@@ -1,6 +1,5 @@
 // Compares the JSON with the tables of schema.hpp.
 #include <algorithm>
-#include <array>
 #include <cstdint>
 #include <map>
 #include <set>
@@ -98,10 +97,7 @@ private:
         const auto x = value.get<double>();
         if (!(x >= field.low && x <= field.high))
             wrong(place, fmt::format("an integer from {:.0f} to {:.0f}", field.low, field.high), value);
-        bool allowed = field.integers.empty();
-        for (const int i : field.integers)
-            allowed = allowed || x == i;
-        if (!allowed)
+        if (!field.integers.empty() && std::ranges::find(field.integers, x) == field.integers.end())
             wrong(place, fmt::format("one of {}", fmt::join(field.integers, ", ")), value);
         if (value.get<std::uint64_t>() % field.multipleOf != 0)
             wrong(place, fmt::format("a multiple of {}", field.multipleOf), value);
@@ -111,10 +107,8 @@ private:
     {
         if (!value.is_string())
             wrong(place, "a string", value);
-        bool allowed = field.texts.empty();
-        for (const std::string_view t : field.texts)
-            allowed = allowed || value.get_ref<const std::string&>() == t;
-        if (!allowed)
+        if (!field.texts.empty()
+            && std::ranges::find(field.texts, value.get_ref<const std::string&>()) == field.texts.end())
             wrong(place, fmt::format("one of {}", fmt::join(field.texts, ", ")), value);
     }
 
@@ -209,19 +203,16 @@ void checkVersion(const Json& asset)
         failGltf("asset.minVersion: expected 2.0, found \"{}\"", oneLine(least));
 }
 
-constexpr std::array kSupported{
-    string_view("KHR_texture_transform"),      string_view("KHR_materials_unlit"),
-    string_view("KHR_lights_punctual"),        string_view("KHR_materials_emissive_strength"),
-    string_view("KHR_mesh_quantization"),      string_view("EXT_mesh_gpu_instancing"),
-    string_view("KHR_draco_mesh_compression"), string_view("EXT_meshopt_compression"),
-    string_view("KHR_meshopt_compression"),    string_view("KHR_materials_clearcoat"),
-    string_view("KHR_materials_anisotropy"),   string_view("KHR_materials_ior"),
-    string_view("KHR_materials_specular"),     string_view("KHR_materials_sheen"),
-    string_view("KHR_materials_transmission"), string_view("KHR_materials_variants"),
-};
+constexpr std::string_view kSupported[] = {
+    "KHR_texture_transform",           "KHR_materials_unlit",      "KHR_lights_punctual",
+    "KHR_materials_emissive_strength", "KHR_mesh_quantization",    "EXT_mesh_gpu_instancing",
+    "KHR_draco_mesh_compression",      "EXT_meshopt_compression",  "KHR_meshopt_compression",
+    "KHR_materials_clearcoat",         "KHR_materials_anisotropy", "KHR_materials_ior",
+    "KHR_materials_specular",          "KHR_materials_sheen",      "KHR_materials_transmission",
+    "KHR_materials_variants"};
 
 // The same in a format that is not read; it matters to who needs the pixels.
-constexpr string_view kUnreadImages = "EXT_texture_avif";
+constexpr std::string_view kUnreadImages = "EXT_texture_avif";
 
 // KHR_materials_... refine how a surface looks and leave shape and normal map alone: such a model
 // can be drawn without them, if that is said. Any other unknown extension may change what the
@@ -235,7 +226,7 @@ void checkExtensions(const Json& root, Pixels pixels, GltfWarnings& warnings)
         for (std::size_t i = 0; names && i < names->size(); ++i) {
             const Json& item = (*names)[i];
             const auto& name = item.get_ref<const std::string&>();
-            const auto in = [&](const auto& all) { return std::ranges::find(all, name) != all.end(); };
+            const auto in = [&](const auto& all) { return std::ranges::find(all, name) != std::end(all); };
             const bool known = in(kSupported) || in(gltf::kReadImageExtensions), image = name == kUnreadImages;
             const bool harmless = name.starts_with("KHR_materials_") || (image && pixels != Pixels::all);
             if (!known && !harmless && list == std::string_view("extensionsRequired"))

@@ -104,24 +104,23 @@ void visitImages(Json& root, const Visit& visit)
     });
 }
 
-// Whether an extension is known to refer to no accessor, view, buffer or image but in the places
-// that are visited above.
+// Extensions, by their names or what those begin with, that are known to refer to no accessor, view, buffer or image
+// but in the places that are visited above.
+constexpr std::string_view kKnown[] = {"KHR_lights_punctual",
+                                       "KHR_mesh_quantization",
+                                       "KHR_draco_mesh_compression",
+                                       "KHR_animation_pointer",
+                                       "EXT_mesh_gpu_instancing",
+                                       "MSFT_texture_dds",
+                                       "MSFT_lod",
+                                       "FB_ngon_encoding"};
+constexpr std::string_view kKnownFamilies[] = {"KHR_materials_", "KHR_texture_", "EXT_texture_",
+                                               "KHR_xmp",        "KHR_node_",    "EXT_materials_"};
+
 bool isKnown(std::string_view name)
 {
-    constexpr std::array families{std::string_view("KHR_materials_"), std::string_view("KHR_texture_"),
-                                  std::string_view("EXT_texture_"),   std::string_view("KHR_xmp"),
-                                  std::string_view("KHR_node_"),      std::string_view("EXT_materials_")};
-    constexpr std::array single{std::string_view("KHR_lights_punctual"),
-                                std::string_view("KHR_mesh_quantization"),
-                                std::string_view("KHR_draco_mesh_compression"),
-                                std::string_view("KHR_animation_pointer"),
-                                std::string_view("EXT_mesh_gpu_instancing"),
-                                std::string_view("MSFT_texture_dds"),
-                                std::string_view("MSFT_lod"),
-                                std::string_view("FB_ngon_encoding")};
-    return std::find(single.begin(), single.end(), name) != single.end()
-        || std::any_of(families.begin(), families.end(),
-                       [&](std::string_view family) { return name.starts_with(family); });
+    return std::ranges::find(kKnown, name) != std::end(kKnown)
+        || std::ranges::any_of(kKnownFamilies, [&](std::string_view family) { return name.starts_with(family); });
 }
 
 struct ExtensionNames {

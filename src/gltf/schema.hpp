@@ -95,7 +95,6 @@ constexpr Field required(Field field)
 
 // ---- the tables, leaves first ---------------------------------------------------------------
 
-using std::string_view;
 inline constexpr std::array kComponentTypes{gltf::kByte,          gltf::kUnsignedByte, gltf::kShort,
                                             gltf::kUnsignedShort, gltf::kUnsignedInt,  gltf::kFloat};
 inline constexpr std::array kIndexTypes{gltf::kUnsignedByte, gltf::kUnsignedShort, gltf::kUnsignedInt};
@@ -107,12 +106,10 @@ inline constexpr std::array kMinFilters{gltf::kNearest,
                                         gltf::kNearestMipmapLinear,
                                         gltf::kLinearMipmapLinear};
 inline constexpr std::array kWraps{gltf::kRepeat, gltf::kClampToEdge, gltf::kMirroredRepeat};
-inline constexpr std::array kElementTypes{string_view("SCALAR"), string_view("VEC2"), string_view("VEC3"),
-                                          string_view("VEC4"),   string_view("MAT2"), string_view("MAT3"),
-                                          string_view("MAT4")};
-inline constexpr std::array kAlphaModes{string_view("OPAQUE"), string_view("MASK"), string_view("BLEND")};
-inline constexpr std::array kLightTypes{string_view("directional"), string_view("point"), string_view("spot")};
-inline constexpr std::array kCameraTypes{string_view("perspective"), string_view("orthographic")};
+inline constexpr std::string_view kElementTypes[] = {"SCALAR", "VEC2", "VEC3", "VEC4", "MAT2", "MAT3", "MAT4"};
+inline constexpr std::string_view kAlphaModes[] = {"OPAQUE", "MASK", "BLEND"};
+inline constexpr std::string_view kLightTypes[] = {"directional", "point", "spot"};
+inline constexpr std::string_view kCameraTypes[] = {"perspective", "orthographic"};
 
 inline constexpr std::array kAsset{required(text("version")), text("minVersion"), text("generator")};
 inline constexpr std::array kScene{text("name"), indices("nodes", "nodes")};
@@ -159,9 +156,8 @@ inline constexpr std::array kAccessor{index("bufferView", "bufferViews"),
                                       object("sparse", kSparse),
                                       numbers("min"),
                                       numbers("max")};
-inline constexpr std::array kMeshoptModes{string_view("ATTRIBUTES"), string_view("TRIANGLES"), string_view("INDICES")};
-inline constexpr std::array kMeshoptFilters{string_view("NONE"), string_view("OCTAHEDRAL"), string_view("QUATERNION"),
-                                            string_view("EXPONENTIAL"), string_view("COLOR")};
+inline constexpr std::string_view kMeshoptModes[] = {"ATTRIBUTES", "TRIANGLES", "INDICES"};
+inline constexpr std::string_view kMeshoptFilters[] = {"NONE", "OCTAHEDRAL", "QUATERNION", "EXPONENTIAL", "COLOR"};
 inline constexpr std::array kMeshopt{
     required(index("buffer", "buffers")),    size("byteOffset"),      required(size("byteLength")),
     required(integer("byteStride", 1, 256)), required(size("count")), required(text("mode", kMeshoptModes)),
@@ -237,7 +233,7 @@ inline constexpr std::array kLights{required(objects("lights", kLight))};
 inline constexpr std::array kRootExtensions{object("KHR_lights_punctual", kLights)};
 
 // Animations are looked at where one is asked for.
-inline constexpr std::array kInterpolations{string_view("LINEAR"), string_view("STEP"), string_view("CUBICSPLINE")};
+inline constexpr std::string_view kInterpolations[] = {"LINEAR", "STEP", "CUBICSPLINE"};
 inline constexpr std::array kAnimationSampler{required(index("input", "accessors")),
                                               required(index("output", "accessors")),
                                               text("interpolation", kInterpolations)};
