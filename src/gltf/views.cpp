@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <utility>
 
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
@@ -21,12 +22,6 @@ std::string textOf(const Json& object, std::string_view name) { return valueOr(o
 template<class T> std::vector<T> listOf(const Json& object, std::string_view name)
 {
     return valueOr(object, name, std::vector<T>());
-}
-
-glm::dvec3 vectorOr(const Json& object, std::string_view name, const glm::dvec3& otherwise)
-{
-    const Json* const v = member(object, name);
-    return v ? glm::dvec3((*v)[0].get<double>(), (*v)[1].get<double>(), (*v)[2].get<double>()) : otherwise;
 }
 
 Attributes attributesOf(const Json& object)
@@ -64,59 +59,42 @@ glm::dquat rotationOf(const glm::dvec4& xyzw)
     return glm::dquat(xyzw.w / length, xyzw.x / length, xyzw.y / length, xyzw.z / length);
 }
 
-glm::dvec2 pairOr(const Json& object, std::string_view name, const glm::dvec2& otherwise)
-{
-    const Json* const pair = member(object, name);
-    return pair ? glm::dvec2((*pair)[0].get<double>(), (*pair)[1].get<double>()) : otherwise;
-}
-
 // KHR_texture_transform: scale, then turn, then shift. The turn is counter-clockwise as seen in
 // the image, whose v runs down; so its sine stands in the first row, not in the second. (The
 // extension's example, offset (0,1), a quarter turn, scale 1/2, has to select the lower left
 // quadrant.) The extension may name another uv set than the texture itself.
 void applyTransform(const Json& transform, TextureUse& use)
 {
-    const glm::dvec2 offset = pairOr(transform, "offset", {0, 0}), scale = pairOr(transform, "scale", {1, 1});
+    const auto offset = vectorOr(transform, "offset", glm::dvec2(0)),
+               scale = vectorOr(transform, "scale", glm::dvec2(1));
     const double turn = valueOr(transform, "rotation", 0.0), c = std::cos(turn), s = std::sin(turn);
     use.uRow = {c * scale.x, s * scale.y, offset.x};
     use.vRow = {-s * scale.x, c * scale.y, offset.y};
     use.texcoord = valueOr(transform, "texCoord", use.texcoord);
 }
 
-struct WrapCode {
-    int code;
-    Wrap wrap;
-};
-constexpr std::array kWrapCodes{WrapCode{kRepeat, Wrap::repeat}, WrapCode{kClampToEdge, Wrap::clamp},
-                                WrapCode{kMirroredRepeat, Wrap::mirror}};
+constexpr std::pair<int, Wrap> kWrapCodes[] = {
+    {kRepeat, Wrap::repeat}, {kClampToEdge, Wrap::clamp}, {kMirroredRepeat, Wrap::mirror}};
 
-Wrap wrapOf(int code)
+Wrap wrapOf(const Json& sampler, std::string_view name)
 {
-    for (const WrapCode& w : kWrapCodes)
-        if (w.code == code)
-            return w.wrap;
-    return Wrap::repeat;
+    const auto found = std::ranges::find(kWrapCodes, valueOr(sampler, name, kRepeat), &std::pair<int, Wrap>::first);
+    return found == std::end(kWrapCodes) ? Wrap::repeat : found->second;
 }
 
-int codeOf(Wrap wrap)
-{
-    for (const WrapCode& w : kWrapCodes)
-        if (w.wrap == wrap)
-            return w.code;
-    return kRepeat;
-}
+int codeOf(Wrap wrap) { return std::ranges::find(kWrapCodes, wrap, &std::pair<int, Wrap>::second)->first; }
 
 struct MinifyCode {
     int code;
     Filter minify;
     MipFilter mip;
 };
-constexpr std::array kMinifyCodes{MinifyCode{kNearest, Filter::nearest, MipFilter::none},
-                                  MinifyCode{kLinear, Filter::linear, MipFilter::none},
-                                  MinifyCode{kNearestMipmapNearest, Filter::nearest, MipFilter::nearest},
-                                  MinifyCode{kLinearMipmapNearest, Filter::linear, MipFilter::nearest},
-                                  MinifyCode{kNearestMipmapLinear, Filter::nearest, MipFilter::linear},
-                                  MinifyCode{kLinearMipmapLinear, Filter::linear, MipFilter::linear}};
+constexpr MinifyCode kMinifyCodes[] = {{kNearest, Filter::nearest, MipFilter::none},
+                                       {kLinear, Filter::linear, MipFilter::none},
+                                       {kNearestMipmapNearest, Filter::nearest, MipFilter::nearest},
+                                       {kLinearMipmapNearest, Filter::linear, MipFilter::nearest},
+                                       {kNearestMipmapLinear, Filter::nearest, MipFilter::linear},
+                                       {kLinearMipmapLinear, Filter::linear, MipFilter::linear}};
 
 } // namespace
 
@@ -238,9 +216,7 @@ Node readNode(const Json& node)
     }
     read.translation = vectorOr(node, "translation", read.translation);
     read.scale = vectorOr(node, "scale", read.scale);
-    if (const Json* const q = member(node, "rotation"))
-        for (int i = 0; i < 4; ++i)
-            read.rotation[i] = (*q)[std::size_t(i)].get<double>();
+    read.rotation = vectorOr(node, "rotation", read.rotation);
     if (const Json* const light = extension(node, "KHR_lights_punctual"))
         read.light = indexOf(*light, "light");
     if (const Json* const instancing = extension(node, "EXT_mesh_gpu_instancing"))
@@ -270,7 +246,7 @@ TextureUse readTextureUse(const Json* material, std::string_view slot)
     const Json* const info = material ? member(*material, slot) : nullptr;
     if (!info)
         return use;
-    use.texture = valueOr(*info, "index", -1);
+    use.texture = indexOf(*info, "index");
     use.texcoord = valueOr(*info, "texCoord", 0);
     use.scale = valueOr(*info, "scale", 1.0);
     use.strength = valueOr(*info, "strength", 1.0);
@@ -282,8 +258,8 @@ TextureUse readTextureUse(const Json* material, std::string_view slot)
 Texture readTexture(const Json& texture, std::size_t images)
 {
     Texture read;
-    read.sampler = valueOr(texture, "sampler", -1);
-    read.image = valueOr(texture, "source", -1);
+    read.sampler = indexOf(texture, "sampler");
+    read.image = indexOf(texture, "source");
     const Json* const extensions = member(texture, "extensions");
     if (!extensions)
         return read;
@@ -305,7 +281,7 @@ Texture readTexture(const Json& texture, std::size_t images)
 
 Image readImage(const Json& image)
 {
-    Image read{valueOr(image, "name", std::string()), {}, valueOr(image, "bufferView", -1)};
+    Image read{textOf(image, "name"), {}, indexOf(image, "bufferView")};
     if (const Json* const uri = member(image, "uri"))
         read.uri = uri->get_ref<const std::string&>();
     return read;
@@ -315,8 +291,8 @@ Image readImage(const Json& image)
 Sampler readSampler(const Json& sampler)
 {
     Sampler read;
-    read.wrapU = wrapOf(valueOr(sampler, "wrapS", kRepeat));
-    read.wrapV = wrapOf(valueOr(sampler, "wrapT", kRepeat));
+    read.wrapU = wrapOf(sampler, "wrapS");
+    read.wrapV = wrapOf(sampler, "wrapT");
     if (valueOr(sampler, "magFilter", kLinear) == kNearest)
         read.magnify = Filter::nearest;
     const int code = valueOr(sampler, "minFilter", kLinearMipmapLinear);

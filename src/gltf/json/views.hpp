@@ -59,6 +59,16 @@ template<class T> T valueOr(const Json& object, std::string_view name, T otherwi
     return found ? found->get<T>() : otherwise;
 }
 
+// The numbers of an array as a vector. T: as which they are read.
+template<glm::length_t N, class T>
+glm::vec<N, T> vectorOr(const Json& object, std::string_view name, glm::vec<N, T> otherwise)
+{
+    const Json* const numbers = member(object, name);
+    for (glm::length_t i = 0; numbers && i < N; ++i)
+        otherwise[i] = (*numbers)[std::size_t(i)].get<T>();
+    return otherwise;
+}
+
 // ---- numbers in buffers ---------------------------------------------------------------------
 
 enum class ElementType { scalar, vec2, vec3, vec4, mat2, mat3, mat4 };
