@@ -96,7 +96,7 @@ void checkModel(GltfModel& model)
     readGltfNodes(model);
     for (std::size_t m = 0; m < model.structure.meshes.size(); ++m)
         for (std::size_t p = 0; p < model.structure.meshes[m].primitives.size(); ++p)
-            readGltfPrimitive(model, static_cast<int>(m), p, {});
+            readGltfPrimitive(model, int(m), p, {});
     checkCounts(model);
 }
 

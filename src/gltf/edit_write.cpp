@@ -53,7 +53,7 @@ std::size_t totalSize(std::vector<fs::path> files)
     for (const fs::path& file : files) {
         std::error_code error;
         const auto size = fs::file_size(file, error);
-        total += error ? 0 : static_cast<std::size_t>(size);
+        total += error ? 0 : std::size_t(size);
     }
     return total;
 }
@@ -111,7 +111,7 @@ void embedImages(GltfDocument& document, const LoadLimits& limits)
 void appendWord(std::vector<std::byte>& bytes, std::size_t word)
 {
     for (int shift = 0; shift < 32; shift += 8)
-        bytes.push_back(static_cast<std::byte>(word >> shift & 0xff));
+        bytes.push_back(std::byte(word >> shift & 0xff));
 }
 
 void appendChunk(std::vector<std::byte>& bytes, std::uint32_t type, std::span<const std::byte> content, char padding)
@@ -120,7 +120,7 @@ void appendChunk(std::vector<std::byte>& bytes, std::uint32_t type, std::span<co
     appendWord(bytes, padded);
     appendWord(bytes, type);
     bytes.insert(bytes.end(), content.begin(), content.end());
-    bytes.resize(bytes.size() + padded - content.size(), static_cast<std::byte>(padding));
+    bytes.resize(bytes.size() + padded - content.size(), std::byte(padding));
 }
 
 std::vector<std::byte> makeGlb(const Layout& layout)

@@ -46,9 +46,9 @@ template<class Out, class Stored> Out convert(Stored value, bool normalized)
     if constexpr (std::is_same_v<Stored, float> || !std::is_same_v<Out, float>)
         return static_cast<Out>(value);
     else if (!normalized)
-        return static_cast<float>(value);
+        return float(value);
     else
-        return std::max(static_cast<float>(value) / static_cast<float>(std::numeric_limits<Stored>::max()), -1.0f);
+        return std::max(float(value) / float(std::numeric_limits<Stored>::max()), -1.0f);
 }
 
 // An element of a run, and where its numbers go.

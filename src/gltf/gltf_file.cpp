@@ -114,11 +114,11 @@ std::optional<std::vector<std::byte>> decodeBase64(std::string_view text)
         const int digit = kBase64[static_cast<unsigned char>(c)];
         if (digit < 0)
             return std::nullopt;
-        bits = bits << 6 | static_cast<std::uint32_t>(digit);
+        bits = bits << 6 | std::uint32_t(digit);
         held += 6;
         if (held >= 8) {
             held -= 8;
-            bytes.push_back(static_cast<std::byte>(bits >> held & 0xff));
+            bytes.push_back(std::byte(bits >> held & 0xff));
         }
     }
     return bytes;
@@ -176,10 +176,7 @@ GltfFile openGltf(const fs::path& path, const LoadLimits& limits, GltfWarnings& 
 {
     GltfFile file;
     file.readFile = limits.readFile;
-    Result<std::vector<std::byte>> bytes = readGltfResource(file, path, limits);
-    if (!bytes)
-        throw GltfProblem{inputError(bytes.error().message)};
-    file.bytes = std::move(*bytes);
+    file.bytes = valueOrFail(readGltfResource(file, path, limits));
     file.size = file.bytes.size();
     if (!file.readFile)
         file.folder = fs::canonical(path.has_parent_path() ? path.parent_path() : fs::path("."));

@@ -74,7 +74,7 @@ void chooseGltfVariant(GltfModel& model)
 
 const Accessor& accessorAt(const GltfModel& model, int accessor)
 {
-    return model.accessors[static_cast<std::size_t>(accessor)].accessor;
+    return model.accessors[std::size_t(accessor)].accessor;
 }
 
 // Accessors that serve as nothing but texture coordinates: there a NaN is replaced, not refused.
@@ -166,7 +166,7 @@ void findGltfAccessors(GltfModel& model)
             failGltf("{}: the accessors take {} bytes with it, the limit is {} for a file of {}", field, total, most,
                      model.file.size);
         gltf::checkSparse(elements, field);
-        if (!texcoords.contains(static_cast<int>(i++)))
+        if (!texcoords.contains(int(i++)))
             gltf::checkFinite(elements, field);
         return elements;
     });

@@ -64,7 +64,7 @@ private:
                                         field + ".inverseBindMatrices");
             std::vector<glm::dmat4>& joints = joints_.emplace_back();
             for (std::size_t j = 0; j < skin.joints.size(); ++j)
-                joints.push_back(nodes_.world[static_cast<std::size_t>(skin.joints[j])] * glm::dmat4(bind[j]));
+                joints.push_back(nodes_.world[std::size_t(skin.joints[j])] * glm::dmat4(bind[j]));
         }
     }
 
@@ -74,7 +74,7 @@ private:
         return finishGltfMesh(std::move(primitive), set, model_.warnings);
     }
 
-    const gltf::Mesh& sourceMesh(int mesh) const { return model_.structure.meshes[static_cast<std::size_t>(mesh)]; }
+    const gltf::Mesh& sourceMesh(int mesh) const { return model_.structure.meshes[std::size_t(mesh)]; }
 
     // The scene's meshes for a use, made when it is met first.
     const std::vector<int>& meshesFor(const MeshUse& use)
@@ -87,11 +87,11 @@ private:
             if (!primitive)
                 continue;
             if (use.skin >= 0)
-                skinGltfPrimitive(*primitive, joints_[static_cast<std::size_t>(use.skin)], model_.warnings);
+                skinGltfPrimitive(*primitive, joints_[std::size_t(use.skin)], model_.warnings);
             const int material = primitive->material;
             Mesh mesh = finish(std::move(*primitive));
             mesh.material = materials_.use(material, mesh);
-            entry->second.push_back(static_cast<int>(scene_.meshes.size()));
+            entry->second.push_back(int(scene_.meshes.size()));
             scene_.meshes.push_back(std::move(mesh));
         }
         return entry->second;
@@ -107,7 +107,7 @@ private:
 
     MeshUse useOf(int node)
     {
-        const gltf::Node& n = model_.structure.nodes[static_cast<std::size_t>(node)];
+        const gltf::Node& n = model_.structure.nodes[std::size_t(node)];
         MeshUse use{n.mesh, n.skin, n.weights.empty() ? sourceMesh(n.mesh).weights : n.weights};
         if (use.skin >= 0 && !hasJoints(use.mesh)) {
             use.skin = -1;
@@ -118,20 +118,20 @@ private:
 
     void addInstances(int node, const std::vector<int>& meshes, const std::vector<glm::mat4>& placements)
     {
-        const std::string& name = model_.structure.nodes[static_cast<std::size_t>(node)].name;
+        const std::string& name = model_.structure.nodes[std::size_t(node)].name;
         if (meshes.size() * placements.size() > model_.limits.nodes - scene_.instances.size())
             failGltf("nodes[{}]: the limit is {} instances in all", node, model_.limits.nodes);
         for (const glm::mat4& placement : placements)
             for (const int mesh : meshes)
                 scene_.instances.push_back(
-                    {name.empty() ? scene_.meshes[static_cast<std::size_t>(mesh)].name : name, mesh, placement});
+                    {name.empty() ? scene_.meshes[std::size_t(mesh)].name : name, mesh, placement});
     }
 
     // A skin puts vertices into world space by itself: the node's transform does not count.
     void placeMeshes()
     {
         for (const int node : nodes_.visible) {
-            if (model_.structure.nodes[static_cast<std::size_t>(node)].mesh < 0)
+            if (model_.structure.nodes[std::size_t(node)].mesh < 0)
                 continue;
             const MeshUse use = useOf(node);
             const std::vector<int>& meshes = meshesFor(use);
@@ -145,10 +145,10 @@ private:
     {
         std::vector<bool> used(model_.structure.meshes.size(), false);
         for (const auto& [use, meshes] : made_)
-            used[static_cast<std::size_t>(use.mesh)] = true;
+            used[std::size_t(use.mesh)] = true;
         for (std::size_t m = 0; m < used.size(); ++m)
             for (std::size_t p = 0; !used[m] && p < model_.structure.meshes[m].primitives.size(); ++p)
-                if (auto primitive = readGltfPrimitive(model_, static_cast<int>(m), p, {}))
+                if (auto primitive = readGltfPrimitive(model_, int(m), p, {}))
                     finish(std::move(*primitive));
     }
 

@@ -16,7 +16,7 @@ int gltfNormalMapSet(const GltfModel& model, int material)
 {
     if (material < 0)
         return -1;
-    const gltf::TextureUse& map = model.structure.materials[static_cast<std::size_t>(material)].normal;
+    const gltf::TextureUse& map = model.structure.materials[std::size_t(material)].normal;
     return map.texture < 0 ? -1 : map.texcoord;
 }
 
@@ -29,7 +29,7 @@ int GltfMaterials::imageOf(const gltf::Texture& texture) const
 int GltfMaterials::imageSlot(int image)
 {
     image = firstEqual(image);
-    const auto [slot, isNew] = slots_.emplace(image, static_cast<int>(scene_.images.size()));
+    const auto [slot, isNew] = slots_.emplace(image, int(scene_.images.size()));
     if (isNew)
         scene_.images.emplace_back();
     return slot->second;
@@ -40,23 +40,22 @@ Texture GltfMaterials::texture(const gltf::TextureUse& use, const Mesh& mesh, co
     Texture texture;
     if (use.texture < 0)
         return texture;
-    const gltf::Texture& source = model_.structure.textures[static_cast<std::size_t>(use.texture)];
+    const gltf::Texture& source = model_.structure.textures[std::size_t(use.texture)];
     const int image = imageOf(source);
     if (image < 0) {
         model_.warnings.add(fmt::format("textures[{}]", use.texture), "no PNG or JPEG image, the texture is left out");
         return texture;
     }
     const int set = use.texcoord;
-    if (set < 0 || set > 1 || mesh.texcoords[static_cast<std::size_t>(set)].empty()) {
-        model_.warnings.add(field,
-                            fmt::format("it asks for TEXCOORD_{}, which is missing from a "
-                                        "mesh that uses it; left out there",
-                                        set));
+    if (set < 0 || set > 1 || mesh.texcoords[std::size_t(set)].empty()) {
+        model_.warnings.add(
+            field,
+            fmt::format("it asks for TEXCOORD_{}, which is missing from a mesh that uses it; left out there", set));
         return texture;
     }
     texture.texcoord = set;
     if (source.sampler >= 0)
-        texture.sampler = model_.structure.samplers[static_cast<std::size_t>(source.sampler)];
+        texture.sampler = model_.structure.samplers[std::size_t(source.sampler)];
     texture.uRow = use.uRow;
     texture.vRow = use.vRow;
     texture.image = imageSlot(image);
@@ -67,7 +66,7 @@ Material GltfMaterials::make(int index, const Mesh& mesh)
 {
     if (index < 0)
         return {};
-    const gltf::MaterialSource& source = model_.structure.materials[static_cast<std::size_t>(index)];
+    const gltf::MaterialSource& source = model_.structure.materials[std::size_t(index)];
     const auto map = [&](const gltf::TextureUse& use, const char* name) {
         return texture(use, mesh, fmt::format("materials[{}].{}", index, name));
     };
@@ -112,7 +111,7 @@ int GltfMaterials::use(int material, const Mesh& mesh)
     const auto known = made_.find(key);
     if (known != made_.end())
         return known->second;
-    const int slot = static_cast<int>(scene_.materials.size());
+    const int slot = int(scene_.materials.size());
     scene_.materials.push_back(make(material, mesh));
     made_.emplace(key, slot);
     return slot;
@@ -132,14 +131,14 @@ std::string imageField(int image) { return fmt::format("images[{}]", image); }
 
 ImageSource findImage(const GltfModel& model, int image, bool mayMiss = false)
 {
-    const gltf::Image& entry = model.structure.images[static_cast<std::size_t>(image)];
+    const gltf::Image& entry = model.structure.images[std::size_t(image)];
     const std::string field = imageField(image);
     ImageSource source;
     source.name = oneLine(entry.name);
     if (entry.uri.has_value() == (entry.view >= 0))
         failGltf("{}: expected either uri or bufferView", field);
     if (entry.view >= 0) {
-        source.bytes = model.views[static_cast<std::size_t>(entry.view)].bytes;
+        source.bytes = model.views[std::size_t(entry.view)].bytes;
     } else {
         source.resource = resolveGltfUri(model.file, *entry.uri, field + ".uri", mayMiss);
         source.bytes = source.resource.bytes;
@@ -151,21 +150,13 @@ ImageSource findImage(const GltfModel& model, int image, bool mayMiss = false)
     return source;
 }
 
-std::vector<std::byte> readImageFile(const GltfFile& model, const fs::path& file, const LoadLimits& limits)
-{
-    Result<std::vector<std::byte>> bytes = readGltfResource(model, file, limits);
-    if (!bytes)
-        throw GltfProblem{inputError(bytes.error().message)};
-    return std::move(*bytes);
-}
-
 // What glTF and its extensions allow; the many other formats that the image library can read are kept
 // away from data that come with a model. foreign: set to the format of an image that stays without pixels.
 Image decode(const GltfFile& model, ImageSource source, const LoadLimits& limits, std::string& foreign)
 {
     std::vector<std::byte> held;
     if (!source.resource.file.empty()) {
-        held = readImageFile(model, source.resource.file, limits);
+        held = valueOrFail(readGltfResource(model, source.resource.file, limits));
         source.bytes = held;
     }
     if (limits.pixels == Pixels::whereReadable)
@@ -224,7 +215,7 @@ std::uint64_t GltfMaterials::bytesOfFiles() const
 {
     std::uint64_t bytes = model_.file.size;
     for (const auto& [image, slot] : slots_) {
-        const gltf::Image& entry = model_.structure.images[static_cast<std::size_t>(image)];
+        const gltf::Image& entry = model_.structure.images[std::size_t(image)];
         if (!entry.uri || entry.uri->starts_with("data:") || model_.file.readFile)
             continue;
         bool outside = false;
@@ -239,10 +230,10 @@ std::uint64_t GltfMaterials::bytesOfFiles() const
 // The first image of the file that has the same bytes in a view; those with a URI stand for themselves.
 int GltfMaterials::firstEqual(int image)
 {
-    const gltf::Image& entry = model_.structure.images[static_cast<std::size_t>(image)];
+    const gltf::Image& entry = model_.structure.images[std::size_t(image)];
     if (entry.uri || entry.view < 0)
         return image;
-    const std::span<const std::byte> bytes = model_.views[static_cast<std::size_t>(entry.view)].bytes;
+    const std::span<const std::byte> bytes = model_.views[std::size_t(entry.view)].bytes;
     const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
     const auto [known, isNew] = imagesAt_.try_emplace({text.data(), text.size()}, image);
     if (isNew)
@@ -263,7 +254,7 @@ void GltfMaterials::decodeImages()
         try {
             Image decoded = decode(model_.file, findImage(model_, image), budget.next(), foreign[i]);
             budget.take(decoded.data.size());
-            scene_.images[static_cast<std::size_t>(slot)] = std::move(decoded);
+            scene_.images[std::size_t(slot)] = std::move(decoded);
         } catch (const GltfProblem& problem) {
             problems[i] = {reworded(problem.error, imageField(image) + ": " + problem.error.message)};
         }
@@ -298,7 +289,7 @@ void lookAt(const GltfModel& model, int image, bool used)
         const std::uintmax_t size = fs::file_size(source.resource.file, error);
         if (error || size == 0 || size >= kPngHeader)
             return;
-        held = readImageFile(model.file, source.resource.file, model.limits);
+        held = valueOrFail(readGltfResource(model.file, source.resource.file, model.limits));
         source.bytes = held;
     }
     if (isPng(source.bytes) && source.bytes.size() < kPngHeader)
@@ -311,7 +302,7 @@ void lookAt(const GltfModel& model, int image, bool used)
 
 void GltfMaterials::checkUnusedImages() const
 {
-    for (int i = 0; i < static_cast<int>(model_.structure.images.size()); ++i) {
+    for (int i = 0; i < int(model_.structure.images.size()); ++i) {
         const bool used = slots_.contains(i);
         if (used && model_.limits.pixels != Pixels::none)
             continue; // it was decoded

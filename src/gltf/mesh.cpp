@@ -45,10 +45,10 @@ void makeFlat(Mesh& mesh)
         const glm::dvec3 b = mesh.positions[i + 1];
         const glm::dvec3 c = mesh.positions[i + 2];
         const glm::vec3 n = unitOrZero(glm::cross(b - a, c - a));
-        std::fill_n(mesh.normals.begin() + static_cast<std::ptrdiff_t>(i), 3, n);
+        std::fill_n(mesh.normals.begin() + std::ptrdiff_t(i), 3, n);
     }
     for (std::size_t i = 0; i < mesh.indices.size(); ++i)
-        mesh.indices[i] = static_cast<std::uint32_t>(i);
+        mesh.indices[i] = std::uint32_t(i);
 }
 
 void normalizeNormals(Mesh& mesh, const std::string& field, GltfWarnings& warnings)
@@ -140,7 +140,7 @@ void checkHandedness(const Mesh& mesh, const std::string& field, GltfWarnings& w
 
 void checkUvArea(const Mesh& mesh, int set, const std::string& field, GltfWarnings& warnings)
 {
-    const std::vector<glm::vec2>& uv = mesh.texcoords[static_cast<std::size_t>(set)];
+    const std::vector<glm::vec2>& uv = mesh.texcoords[std::size_t(set)];
     if (uv.empty())
         return;
     std::size_t flat = 0;

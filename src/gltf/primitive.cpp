@@ -4,28 +4,30 @@
 #include <numeric>
 
 #include "cotan/vector.hpp"
+#include "gltf/json/lookup.hpp"
 #include "mesh.hpp"
 
 namespace cotan {
 
 namespace {
 
+void take(std::size_t& taken, std::size_t limit, std::size_t count, const char* what, const std::string& field)
+{
+    if (count > limit - taken)
+        failGltf("{}: the limit is {} {} in all, this one brings {}", field, limit, what, count);
+    taken += count;
+}
+
 // Vertices are counted before memory and time are taken for them; so are morph targets and sets of
 // joints, because a few bytes of JSON can ask for any number of them.
 void takeVertices(GltfModel& model, std::size_t count, const std::string& field)
 {
-    const std::size_t left = model.limits.vertices - model.verticesTaken;
-    if (count > left)
-        failGltf("{}: the limit is {} vertices in all, this one brings {}", field, model.limits.vertices, count);
-    model.verticesTaken += count;
+    take(model.verticesTaken, model.limits.vertices, count, "vertices", field);
 }
 
 void takeTriangles(GltfModel& model, std::size_t count, const std::string& field)
 {
-    const std::size_t left = model.limits.triangles - model.trianglesTaken;
-    if (count > left)
-        failGltf("{}: the limit is {} triangles in all, this one brings {}", field, model.limits.triangles, count);
-    model.trianglesTaken += count;
+    take(model.trianglesTaken, model.limits.triangles, count, "triangles", field);
 }
 
 void replaceUnusable(std::vector<glm::vec2>& texcoords, const std::string& field, GltfWarnings& warnings)
@@ -111,13 +113,14 @@ void morph(GltfModel& model, const gltf::Primitive& source, const std::vector<do
     for (std::size_t t = 0; t < source.targets.size(); ++t) {
         const std::string field = fmt::format("{}.targets[{}]", out.field, t);
         takeVertices(model, choice.size(), field);
-        const float weight = t < weights.size() ? static_cast<float>(weights[t]) : 0.0f;
-        if (const int a = gltf::accessorOf(source.targets[t], "POSITION"); a >= 0)
-            addScaled(out.positions, readGltfVectors<glm::vec3>(model, a, choice, field + ".POSITION"), weight);
-        if (const int a = gltf::accessorOf(source.targets[t], "NORMAL"); a >= 0)
-            addScaled(out.normals, readGltfVectors<glm::vec3>(model, a, choice, field + ".NORMAL"), weight);
-        if (const int a = gltf::accessorOf(source.targets[t], "TANGENT"); a >= 0)
-            addScaled(out.tangents, readGltfVectors<glm::vec3>(model, a, choice, field + ".TANGENT"), weight);
+        const float weight = t < weights.size() ? float(weights[t]) : 0.0f;
+        const auto add = [&](const std::string& name, auto& to) {
+            if (const int a = gltf::accessorOf(source.targets[t], name); a >= 0)
+                addScaled(to, readGltfVectors<glm::vec3>(model, a, choice, field + "." + name), weight);
+        };
+        add("POSITION", out.positions);
+        add("NORMAL", out.normals);
+        add("TANGENT", out.tangents);
         model.bytesTaken = kept; // the differences are not held
     }
 }
@@ -193,8 +196,7 @@ std::vector<std::uint32_t> readTriangles(GltfModel& model, const gltf::Primitive
     if (source.mode == gltf::kTriangles) {
         if (order.size() % 3 != 0)
             model.warnings.add(out.field,
-                               "the number of corners is not a multiple of 3; the "
-                               "last triangle is left out");
+                               "the number of corners is not a multiple of 3; the last triangle is left out");
     } else if (source.mode == gltf::kTriangleStrip || source.mode == gltf::kTriangleFan) {
         takeTriangles(model, order.size(), out.field); // before the array grows by three
         model.trianglesTaken -= order.size();
@@ -226,10 +228,10 @@ std::vector<std::uint32_t> takeUsedVertices(std::vector<std::uint32_t>& corners,
 std::optional<GltfPrimitive> readGltfPrimitive(GltfModel& model, int mesh, std::size_t primitive,
                                                const std::vector<double>& morphWeights)
 {
-    const gltf::Mesh& parent = model.structure.meshes[static_cast<std::size_t>(mesh)];
+    const gltf::Mesh& parent = model.structure.meshes[std::size_t(mesh)];
     const gltf::Primitive& source = parent.primitives[primitive];
     GltfPrimitive out;
-    out.field = fmt::format("meshes[{}].primitives[{}]", mesh, primitive);
+    out.field = primitiveField(std::size_t(mesh), primitive);
     out.name = parent.name.empty() ? fmt::format("mesh {}", mesh) : parent.name;
     if (parent.primitives.size() > 1)
         out.name += fmt::format("/{}", primitive);
@@ -240,7 +242,7 @@ std::optional<GltfPrimitive> readGltfPrimitive(GltfModel& model, int mesh, std::
         model.warnings.add(out.field, "no POSITION, nothing to draw");
         return std::nullopt;
     }
-    const std::size_t count = model.accessors[static_cast<std::size_t>(positions)].accessor.count;
+    const std::size_t count = model.accessors[std::size_t(positions)].accessor.count;
     out.triangles = readTriangles(model, source, count, out);
     const std::vector<std::uint32_t> used = takeUsedVertices(out.triangles, count);
     const gltf::Choice choice(count, used);

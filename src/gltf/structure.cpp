@@ -13,10 +13,10 @@ namespace {
 
 float numberOf(const Json& object, std::string_view name, double otherwise)
 {
-    return static_cast<float>(valueOr(object, name, otherwise));
+    return float(valueOr(object, name, otherwise));
 }
 
-float unitRange(double x) { return static_cast<float>(std::clamp(x, 0.0, 1.0)); }
+float unitRange(double x) { return float(std::clamp(x, 0.0, 1.0)); }
 
 // Not negative, and no brighter than what lamps and products with it can bear.
 glm::vec3 colorOf(const Json& object, std::string_view name, const glm::vec3& otherwise, double most)
@@ -51,7 +51,7 @@ void readLayers(const Json& source, MaterialSource& read)
     read.coat = readTextureUse(&coat, "clearcoatTexture");
     read.coatRoughness = readTextureUse(&coat, "clearcoatRoughnessTexture");
     read.coatNormal = readTextureUse(&coat, "clearcoatNormalTexture");
-    m.coat.normalScale = static_cast<float>(read.coatNormal.scale);
+    m.coat.normalScale = float(read.coatNormal.scale);
 
     const Json& anisotropy = orNone(extension(source, "KHR_materials_anisotropy"));
     m.anisotropy.strength = unitRange(valueOr(anisotropy, "anisotropyStrength", 0.0));
@@ -98,7 +98,7 @@ MaterialSource readMaterial(const Json& source)
         numberOf(orNone(extension(source, "KHR_materials_emissive_strength")), "emissiveStrength", 1);
     m.emissive = colorOf(source, "emissiveFactor", m.emissive, 1) * strength;
     m.occlusionStrength = unitRange(read.occlusion.strength);
-    m.normalScale = static_cast<float>(read.normal.scale);
+    m.normalScale = float(read.normal.scale);
     m.normalFormat.expansion = expansionOf(source);
     const std::string alpha = valueOr(source, "alphaMode", std::string("OPAQUE"));
     m.alphaMode = alpha == "MASK" ? AlphaMode::mask : alpha == "BLEND" ? AlphaMode::blend : AlphaMode::opaque;
@@ -129,9 +129,9 @@ Camera readCamera(const Json& source, const std::string& field)
     camera.orthographic = kind == "orthographic";
     // Sizes that show nothing, or more than half a sphere, are brought to the nearest usable one.
     if (camera.orthographic)
-        camera.verticalExtent = static_cast<float>(std::max(2 * std::abs(description["ymag"].get<double>()), 1e-6));
+        camera.verticalExtent = float(std::max(2 * std::abs(description["ymag"].get<double>()), 1e-6));
     else
-        camera.verticalFieldOfView = static_cast<float>(std::clamp(description["yfov"].get<double>(), 0.001, 3.1));
+        camera.verticalFieldOfView = float(std::clamp(description["yfov"].get<double>(), 0.001, 3.1));
     return camera;
 }
 
@@ -150,8 +150,8 @@ Light readLight(const Json& source, const std::string& field)
         outer = valueOr(spot, "outerConeAngle", outer);
     }
     outer = std::clamp(outer, 0.0, std::numbers::pi / 2);
-    light.outerCone = static_cast<float>(outer);
-    light.innerCone = static_cast<float>(std::clamp(inner, 0.0, outer));
+    light.outerCone = float(outer);
+    light.innerCone = float(std::clamp(inner, 0.0, outer));
     return light;
 }
 
