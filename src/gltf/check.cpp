@@ -76,9 +76,8 @@ private:
         const auto known = sizes_.find(collection);
         if (known != sizes_.end())
             return known->second;
-        const Json* const lights = gltf::extension(root_, "KHR_lights_punctual");
-        const Json* const owner = collection == "lights" ? lights : &root_;
-        const Json* const list = owner ? member(*owner, collection) : nullptr;
+        const Json* const list =
+            member(collection == "lights" ? gltf::extension(root_, "KHR_lights_punctual") : &root_, collection);
         return sizes_[collection] = list && list->is_array() ? list->size() : 0;
     }
 
@@ -181,8 +180,7 @@ private:
 // missing.
 void refuseVersion1(const Json& root)
 {
-    const Json* const asset = member(root, "asset");
-    if (const Json* const version = asset ? member(*asset, "version") : nullptr) {
+    if (const Json* const version = member(member(root, "asset"), "version")) {
         const std::string text = version->is_string() ? version->get<std::string>() : version->dump();
         if (text.starts_with("1.") || text == "1" || text.starts_with("0."))
             failGltfVersion1("asset.version");

@@ -50,14 +50,14 @@ std::size_t addView(GltfDocument& document, std::vector<std::byte> bytes, std::s
     if (target > 0)
         view["target"] = target;
     document.added.push_back(std::move(bytes));
-    rootOf(document)["bufferViews"].push_back(std::move(view));
-    return rootOf(document)["bufferViews"].size() - 1;
+    return addItem(document, "bufferViews", std::move(view));
 }
 
-std::size_t addAccessor(GltfDocument& document, Json accessor)
+std::size_t addItem(GltfDocument& document, const char* collection, Json item)
 {
-    rootOf(document)["accessors"].push_back(std::move(accessor));
-    return rootOf(document)["accessors"].size() - 1;
+    Json& items = rootOf(document)[collection];
+    items.push_back(std::move(item));
+    return items.size() - 1;
 }
 
 } // namespace gltf_edit
@@ -235,8 +235,7 @@ std::size_t addGltfImage(GltfDocument& document, std::vector<std::byte> bytes, c
     if (!name.empty())
         image["name"] = name;
     image = withImage(document, std::move(image), std::move(bytes), mimeType);
-    rootOf(document)["images"].push_back(std::move(image));
-    return rootOf(document)["images"].size() - 1;
+    return addItem(document, "images", std::move(image));
 }
 
 std::size_t copyGltfTexture(GltfDocument& document, std::size_t texture, std::size_t image)
@@ -244,15 +243,12 @@ std::size_t copyGltfTexture(GltfDocument& document, std::size_t texture, std::si
     Json copy = rootOf(document)["textures"][texture];
     copy["source"] = image;
     copy.erase("extensions");
-    rootOf(document)["textures"].push_back(std::move(copy));
-    return rootOf(document)["textures"].size() - 1;
+    return addItem(document, "textures", std::move(copy));
 }
 
 std::size_t copyGltfMaterial(GltfDocument& document, std::size_t material)
 {
-    Json copy = rootOf(document)["materials"][material];
-    rootOf(document)["materials"].push_back(std::move(copy));
-    return rootOf(document)["materials"].size() - 1;
+    return addItem(document, "materials", rootOf(document)["materials"][material]);
 }
 
 } // namespace cotan

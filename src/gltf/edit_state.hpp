@@ -65,7 +65,9 @@ std::vector<std::uint32_t> readTriangles(const GltfDocument& document, const glt
 
 // Adds a buffer view; stride and target 0: left out. Returns its index.
 std::size_t addView(GltfDocument& document, std::vector<std::byte> bytes, std::size_t stride = 0, int target = 0);
-std::size_t addAccessor(GltfDocument& document, Json accessor);
+
+// Adds an item to a collection of the root; returns its index.
+std::size_t addItem(GltfDocument& document, const char* collection, Json item);
 
 // ---- edit_repack.cpp --------------------------------------------------------------------------
 

@@ -101,7 +101,7 @@ std::size_t renewAccessor(GltfDocument& document, std::size_t index, Sources sou
     accessor["count"] = sources.size();
     if (!allAmong(old.accessor.count, sources))
         gltf::renewBounds(accessor, elementsOf(document, accessor));
-    return addAccessor(document, std::move(accessor));
+    return addItem(document, "accessors", std::move(accessor));
 }
 
 // Accessors that were made for new vertices: by the index of the old one that of the new one.
@@ -149,7 +149,7 @@ void setTriangles(GltfDocument& document, Json& primitive, std::span<const std::
     accessor["componentType"] = type;
     accessor["count"] = indices.size();
     accessor["type"] = "SCALAR";
-    primitive["indices"] = addAccessor(document, std::move(accessor));
+    primitive["indices"] = addItem(document, "accessors", std::move(accessor));
     if (gltf::valueOr(primitive, "mode", gltf::kTriangles) != gltf::kTriangles)
         primitive.erase("mode"); // a list now
 }
@@ -208,8 +208,8 @@ std::size_t addTangents(GltfDocument& document, const std::vector<glm::vec4>& va
     std::vector<std::byte> bytes(values.size() * sizeof(glm::vec4));
     std::memcpy(bytes.data(), values.data(), bytes.size());
     const std::size_t view = addView(document, std::move(bytes), sizeof(glm::vec4), gltf::kArrayBuffer);
-    return addAccessor(
-        document, {{"bufferView", view}, {"componentType", gltf::kFloat}, {"count", values.size()}, {"type", "VEC4"}});
+    return addItem(document, "accessors",
+                   {{"bufferView", view}, {"componentType", gltf::kFloat}, {"count", values.size()}, {"type", "VEC4"}});
 }
 
 bool sameOrder(const GltfDocument& document, const Json& primitive, std::span<const std::uint32_t> indices)
@@ -261,8 +261,9 @@ std::size_t setGroup(GltfDocument& document, const Group& group)
 void fillEmptyTarget(GltfDocument& document, std::size_t count, Json& target)
 {
     const Json zero = {0, 0, 0};
-    target["POSITION"] = addAccessor(
-        document, {{"componentType", gltf::kFloat}, {"count", count}, {"type", "VEC3"}, {"min", zero}, {"max", zero}});
+    target["POSITION"] =
+        addItem(document, "accessors",
+                {{"componentType", gltf::kFloat}, {"count", count}, {"type", "VEC3"}, {"min", zero}, {"max", zero}});
 }
 
 // ---- provoking vertices ---------------------------------------------------------------------

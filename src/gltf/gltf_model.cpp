@@ -24,21 +24,20 @@ constexpr const char* kVariants = "KHR_materials_variants";
 std::size_t findVariant(const Json& root, const std::string& wanted)
 {
     std::vector<std::string> names;
-    const Json* const extension = gltf::extension(root, kVariants);
-    if (const Json* const variants = extension ? gltf::member(*extension, "variants") : nullptr)
-        if (variants->is_array())
-            for (const Json& variant : *variants)
-                names.push_back(variant.is_object() && variant.contains("name") && variant["name"].is_string()
-                                    ? variant["name"].get<std::string>()
-                                    : std::string());
+    const Json* const variants = gltf::member(gltf::extension(root, kVariants), "variants");
+    if (variants && variants->is_array())
+        for (const Json& variant : *variants) {
+            const Json* const name = gltf::member(variant, "name");
+            names.push_back(name && name->is_string() ? name->get<std::string>() : std::string());
+        }
     return findNamed(names, wanted, "variants");
 }
 
 bool names(const Json& mapping, std::size_t variant)
 {
-    const Json* const variants = mapping.is_object() ? gltf::member(mapping, "variants") : nullptr;
+    const Json* const variants = gltf::member(mapping, "variants");
     return variants && variants->is_array()
-        && std::any_of(variants->begin(), variants->end(), [&](const Json& v) { return v == variant; });
+        && std::find(variants->begin(), variants->end(), variant) != variants->end();
 }
 
 // Gives every primitive that has one for limits.variant its material there (KHR_materials_variants); the others keep
@@ -53,8 +52,7 @@ void chooseGltfVariant(GltfModel& model)
     for (std::size_t m = 0; meshes != root.end() && m < meshes->size(); ++m) {
         Json& primitives = (*meshes)[m]["primitives"];
         for (std::size_t p = 0; p < primitives.size(); ++p) {
-            const Json* const extension = gltf::extension(primitives[p], kVariants);
-            const Json* const mappings = extension ? gltf::member(*extension, "mappings") : nullptr;
+            const Json* const mappings = gltf::member(gltf::extension(primitives[p], kVariants), "mappings");
             if (!mappings || !mappings->is_array())
                 continue;
             const auto found = std::find_if(mappings->begin(), mappings->end(),

@@ -33,9 +33,9 @@ void collectTextures(const Json& object, const std::vector<const Json*>& besides
     for (const auto& [key, value] : object.items()) {
         if (std::ranges::find(besides, &value) != besides.end())
             continue;
-        const bool slot = key.size() >= 7 && key.ends_with("exture") && value.is_object() && value.contains("index");
-        if (slot && value["index"].is_number_unsigned())
-            textures.insert(value["index"].get<std::size_t>());
+        const Json* const index = key.size() >= 7 && key.ends_with("exture") ? gltf::member(value, "index") : nullptr;
+        if (index && index->is_number_unsigned())
+            textures.insert(index->get<std::size_t>());
         collectTextures(value, besides, textures);
     }
 }
@@ -43,10 +43,9 @@ void collectTextures(const Json& object, const std::vector<const Json*>& besides
 // Where a material has a normal map; null where it has none.
 const Json* slotOf(const Json& material, NormalSlot slot)
 {
-    if (slot == NormalSlot::surface)
-        return gltf::member(material, "normalTexture");
-    const Json* const coat = gltf::extension(material, "KHR_materials_clearcoat");
-    return coat ? gltf::member(*coat, "clearcoatNormalTexture") : nullptr;
+    return slot == NormalSlot::surface
+        ? gltf::member(material, "normalTexture")
+        : gltf::member(gltf::extension(material, "KHR_materials_clearcoat"), "clearcoatNormalTexture");
 }
 
 } // namespace
@@ -60,15 +59,15 @@ std::vector<std::size_t> materialsOf(const Json& root, const Json& primitive)
 {
     std::vector<std::size_t> materials;
     const auto add = [&](const Json& object) {
-        if (!object.is_object() || !object.contains("material") || !object["material"].is_number_unsigned())
+        const Json* const material = gltf::member(object, "material");
+        if (!material || !material->is_number_unsigned())
             return;
-        const std::size_t m = object["material"].get<std::size_t>();
-        if (m < countOf(root, "materials") && std::find(materials.begin(), materials.end(), m) == materials.end())
+        const std::size_t m = material->get<std::size_t>();
+        if (m < countOf(root, "materials") && std::ranges::find(materials, m) == materials.end())
             materials.push_back(m);
     };
     add(primitive);
-    const Json* const variants = gltf::extension(primitive, "KHR_materials_variants");
-    const Json* const mappings = variants ? gltf::member(*variants, "mappings") : nullptr;
+    const Json* const mappings = gltf::member(gltf::extension(primitive, "KHR_materials_variants"), "mappings");
     if (mappings && mappings->is_structured()) // of an extension nothing has been checked
         for (const Json& mapping : *mappings)
             add(mapping);
@@ -77,10 +76,7 @@ std::vector<std::size_t> materialsOf(const Json& root, const Json& primitive)
 
 gltf::TextureUse normalMapOf(const Json& root, std::size_t material, NormalSlot slot)
 {
-    const Json& surface = root["materials"][material];
-    return slot == NormalSlot::surface
-        ? gltf::readTextureUse(&surface, "normalTexture")
-        : gltf::readTextureUse(gltf::extension(surface, "KHR_materials_clearcoat"), "clearcoatNormalTexture");
+    return gltf::readTextureUse(slotOf(root["materials"][material], slot));
 }
 
 Json& normalSlotOf(Json& root, std::size_t material, NormalSlot slot)

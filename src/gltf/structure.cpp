@@ -48,44 +48,44 @@ void readLayers(const Json& source, MaterialSource& read)
     const Json& coat = orNone(extension(source, "KHR_materials_clearcoat"));
     m.coat.strength = unitRange(valueOr(coat, "clearcoatFactor", 0.0));
     m.coat.roughness = unitRange(valueOr(coat, "clearcoatRoughnessFactor", 0.0));
-    read.coat = readTextureUse(&coat, "clearcoatTexture");
-    read.coatRoughness = readTextureUse(&coat, "clearcoatRoughnessTexture");
-    read.coatNormal = readTextureUse(&coat, "clearcoatNormalTexture");
+    read.coat = readTextureUse(member(coat, "clearcoatTexture"));
+    read.coatRoughness = readTextureUse(member(coat, "clearcoatRoughnessTexture"));
+    read.coatNormal = readTextureUse(member(coat, "clearcoatNormalTexture"));
     m.coat.normalScale = float(read.coatNormal.scale);
 
     const Json& anisotropy = orNone(extension(source, "KHR_materials_anisotropy"));
     m.anisotropy.strength = unitRange(valueOr(anisotropy, "anisotropyStrength", 0.0));
     m.anisotropy.rotation = numberOf(anisotropy, "anisotropyRotation", 0);
-    read.anisotropy = readTextureUse(&anisotropy, "anisotropyTexture");
+    read.anisotropy = readTextureUse(member(anisotropy, "anisotropyTexture"));
 
     const Json& specular = orNone(extension(source, "KHR_materials_specular"));
     m.specular.ior = readIor(orNone(extension(source, "KHR_materials_ior")));
     m.specular.strength = unitRange(valueOr(specular, "specularFactor", 1.0));
     m.specular.color = // may be over 1
         colorOf(specular, "specularColorFactor", m.specular.color, gltf_schema::kBrightest);
-    read.specular = readTextureUse(&specular, "specularTexture");
-    read.specularColor = readTextureUse(&specular, "specularColorTexture");
+    read.specular = readTextureUse(member(specular, "specularTexture"));
+    read.specularColor = readTextureUse(member(specular, "specularColorTexture"));
 
     const Json& sheen = orNone(extension(source, "KHR_materials_sheen"));
     m.sheen.color = colorOf(sheen, "sheenColorFactor", glm::vec3(0), 1);
     m.sheen.roughness = unitRange(valueOr(sheen, "sheenRoughnessFactor", 0.0));
-    read.sheenColor = readTextureUse(&sheen, "sheenColorTexture");
-    read.sheenRoughness = readTextureUse(&sheen, "sheenRoughnessTexture");
+    read.sheenColor = readTextureUse(member(sheen, "sheenColorTexture"));
+    read.sheenRoughness = readTextureUse(member(sheen, "sheenRoughnessTexture"));
 
     const Json& transmission = orNone(extension(source, "KHR_materials_transmission"));
     m.transmission.strength = unitRange(valueOr(transmission, "transmissionFactor", 0.0));
-    read.transmission = readTextureUse(&transmission, "transmissionTexture");
+    read.transmission = readTextureUse(member(transmission, "transmissionTexture"));
 }
 
 MaterialSource readMaterial(const Json& source)
 {
     const Json& pbr = orNone(member(source, "pbrMetallicRoughness"));
     MaterialSource read;
-    read.baseColor = readTextureUse(&pbr, "baseColorTexture");
-    read.metallicRoughness = readTextureUse(&pbr, "metallicRoughnessTexture");
-    read.normal = readTextureUse(&source, "normalTexture");
-    read.occlusion = readTextureUse(&source, "occlusionTexture");
-    read.emissive = readTextureUse(&source, "emissiveTexture");
+    read.baseColor = readTextureUse(member(pbr, "baseColorTexture"));
+    read.metallicRoughness = readTextureUse(member(pbr, "metallicRoughnessTexture"));
+    read.normal = readTextureUse(member(source, "normalTexture"));
+    read.occlusion = readTextureUse(member(source, "occlusionTexture"));
+    read.emissive = readTextureUse(member(source, "emissiveTexture"));
     Material& m = read.factors;
     m.name = valueOr(source, "name", std::string());
     m.tangentsFor = tangentReader(source);

@@ -106,15 +106,13 @@ const Json* member(const Json& object, std::string_view name)
 
 Expansion expansionOf(const Json& material)
 {
-    const Json* const extras = member(material, "extras");
-    const Json* const said = extras && extras->is_object() ? member(*extras, kUnsignedKey) : nullptr;
+    const Json* const said = member(member(material, "extras"), kUnsignedKey);
     return said && *said == "biased" ? Expansion::biased : Expansion::exact;
 }
 
 const Json* extension(const Json& object, std::string_view name)
 {
-    const Json* const extensions = member(object, "extensions");
-    const Json* const found = extensions ? member(*extensions, name) : nullptr;
+    const Json* const found = member(member(object, "extensions"), name);
     return found && found->is_object() ? found : nullptr;
 }
 
@@ -240,10 +238,9 @@ glm::dmat4 localMatrix(const Node& node)
 
 // ---- textures -------------------------------------------------------------------------------
 
-TextureUse readTextureUse(const Json* material, std::string_view slot)
+TextureUse readTextureUse(const Json* info)
 {
     TextureUse use;
-    const Json* const info = material ? member(*material, slot) : nullptr;
     if (!info)
         return use;
     use.texture = indexOf(*info, "index");
@@ -316,8 +313,7 @@ Json writeSampler(const Sampler& s)
 
 std::string frameText(const Json& material)
 {
-    const Json* const extras = member(material, "extras");
-    const Json* const frame = extras && extras->is_object() ? member(*extras, kFrameExtra) : nullptr;
+    const Json* const frame = member(member(material, "extras"), kFrameExtra);
     return !frame ? "" : frame->is_string() ? frame->get<std::string>() : frame->dump();
 }
 

@@ -41,8 +41,12 @@ inline constexpr int kRepeat = 10497, kClampToEdge = 33071, kMirroredRepeat = 33
 
 // ---- JSON -----------------------------------------------------------------------------------
 
-// A member of an object; null where it is missing, and where `object` is none.
+// A member of an object; null where it is missing, and where `object` is none or null.
 const Json* member(const Json& object, std::string_view name);
+inline const Json* member(const Json* object, std::string_view name)
+{
+    return object ? member(*object, name) : nullptr;
+}
 
 // A key of a material's extras: how its normal map stores signed numbers in unsigned ones. "biased": 2c - 1; any other
 // value, and none, is Cotan's default, whose zero is the middle code (docs/reference/conventions.md). A clear coat's
@@ -182,8 +186,8 @@ struct Image {
     int view = -1;
 };
 
-// material: an object with the slot, or null. slot: "normalTexture" and so on.
-TextureUse readTextureUse(const Json* material, std::string_view slot);
+// info: what a material says of a "normalTexture" and so on; null: nothing.
+TextureUse readTextureUse(const Json* info);
 
 // images: how many there are.
 Texture readTexture(const Json& texture, std::size_t images);
