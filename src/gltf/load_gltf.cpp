@@ -1,4 +1,5 @@
 // glTF 2.0 and GLB files to Scene.
+#include <algorithm>
 #include <map>
 #include <tuple>
 #include <utility>
@@ -70,7 +71,7 @@ private:
 
     Mesh finish(GltfPrimitive&& primitive)
     {
-        const int set = gltfNormalMapSet(model_, primitive.material);
+        const int set = gltfNormalMapSet(model_, primitive.mesh.material);
         return finishGltfMesh(std::move(primitive), set, model_.warnings);
     }
 
@@ -88,9 +89,8 @@ private:
                 continue;
             if (use.skin >= 0)
                 skinGltfPrimitive(*primitive, joints_[std::size_t(use.skin)], model_.warnings);
-            const int material = primitive->material;
             Mesh mesh = finish(std::move(*primitive));
-            mesh.material = materials_.use(material, mesh);
+            mesh.material = materials_.use(mesh.material, mesh);
             entry->second.push_back(int(scene_.meshes.size()));
             scene_.meshes.push_back(std::move(mesh));
         }
@@ -99,10 +99,8 @@ private:
 
     bool hasJoints(int mesh) const
     {
-        for (const gltf::Primitive& p : sourceMesh(mesh).primitives)
-            if (gltf::accessorOf(p.attributes, "JOINTS_0") < 0)
-                return false;
-        return true;
+        return std::ranges::all_of(sourceMesh(mesh).primitives,
+                                   [](const gltf::Primitive& p) { return p.attributes.contains("JOINTS_0"); });
     }
 
     MeshUse useOf(int node)

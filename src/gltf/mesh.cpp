@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
@@ -41,20 +42,16 @@ void makeFlat(Mesh& mesh)
     spread(mesh.colors, mesh.indices);
     mesh.normals.assign(mesh.positions.size(), glm::vec3(0));
     for (std::size_t i = 0; i < mesh.indices.size(); i += 3) {
-        const glm::dvec3 a = mesh.positions[i];
-        const glm::dvec3 b = mesh.positions[i + 1];
-        const glm::dvec3 c = mesh.positions[i + 2];
+        const glm::dvec3 a = mesh.positions[i], b = mesh.positions[i + 1], c = mesh.positions[i + 2];
         const glm::vec3 n = unitOrZero(glm::cross(b - a, c - a));
         std::fill_n(mesh.normals.begin() + std::ptrdiff_t(i), 3, n);
     }
-    for (std::size_t i = 0; i < mesh.indices.size(); ++i)
-        mesh.indices[i] = std::uint32_t(i);
+    std::iota(mesh.indices.begin(), mesh.indices.end(), 0u);
 }
 
 void normalizeNormals(Mesh& mesh, const std::string& field, GltfWarnings& warnings)
 {
-    std::size_t zero = 0;
-    std::size_t odd = 0;
+    std::size_t zero = 0, odd = 0;
     for (glm::vec3& n : mesh.normals) {
         const double length = glm::length(glm::dvec3(n));
         zero += length == 0;
@@ -71,9 +68,7 @@ void normalizeNormals(Mesh& mesh, const std::string& field, GltfWarnings& warnin
 
 void normalizeTangents(Mesh& mesh, const std::string& field, GltfWarnings& warnings)
 {
-    std::size_t zero = 0;
-    std::size_t odd = 0;
-    std::size_t signs = 0;
+    std::size_t zero = 0, odd = 0, signs = 0;
     for (glm::vec4& t : mesh.tangents) {
         const glm::dvec3 direction(t);
         const double length = glm::length(direction);
@@ -124,8 +119,7 @@ void checkHandedness(const Mesh& mesh, const std::string& field, GltfWarnings& w
     const std::vector<glm::vec2>& uv = mesh.texcoords[0];
     if (mesh.tangents.empty() || uv.empty())
         return;
-    std::size_t known = 0;
-    std::size_t against = 0;
+    std::size_t known = 0, against = 0;
     for (std::size_t i = 0; i < mesh.indices.size(); i += 3) {
         const int expected = handednessFromUv(mesh, uv, i);
         float sum = 0;
@@ -186,14 +180,7 @@ glm::vec3 unitNormal(const glm::vec3& normal)
 
 Mesh finishGltfMesh(GltfPrimitive&& source, int normalMapSet, GltfWarnings& warnings)
 {
-    Mesh mesh;
-    mesh.name = std::move(source.name);
-    mesh.positions = std::move(source.positions);
-    mesh.normals = std::move(source.normals);
-    mesh.tangents = std::move(source.tangents);
-    mesh.texcoords = std::move(source.texcoords);
-    mesh.colors = std::move(source.colors);
-    mesh.indices = std::move(source.triangles);
+    Mesh mesh = std::move(source.mesh);
     for (const glm::vec3& p : mesh.positions)
         if (!isFinite(p))
             failGltf("{}: a position is beyond the range of float once it is morphed and skinned", source.field);
@@ -204,8 +191,7 @@ Mesh finishGltfMesh(GltfPrimitive&& source, int normalMapSet, GltfWarnings& warn
         normalizeNormals(mesh, source.field, warnings);
     }
     normalizeTangents(mesh, source.field, warnings);
-    const bool usable = normalMapSet == 0 || normalMapSet == 1;
-    if (usable)
+    if (normalMapSet == 0 || normalMapSet == 1)
         checkUvArea(mesh, normalMapSet, source.field, warnings);
     else // where there is a normal map, followStoredTangents judges all that read it together
         checkHandedness(mesh, source.field, warnings);
@@ -214,9 +200,9 @@ Mesh finishGltfMesh(GltfPrimitive&& source, int normalMapSet, GltfWarnings& warn
 
 void skinGltfPrimitive(GltfPrimitive& primitive, const std::vector<glm::dmat4>& joints, GltfWarnings& warnings)
 {
-    std::size_t mirrored = 0;
-    std::size_t loose = 0;
-    for (std::size_t i = 0; i < primitive.positions.size(); ++i) {
+    Mesh& mesh = primitive.mesh;
+    std::size_t mirrored = 0, loose = 0;
+    for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
         const Blend sum = blend(primitive, i, joints);
         if (!(std::abs(sum.weight) > 1e-6)) { // weights are parts of one: less is nothing
             ++loose;
@@ -227,17 +213,17 @@ void skinGltfPrimitive(GltfPrimitive& primitive, const std::vector<glm::dmat4>& 
         const LinearMap<double> map(linear);
         const bool mirrors = map.determinant() < 0;
         mirrored += mirrors;
-        primitive.positions[i] = glm::vec3(matrix * glm::dvec4(primitive.positions[i], 1));
-        if (!primitive.normals.empty())
-            primitive.normals[i] = unitOrZero(map.planeMatrix() * glm::dvec3(primitive.normals[i]));
-        if (!primitive.tangents.empty()) {
-            const glm::vec4 t = primitive.tangents[i];
-            primitive.tangents[i] = glm::vec4(unitOrZero(linear * glm::dvec3(t)), mirrors ? -t.w : t.w);
+        mesh.positions[i] = glm::vec3(matrix * glm::dvec4(mesh.positions[i], 1));
+        if (!mesh.normals.empty())
+            mesh.normals[i] = unitOrZero(map.planeMatrix() * glm::dvec3(mesh.normals[i]));
+        if (!mesh.tangents.empty()) {
+            const glm::vec4 t = mesh.tangents[i];
+            mesh.tangents[i] = glm::vec4(unitOrZero(linear * glm::dvec3(t)), mirrors ? -t.w : t.w);
         }
     }
-    if (mirrored == primitive.positions.size())
-        for (std::size_t i = 0; i < primitive.triangles.size(); i += 3)
-            std::swap(primitive.triangles[i + 1], primitive.triangles[i + 2]);
+    if (mirrored == mesh.positions.size())
+        for (std::size_t i = 0; i < mesh.indices.size(); i += 3)
+            std::swap(mesh.indices[i + 1], mesh.indices[i + 2]);
     if (loose > 0)
         warnings.add(primitive.field, "skinned without weights, left in place", loose, "vertices");
 }

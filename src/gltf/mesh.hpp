@@ -13,17 +13,12 @@ namespace cotan {
 // A primitive as it stands in the file, triangulated, with the vertices that its triangles use, in
 // the order of the file. Arrays are empty or have one entry a vertex.
 struct GltfPrimitive {
-    std::string name;  // of the mesh, with the primitive's number where there are several
     std::string field; // meshes[i].primitives[j]
-    int material = -1; // index into the file's materials; -1: the default material
-    std::vector<glm::vec3> positions;
-    std::vector<glm::vec3> normals;
-    std::vector<glm::vec4> tangents;
-    std::array<std::vector<glm::vec2>, 2> texcoords;
-    std::vector<glm::vec4> colors;
+    // Named like the mesh of the file, with the primitive's number where there are several. Its material is an index
+    // into the file's; -1: the default material.
+    Mesh mesh;
     std::vector<std::vector<glm::uvec4>> joints; // one for each set JOINTS_n with WEIGHTS_n
     std::vector<std::vector<glm::vec4>> weights;
-    std::vector<std::uint32_t> triangles;
 };
 
 // Reads and checks one primitive and applies its morph targets. morphWeights: as in the file,

@@ -135,15 +135,13 @@ std::vector<glm::dmat4> instanceMatrices(GltfModel& model, const gltf::Attribute
     const std::size_t count = model.accessors[std::size_t(any)].accessor.count;
     if (count > model.limits.nodes)
         failGltf("{}: the limit is {} instances, found {}", field, model.limits.nodes, count);
-    std::vector<glm::vec3> t(count, glm::vec3(0));
-    std::vector<glm::vec4> r(count, glm::vec4(0, 0, 0, 1));
-    std::vector<glm::vec3> s(count, glm::vec3(1));
-    if (translations >= 0)
-        t = readGltfVectors<glm::vec3>(model, translations, count, field + ".TRANSLATION");
-    if (rotations >= 0)
-        r = readGltfVectors<glm::vec4>(model, rotations, count, field + ".ROTATION");
-    if (scales >= 0)
-        s = readGltfVectors<glm::vec3>(model, scales, count, field + ".SCALE");
+    const auto read = [&]<class Vector>(int accessor, const char* name, const Vector& otherwise) {
+        return accessor < 0 ? std::vector<Vector>(count, otherwise)
+                            : readGltfVectors<Vector>(model, accessor, count, field + name);
+    };
+    const auto t = read(translations, ".TRANSLATION", glm::vec3(0));
+    const auto r = read(rotations, ".ROTATION", glm::vec4(0, 0, 0, 1));
+    const auto s = read(scales, ".SCALE", glm::vec3(1));
     std::vector<glm::dmat4> matrices;
     matrices.reserve(count);
     for (std::size_t i = 0; i < count; ++i)
@@ -218,14 +216,12 @@ std::vector<Light> readGltfLights(const GltfModel& model, const GltfNodes& nodes
 std::vector<Camera> readGltfCameras(const GltfModel& model, const GltfNodes& nodes)
 {
     std::vector<Camera> cameras;
-    for (const int node : nodes.visible) {
-        const int camera = nodeAt(model, node).camera;
-        if (camera < 0)
-            continue;
-        cameras.push_back(placed(model.structure.cameras[std::size_t(camera)], nodes.world[std::size_t(node)]));
-        if (cameras.back().name.empty())
-            cameras.back().name = nodeAt(model, node).name;
-    }
+    for (const int node : nodes.visible)
+        if (const int camera = nodeAt(model, node).camera; camera >= 0) {
+            cameras.push_back(placed(model.structure.cameras[std::size_t(camera)], nodes.world[std::size_t(node)]));
+            if (cameras.back().name.empty())
+                cameras.back().name = nodeAt(model, node).name;
+        }
     return cameras;
 }
 

@@ -53,7 +53,7 @@ void readTexcoords(GltfModel& model, const gltf::Primitive& source, const gltf::
             model.warnings.add(out.field, oneLine(name) + " is ignored: two uv sets are read");
             continue;
         }
-        std::vector<glm::vec2>& set = out.texcoords[name == "TEXCOORD_0" ? 0 : 1];
+        std::vector<glm::vec2>& set = out.mesh.texcoords[name == "TEXCOORD_0" ? 0 : 1];
         set = readGltfVectors<glm::vec2>(model, accessor, choice, field);
         replaceUnusable(set, field, model.warnings);
     }
@@ -79,15 +79,15 @@ void readJoints(GltfModel& model, const gltf::Primitive& source, const gltf::Cho
 void readAttributes(GltfModel& model, const gltf::Primitive& source, const gltf::Choice& choice, GltfPrimitive& out)
 {
     if (const int a = gltf::accessorOf(source.attributes, "NORMAL"); a >= 0)
-        out.normals = readGltfVectors<glm::vec3>(model, a, choice, out.field + ".NORMAL");
+        out.mesh.normals = readGltfVectors<glm::vec3>(model, a, choice, out.field + ".NORMAL");
     if (const int a = gltf::accessorOf(source.attributes, "TANGENT"); a >= 0)
-        out.tangents = readGltfVectors<glm::vec4>(model, a, choice, out.field + ".TANGENT");
+        out.mesh.tangents = readGltfVectors<glm::vec4>(model, a, choice, out.field + ".TANGENT");
     if (const int a = gltf::accessorOf(source.attributes, "COLOR_0"); a >= 0)
-        out.colors = readGltfColors(model, a, choice, out.field + ".COLOR_0");
+        out.mesh.colors = readGltfColors(model, a, choice, out.field + ".COLOR_0");
     readTexcoords(model, source, choice, out);
     readJoints(model, source, choice, out);
     if (gltf::accessorOf(source.attributes, "TANGENT") >= 0 && gltf::accessorOf(source.attributes, "NORMAL") < 0) {
-        out.tangents.clear();
+        out.mesh.tangents.clear();
         model.warnings.add(out.field, "TANGENT without NORMAL, ignored");
     }
 }
@@ -118,9 +118,9 @@ void morph(GltfModel& model, const gltf::Primitive& source, const std::vector<do
             if (const int a = gltf::accessorOf(source.targets[t], name); a >= 0)
                 addScaled(to, readGltfVectors<glm::vec3>(model, a, choice, field + "." + name), weight);
         };
-        add("POSITION", out.positions);
-        add("NORMAL", out.normals);
-        add("TANGENT", out.tangents);
+        add("POSITION", out.mesh.positions);
+        add("NORMAL", out.mesh.normals);
+        add("TANGENT", out.mesh.tangents);
         model.bytesTaken = kept; // the differences are not held
     }
 }
@@ -232,10 +232,10 @@ std::optional<GltfPrimitive> readGltfPrimitive(GltfModel& model, int mesh, std::
     const gltf::Primitive& source = parent.primitives[primitive];
     GltfPrimitive out;
     out.field = primitiveField(std::size_t(mesh), primitive);
-    out.name = parent.name.empty() ? fmt::format("mesh {}", mesh) : parent.name;
+    out.mesh.name = parent.name.empty() ? fmt::format("mesh {}", mesh) : parent.name;
     if (parent.primitives.size() > 1)
-        out.name += fmt::format("/{}", primitive);
-    out.material = source.material;
+        out.mesh.name += fmt::format("/{}", primitive);
+    out.mesh.material = source.material;
 
     const int positions = gltf::accessorOf(source.attributes, "POSITION");
     if (positions < 0) {
@@ -243,18 +243,18 @@ std::optional<GltfPrimitive> readGltfPrimitive(GltfModel& model, int mesh, std::
         return std::nullopt;
     }
     const std::size_t count = model.accessors[std::size_t(positions)].accessor.count;
-    out.triangles = readTriangles(model, source, count, out);
-    const std::vector<std::uint32_t> used = takeUsedVertices(out.triangles, count);
+    out.mesh.indices = readTriangles(model, source, count, out);
+    const std::vector<std::uint32_t> used = takeUsedVertices(out.mesh.indices, count);
     const gltf::Choice choice(count, used);
     takeVertices(model, choice.size(), out.field);
-    out.positions = readGltfVectors<glm::vec3>(model, positions, choice, out.field + ".POSITION");
+    out.mesh.positions = readGltfVectors<glm::vec3>(model, positions, choice, out.field + ".POSITION");
     readAttributes(model, source, choice, out);
     morph(model, source, morphWeights, choice, out);
-    if (out.triangles.empty())
+    if (out.mesh.indices.empty())
         return std::nullopt;
-    if (out.normals.empty()) { // flat normals need a vertex a corner
-        takeVertices(model, out.triangles.size(), out.field);
-        takeGltfBytes(model, out.triangles.size() * sizeof(Corner), out.field);
+    if (out.mesh.normals.empty()) { // flat normals need a vertex a corner
+        takeVertices(model, out.mesh.indices.size(), out.field);
+        takeGltfBytes(model, out.mesh.indices.size() * sizeof(Corner), out.field);
     }
     return out;
 }
