@@ -34,32 +34,16 @@ Json attributesLeft(const GltfDocument& document, const Json& primitive, const G
     return left.contains("POSITION") ? left : Json::object();
 }
 
-void addName(Json& root, const char* list, const std::string& name)
-{
-    Json& names = root[list];
-    if (std::find(names.begin(), names.end(), name) == names.end())
-        names.push_back(name);
-}
-
-// How often each accessor is referred to, and how often by primitives that have their stream back.
-struct Uses {
-    std::vector<std::size_t> all, packed;
-};
-
-// Accessors that only streams fill need no bytes of their own.
-void restoreAccessors(GltfDocument& document, const Uses& uses)
-{
-    for (const auto& [index, json] : document.source->file.packed.accessors)
-        if (const auto i = std::size_t(index); uses.packed[i] > 0 && uses.all[i] == uses.packed[i])
-            rootOf(document)["accessors"][i] = json;
-}
-
 // Lists an extension as used, and as required where the file requires it.
 void addExtension(Json& root, const GltfPacked& packed, const std::string& name)
 {
-    addName(root, "extensionsUsed", name);
-    if (std::find(packed.required.begin(), packed.required.end(), name) != packed.required.end())
-        addName(root, "extensionsRequired", name);
+    const auto addTo = [&](Json& names) {
+        if (std::find(names.begin(), names.end(), name) == names.end())
+            names.push_back(name);
+    };
+    addTo(root["extensionsUsed"]);
+    if (std::ranges::find(packed.required, name) != packed.required.end())
+        addTo(root["extensionsRequired"]);
 }
 
 // The extension by which a view is compressed with meshoptimizer.
@@ -77,12 +61,11 @@ void restoreDraco(GltfDocument& document)
     if (packed.primitives.empty())
         return;
     Json& root = rootOf(document);
-    Uses uses;
-    uses.all.resize(countOf(root, "accessors"));
-    uses.packed.resize(uses.all.size());
+    // How often each accessor is referred to, and how often by primitives that have their stream back.
+    std::vector<std::size_t> uses(countOf(root, "accessors")), packedUses(uses.size());
     forEachReference(root, Collection::accessors, [&](Json& index) {
-        if (const auto i = index.get<std::size_t>(); i < uses.all.size()) // extensions may say anything
-            ++uses.all[i];
+        if (const auto i = index.get<std::size_t>(); i < uses.size()) // extensions may say anything
+            ++uses[i];
     });
     std::size_t restored = 0, withMore = 0;
     for (const GltfPacked::Primitive& p : packed.primitives) {
@@ -91,15 +74,17 @@ void restoreDraco(GltfDocument& document)
         if (left.empty())
             continue;
         for (const auto& [name, id] : left.items())
-            ++uses.packed[primitive["attributes"][name].get<std::size_t>()];
-        ++uses.packed[std::size_t(p.indices)];
+            ++packedUses[primitive["attributes"][name].get<std::size_t>()];
+        ++packedUses[std::size_t(p.indices)];
         ++restored;
         withMore += left.size() < p.draco["attributes"].size();
         Json& extension = primitive["extensions"][kDracoExtension] = p.draco;
         extension["attributes"] = std::move(left);
     }
     if (restored > 0) {
-        restoreAccessors(document, uses);
+        for (const auto& [index, json] : packed.accessors) // those that only streams fill need no bytes of their own
+            if (const auto i = std::size_t(index); packedUses[i] > 0 && uses[i] == packedUses[i])
+                root["accessors"][i] = json;
         addExtension(root, packed, kDracoExtension);
     }
     if (withMore > 0)
@@ -160,31 +145,30 @@ struct Part {
 std::vector<Part> partsOf(const GltfDocument& document)
 {
     std::vector<Part> parts(countOf(rootOf(document), "bufferViews"));
-    const std::size_t old = document.source->views.size();
     for (std::size_t i = 0; i < parts.size(); ++i) {
-        parts[i].bytes = viewBytes(document, i);
-        parts[i].fromFile = i < old;
-        if (!parts[i].fromFile)
-            continue;
-        if (const Json* const packed = packedView(document, i)) {
-            const Json& extension = (*packed)["extensions"][meshoptName(*packed)];
-            parts[i].packed = packed;
-            parts[i].buffer = extension["buffer"].get<std::size_t>();
-            parts[i].offset = gltf::valueOr(extension, "byteOffset", std::size_t(0));
-            parts[i].bytes = document.source->file.buffers[parts[i].buffer].subspan(
-                parts[i].offset, extension["byteLength"].get<std::size_t>());
-            continue;
+        Part& part = parts[i];
+        part.view = i;
+        part.bytes = viewBytes(document, i);
+        part.fromFile = i < document.source->views.size();
+        part.packed = part.fromFile ? packedView(document, i) : nullptr;
+        if (part.packed) {
+            const Json& extension = (*part.packed)["extensions"][meshoptName(*part.packed)];
+            part.buffer = extension["buffer"].get<std::size_t>();
+            part.offset = gltf::valueOr(extension, "byteOffset", std::size_t(0));
+            part.bytes = document.source->file.buffers[part.buffer].subspan(part.offset,
+                                                                            extension["byteLength"].get<std::size_t>());
+        } else if (part.fromFile) {
+            const gltf::BufferView view = gltf::readBufferView(document.source->root["bufferViews"][i]);
+            part.buffer = view.buffer;
+            part.offset = view.offset;
         }
-        const gltf::BufferView view = gltf::readBufferView(document.source->root["bufferViews"][i]);
-        parts[i].buffer = view.buffer;
-        parts[i].offset = view.offset;
     }
     return parts;
 }
 
 void alignFor(std::vector<std::byte>& buffer, std::size_t offset)
 {
-    buffer.resize((buffer.size() + 3) / 4 * 4 + offset % 4);
+    buffer.resize(gltf::aligned(buffer.size()) + offset % 4);
 }
 
 void place(Layout& out, const Part& part, std::size_t offset)
@@ -195,7 +179,7 @@ void place(Layout& out, const Part& part, std::size_t offset)
         view = *part.packed;
         view["buffer"] = 1;
         view["byteOffset"] = out.decoded;
-        out.decoded += (view["byteLength"].get<std::size_t>() + 3) / 4 * 4;
+        out.decoded += gltf::aligned(view["byteLength"].get<std::size_t>());
         out.packers.insert(name);
         Json& extension = view["extensions"][name];
         extension["buffer"] = 0;
@@ -299,11 +283,7 @@ Layout layOut(GltfDocument& document)
     std::vector<Part> parts = partsOf(document);
     if (const auto views = released(document, Collection::bufferViews); removes && any(views)) {
         removeItems(rootOf(document), Collection::bufferViews, views);
-        std::vector<Part> kept;
-        for (std::size_t i = 0; i < parts.size(); ++i)
-            if (!views[i])
-                kept.push_back(parts[i]);
-        parts = std::move(kept);
+        std::erase_if(parts, [&](const Part& part) { return views[part.view]; });
     }
     for (std::size_t i = 0; i < parts.size(); ++i)
         parts[i].view = i;

@@ -16,12 +16,10 @@ namespace {
 
 using Sources = std::span<const std::uint32_t>;
 
-std::size_t strideFor(std::size_t size) { return (size + 3) / 4 * 4; }
-
 // A view of vertex data, each element on a multiple of four bytes.
 std::size_t addVertexView(GltfDocument& document, const gltf::Run& elements, std::size_t size, Sources sources)
 {
-    const std::size_t stride = strideFor(size);
+    const std::size_t stride = gltf::aligned(size);
     std::vector<std::byte> bytes(stride * sources.size());
     for (std::size_t i = 0; i < sources.size(); ++i)
         std::memcpy(bytes.data() + i * stride, elements.at(sources[i]), size);

@@ -20,6 +20,9 @@ struct ViewBytes {
 };
 using ViewBytesOf = std::function<ViewBytes(std::size_t view)>;
 
+// Up to a multiple of four, where attributes of vertices, views and chunks begin.
+constexpr std::size_t aligned(std::size_t bytes) { return (bytes + 3) / 4 * 4; }
+
 // A run of equally spaced elements.
 struct Run {
     const std::byte* first = nullptr; // null: all zero

@@ -28,13 +28,11 @@ void takeOut(Json& object, const std::string& name)
         object.erase("extensions");
 }
 
-// Attributes of vertices begin at multiples of four bytes.
-std::size_t aligned(std::size_t bytes) { return (bytes + 3) / 4 * 4; }
-
+// Elements of `each` bytes, each at a multiple of four.
 std::vector<std::byte> spaced(const std::vector<std::byte>& packed, std::size_t each)
 {
-    std::vector<std::byte> out(packed.size() / each * aligned(each));
-    for (std::size_t from = 0, to = 0; from < packed.size(); from += each, to += aligned(each))
+    std::vector<std::byte> out(packed.size() / each * gltf::aligned(each));
+    for (std::size_t from = 0, to = 0; from < packed.size(); from += each, to += gltf::aligned(each))
         std::copy_n(packed.begin() + std::ptrdiff_t(from), each, out.begin() + std::ptrdiff_t(to));
     return out;
 }
@@ -228,7 +226,7 @@ private:
                 const std::size_t each = k + 1 < arrays.size() ? arrays[k].size() / jobs_[i].vertices : 4;
                 Json view = viewOf(each % 4 == 0 ? std::move(arrays[k]) : spaced(arrays[k], each));
                 if (each % 4 != 0)
-                    view["byteStride"] = aligned(each);
+                    view["byteStride"] = gltf::aligned(each);
                 file_.json["bufferViews"].push_back(std::move(view));
                 // Quantised numbers have other bounds than those that were compressed.
                 const gltf::Accessor a = gltf::readAccessor(target);
