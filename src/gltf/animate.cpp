@@ -1,4 +1,5 @@
-#include "animate.hpp"
+// Models at a moment of an animation, and where animations get to.
+#include "nodes.hpp"
 
 #include <algorithm>
 #include <array>

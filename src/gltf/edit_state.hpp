@@ -34,8 +34,6 @@ namespace gltf_edit {
 // Which collection an index points into.
 enum class Collection { accessors, bufferViews, images };
 
-const char* nameOf(Collection collection);
-
 // Calls `visit` for every place known to us that holds an index into the collection, be it in the
 // core of glTF or in an extension. Values that are no index are passed over.
 void forEachReference(Json& root, Collection collection, const std::function<void(Json&)>& visit);

@@ -6,9 +6,9 @@
 
 #include <fmt/ranges.h>
 
-#include "animate.hpp"
 #include "core/parse_number.hpp"
 #include "gltf/json/lookup.hpp"
+#include "nodes.hpp"
 
 namespace cotan {
 

@@ -75,7 +75,7 @@ struct GltfModel {
 };
 
 // Reads what `file`, just opened, holds, within `limits`: checks the JSON, loads the buffers, decodes compressed
-// geometry (unpack.hpp), fills the structure, the views and the accessors, moves the nodes (animate.hpp).
+// geometry, fills the structure, the views and the accessors, moves the nodes (poseGltf).
 void readGltfModel(GltfModel& model);
 
 // The bytes that the geometry of this file may take: a part that every file has, and so many times

@@ -4,8 +4,6 @@
 #include <tuple>
 #include <utility>
 
-#include "animate.hpp"
-#include "cotan/gltf.hpp"
 #include "material.hpp"
 #include "mesh.hpp"
 #include "nodes.hpp"

@@ -44,10 +44,6 @@ Result<Scene> loadGltf(const std::filesystem::path& file, const LoadLimits& limi
 // Changing a glTF file and leaving alone what is not meant: names, extras, extensions that we do not
 // know, attributes of any type, images, animations.
 //
-//     auto document = openGltfDocument("in.gltf");
-//     auto changed = setGltfTangents(*document, tangents);
-//     auto written = writeGltf(*document, "out.glb");
-//
 // Indices of materials, textures, images, meshes and nodes are the file's, and stay as they are while the
 // document is open. Only writing removes what has fallen out of use, and works on a copy.
 
@@ -204,12 +200,6 @@ Result<GltfWritten> writeGltf(const GltfDocument& document, const std::filesyste
 Result<std::vector<std::byte>> glbBytes(GltfDocument document, const LoadLimits& limits = {});
 
 // ---- tangents of a whole file --------------------------------------------------------------
-
-// Tangents for the primitives of a glTF file: generated and written into it, or compared with those that it has.
-//
-//     auto document = openGltfDocument("in.gltf");
-//     auto given = giveTangents(*document, {});
-//     auto written = writeGltf(*document, "out.glb");
 
 // A primitive with what its tangents are made from.
 struct GltfPrimitiveGeometry {
