@@ -1,5 +1,5 @@
 // Models at a moment of an animation, and where animations get to.
-#include "nodes.hpp"
+#include "gltf_model.hpp"
 
 #include <algorithm>
 #include <array>
@@ -18,8 +18,6 @@ namespace cotan {
 namespace {
 
 using gltf::Accessor, gltf::Choice, gltf::ElementType, gltf::Json;
-
-enum class Interpolation { step, linear, cubic };
 
 // Where a time lies among the keys of a channel.
 struct Moment {
@@ -64,8 +62,7 @@ private:
         }
         const bool rotation = path == "rotation";
         if (!rotation && path != "translation" && path != "scale") {
-            model_.warnings.add(field_,
-                                fmt::format("the path \"{}\" is not animated here", oneLine(std::string(path))));
+            model_.warnings.add(field_, fmt::format("the path \"{}\" is not animated here", oneLine(path)));
             return;
         }
         if (node.matrix)
@@ -138,24 +135,21 @@ private:
 
     std::vector<double> values(const Json& sampler, ElementType type, std::size_t each, bool rotation)
     {
-        const std::string word = gltf::valueOr(sampler, "interpolation", std::string("LINEAR"));
-        const Interpolation way = word == "STEP" ? Interpolation::step
-            : word == "CUBICSPLINE"              ? Interpolation::cubic
-                                                 : Interpolation::linear;
+        const std::string way = gltf::valueOr(sampler, "interpolation", std::string("LINEAR"));
+        const bool cubic = way == "CUBICSPLINE";
         const int input = sampler["input"].get<int>();
         const Moment at = momentOf(input);
         const Around v = around(sampler["output"].get<int>(), at, model_.accessors[std::size_t(input)].accessor.count,
-                                each, type, way == Interpolation::cubic);
-        if (at.key == at.next || way == Interpolation::step)
+                                each, type, cubic);
+        if (at.key == at.next || way == "STEP")
             return v.value;
-        if (rotation && way == Interpolation::linear)
+        if (rotation && !cubic)
             return turned(v.value, v.next, at.part);
         std::vector<double> now(v.value.size());
         const double t = at.part, t2 = t * t, t3 = t2 * t;
         for (std::size_t i = 0; i < now.size(); ++i)
-            now[i] = way == Interpolation::linear
-                ? v.value[i] + (v.next[i] - v.value[i]) * t
-                : (2 * t3 - 3 * t2 + 1) * v.value[i] + (t3 - 2 * t2 + t) * at.seconds * v.outTangent[i]
+            now[i] = !cubic ? v.value[i] + (v.next[i] - v.value[i]) * t
+                            : (2 * t3 - 3 * t2 + 1) * v.value[i] + (t3 - 2 * t2 + t) * at.seconds * v.outTangent[i]
                     + (3 * t2 - 2 * t3) * v.next[i] + (t3 - t2) * at.seconds * v.inTangent[i];
         return now; // a rotation is normalised where it is used
     }

@@ -35,8 +35,7 @@ std::string describe(const Place& place)
     const std::string before = describe(*place.parent);
     if (place.name.empty())
         return fmt::format("{}[{}]", before, place.index);
-    return before.empty() ? oneLine(std::string(place.name))
-                          : fmt::format("{}.{}", before, oneLine(std::string(place.name)));
+    return before.empty() ? oneLine(place.name) : fmt::format("{}.{}", before, oneLine(place.name));
 }
 
 std::string found(const Json& value)

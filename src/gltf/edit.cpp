@@ -4,7 +4,6 @@
 #include "cotan/vector.hpp"
 #include "edit_state.hpp"
 #include "mesh.hpp"
-#include "nodes.hpp"
 #include "scene/texture_uv.hpp"
 
 namespace cotan {

@@ -203,9 +203,8 @@ std::vector<Group> makeGroups(GltfDocument& document, std::span<const GltfCorner
 
 std::size_t addTangents(GltfDocument& document, const std::vector<glm::vec4>& values)
 {
-    std::vector<std::byte> bytes(values.size() * sizeof(glm::vec4));
-    std::memcpy(bytes.data(), values.data(), bytes.size());
-    const std::size_t view = addView(document, std::move(bytes), sizeof(glm::vec4), gltf::kArrayBuffer);
+    const auto bytes = std::as_bytes(std::span(values));
+    const std::size_t view = addView(document, {bytes.begin(), bytes.end()}, sizeof(glm::vec4), gltf::kArrayBuffer);
     return addItem(document, "accessors",
                    {{"bufferView", view}, {"componentType", gltf::kFloat}, {"count", values.size()}, {"type", "VEC4"}});
 }

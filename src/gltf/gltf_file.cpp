@@ -1,6 +1,7 @@
 #include "gltf_file.hpp"
 
 #include <array>
+#include <charconv>
 #include <optional>
 #include <string_view>
 
@@ -67,24 +68,18 @@ void splitChunks(GltfFile& file, GltfWarnings& warnings)
 
 // ---- URIs -----------------------------------------------------------------------------------
 
-int hexDigit(char c)
-{
-    if (c >= '0' && c <= '9')
-        return c - '0';
-    if (c >= 'a' && c <= 'f')
-        return c - 'a' + 10;
-    return c >= 'A' && c <= 'F' ? c - 'A' + 10 : -1;
-}
-
 // "%20" becomes a space. A percent sign that starts no code stands for itself: files named so
 // exist, written by exporters that do not encode.
 std::string decodePercent(std::string_view uri)
 {
     std::string text;
     for (std::size_t i = 0; i < uri.size(); ++i) {
-        const bool code = uri[i] == '%' && i + 2 < uri.size() && hexDigit(uri[i + 1]) >= 0 && hexDigit(uri[i + 2]) >= 0;
-        text += code ? static_cast<char>(hexDigit(uri[i + 1]) * 16 + hexDigit(uri[i + 2])) : uri[i];
-        i += code ? 2 : 0;
+        unsigned code = 0;
+        const char* const digits = uri.data() + i + 1;
+        const bool coded =
+            uri[i] == '%' && i + 2 < uri.size() && std::from_chars(digits, digits + 2, code, 16).ptr == digits + 2;
+        text += coded ? char(code) : uri[i];
+        i += coded ? 2 : 0;
     }
     return text;
 }
@@ -131,7 +126,7 @@ std::vector<std::byte> decodeDataUri(std::string_view uri, const std::string& fi
     const std::size_t comma = uri.find(',');
     const std::string_view head = uri.substr(0, comma);
     if (comma == std::string_view::npos || !head.ends_with(";base64") || head.find(";;") != std::string_view::npos)
-        failGltf("{}: expected data:TYPE;base64,... , found {}...", field, oneLine(std::string(uri.substr(0, 60))));
+        failGltf("{}: expected data:TYPE;base64,... , found {}...", field, oneLine(uri.substr(0, 60)));
     auto bytes = decodeBase64(uri.substr(comma + 1));
     if (!bytes)
         failGltf("{}: the data URI is not valid base64", field);
@@ -202,7 +197,7 @@ GltfResource resolveGltfUri(const GltfFile& file, std::string_view uri, const st
         return resource;
     }
     if (hasScheme(uri))
-        failGltf("{}: expected a file in the model's folder, found \"{}\"", field, oneLine(std::string(uri)));
+        failGltf("{}: expected a file in the model's folder, found \"{}\"", field, oneLine(uri));
     if (file.readFile) {
         resource.file = decodePercent(uri);
         return resource;
@@ -210,10 +205,9 @@ GltfResource resolveGltfUri(const GltfFile& file, std::string_view uri, const st
     bool outside = false;
     const std::optional<fs::path> found = findInFolder(file.folder, decodePercent(uri), outside);
     if (outside)
-        failGltf("{}: expected a file in the model's folder, found \"{}\", which leads out of it", field,
-                 oneLine(std::string(uri)));
+        failGltf("{}: expected a file in the model's folder, found \"{}\", which leads out of it", field, oneLine(uri));
     if (!found && !mayMiss)
-        failGltf("{}: there is no file \"{}\" in the model's folder", field, oneLine(std::string(uri)));
+        failGltf("{}: there is no file \"{}\" in the model's folder", field, oneLine(uri));
     resource.file = found.value_or(fs::path());
     return resource;
 }

@@ -8,7 +8,6 @@
 
 #include "core/parse_number.hpp"
 #include "gltf/json/lookup.hpp"
-#include "nodes.hpp"
 
 namespace cotan {
 

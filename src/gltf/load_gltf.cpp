@@ -6,7 +6,6 @@
 
 #include "material.hpp"
 #include "mesh.hpp"
-#include "nodes.hpp"
 #include "scene/stored_green.hpp"
 
 namespace cotan {

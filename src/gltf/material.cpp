@@ -154,11 +154,8 @@ ImageSource findImage(const GltfModel& model, int image, bool mayMiss = false)
 // away from data that come with a model. foreign: set to the format of an image that stays without pixels.
 Image decode(const GltfFile& model, ImageSource source, const LoadLimits& limits, std::string& foreign)
 {
-    std::vector<std::byte> held;
-    if (!source.resource.file.empty()) {
-        held = valueOrFail(readGltfResource(model, source.resource.file, limits));
-        source.bytes = held;
-    }
+    if (!source.resource.file.empty())
+        source.bytes = source.resource.bytes = valueOrFail(readGltfResource(model, source.resource.file, limits));
     if (limits.pixels == Pixels::whereReadable)
         foreign = foreignFormat(source.bytes);
     if (!foreign.empty()) {
@@ -281,7 +278,6 @@ void lookAt(const GltfModel& model, int image, bool used)
     // Signature, length and type, IHDR's 13 bytes, checksum.
     constexpr std::size_t kPngHeader = 33;
     ImageSource source = findImage(model, image, /*mayMiss*/ true);
-    std::vector<std::byte> held;
     if (!source.resource.file.empty()) {
         if (model.file.readFile)
             return; // nothing is fetched only to be looked at
@@ -289,8 +285,8 @@ void lookAt(const GltfModel& model, int image, bool used)
         const std::uintmax_t size = fs::file_size(source.resource.file, error);
         if (error || size == 0 || size >= kPngHeader)
             return;
-        held = valueOrFail(readGltfResource(model.file, source.resource.file, model.limits));
-        source.bytes = held;
+        source.bytes = source.resource.bytes =
+            valueOrFail(readGltfResource(model.file, source.resource.file, model.limits));
     }
     if (isPng(source.bytes) && source.bytes.size() < kPngHeader)
         failGltf("{}: the PNG {} ends in its header", imageField(image), source.name);

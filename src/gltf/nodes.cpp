@@ -1,4 +1,5 @@
-#include "nodes.hpp"
+// The node hierarchy, and what hangs on it besides meshes.
+#include "gltf_model.hpp"
 
 #include <algorithm>
 #include <cmath>

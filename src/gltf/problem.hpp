@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <new>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -57,7 +58,7 @@ private:
 };
 
 // Text from a file made fit for a one-line message: control characters replaced, length capped.
-std::string oneLine(const std::string& text);
+std::string oneLine(std::string_view text);
 
 // What load() returns, and what it throws as an error: one line with the file's name in front, once.
 template<class Load> auto caughtGltf(const std::filesystem::path& file, Load load) -> Result<decltype(load())>
