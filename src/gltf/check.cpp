@@ -80,12 +80,12 @@ private:
         return sizes_[collection] = list && list->is_array() ? list->size() : 0;
     }
 
-    void checkNumber(const Json& value, double low, double high, const Place& place) const
+    void checkNumber(const Json& value, const Field& field, const Place& place) const
     {
         if (!value.is_number())
             wrong(place, "a number", value);
-        if (const auto x = value.get<double>(); !(x >= low && x <= high))
-            wrong(place, fmt::format("a number from {:g} to {:g}", low, high), value);
+        if (const auto x = value.get<double>(); !(x >= field.low && x <= field.high))
+            wrong(place, fmt::format("a number from {:g} to {:g}", field.low, field.high), value);
     }
 
     void checkInteger(const Json& value, const Field& field, const Place& place) const
@@ -117,38 +117,8 @@ private:
             wrong(place, fmt::format("an index below {}, the number of {}", count, refers), value);
     }
 
-    void checkIndexMap(const Json& value, const Field& field, const Place& place) const
-    {
-        if (!value.is_object())
-            wrong(place, "an object", value);
-        for (const auto& [key, item] : value.items())
-            checkIndex(item, field.refers, Place{&place, key});
-    }
-
-    template<class Check> void each(const Json& value, const Place& place, const Check& check) const
-    {
-        if (!value.is_array())
-            wrong(place, "an array", value);
-        for (std::size_t i = 0; i < value.size(); ++i)
-            check(value[i], Place{&place, {}, i});
-    }
-
-    void checkArray(const Json& value, const Field& field, const Place& place) const
-    {
-        if (field.length > 0 && value.is_array() && value.size() != field.length)
-            failGltf("{}: expected {} numbers, found {}", describe(place), field.length, value.size());
-        each(value, place, [&](const Json& item, const Place& at) {
-            switch (field.shape) {
-            case Shape::numbers: checkNumber(item, field.low, field.high, at); break;
-            case Shape::indices: checkIndex(item, field.refers, at); break;
-            case Shape::texts: checkText(item, field, at); break;
-            case Shape::indexMaps: checkIndexMap(item, field, at); break;
-            default: fields(item, field.inner, at); break;
-            }
-        });
-    }
-
-    void check(const Json& value, const Field& field, const Place& place) const
+    // What is no list, or an item of one.
+    void checkOne(const Json& value, const Field& field, const Place& place) const
     {
         switch (field.shape) {
         case Shape::boolean:
@@ -156,17 +126,29 @@ private:
                 wrong(place, "true or false", value);
             break;
         case Shape::integer: checkInteger(value, field, place); break;
-        case Shape::number: checkNumber(value, field.low, field.high, place); break;
+        case Shape::number: checkNumber(value, field, place); break;
         case Shape::text: checkText(value, field, place); break;
         case Shape::index: checkIndex(value, field.refers, place); break;
         case Shape::object: fields(value, field.inner, place); break;
-        case Shape::indexMap: checkIndexMap(value, field, place); break;
-        case Shape::numbers:
-        case Shape::indices:
-        case Shape::texts:
-        case Shape::objects:
-        case Shape::indexMaps: checkArray(value, field, place); break;
+        case Shape::indexMap:
+            if (!value.is_object())
+                wrong(place, "an object", value);
+            for (const auto& [key, item] : value.items())
+                checkIndex(item, field.refers, Place{&place, key});
+            break;
         }
+    }
+
+    void check(const Json& value, const Field& field, const Place& place) const
+    {
+        if (!field.list)
+            return checkOne(value, field, place);
+        if (!value.is_array())
+            wrong(place, "an array", value);
+        if (field.length > 0 && value.size() != field.length)
+            failGltf("{}: expected {} numbers, found {}", describe(place), field.length, value.size());
+        for (std::size_t i = 0; i < value.size(); ++i)
+            checkOne(value[i], field, Place{&place, {}, i});
     }
 
     const Json& root_;

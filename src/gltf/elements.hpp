@@ -6,6 +6,7 @@
 #include <functional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "gltf/json/views.hpp"
@@ -77,7 +78,7 @@ struct Role {
     std::string field; // "meshes[0].primitives[1].NORMAL"
 };
 
-const char* nameOf(ElementType type);
+std::string_view nameOf(ElementType type);
 const char* nameOfComponent(int componentType);
 
 // Calls use(T()) with the type of a component.

@@ -17,14 +17,9 @@ enum class Shape {
     integer, // low to high
     number,  // low to high
     text,
-    index,     // into the collection `refers`
-    numbers,   // an array of `length` numbers; 0: any length
-    indices,   // an array of indices into `refers`
-    texts,     // an array of strings
-    object,    // with the fields `inner`
-    objects,   // an array of those
-    indexMap,  // an object whose values are indices into `refers`
-    indexMaps, // an array of those
+    index,    // into the collection `refers`
+    object,   // with the fields `inner`
+    indexMap, // an object whose values are indices into `refers`
 };
 
 struct Field;
@@ -42,9 +37,10 @@ struct Field {
     std::string_view name;
     Shape shape;
     bool required = false;
+    bool list = false;      // an array of such values
+    std::size_t length = 0; // of the list; 0: any
     Fields inner = {};
     std::string_view refers = {};
-    std::size_t length = 0;
     double low = -FLT_MAX;
     double high = FLT_MAX;
     std::span<const std::string_view> texts = {}; // allowed values; empty: any
@@ -74,19 +70,20 @@ constexpr Field index(std::string_view n, std::string_view refers)
 {
     return {.name = n, .shape = Shape::index, .refers = refers};
 }
-constexpr Field indices(std::string_view n, std::string_view refers)
+constexpr Field indexMap(std::string_view n, std::string_view refers)
 {
-    return {.name = n, .shape = Shape::indices, .refers = refers};
-}
-constexpr Field numbers(std::string_view n, std::size_t length = 0)
-{
-    return {.name = n, .shape = Shape::numbers, .length = length};
+    return {.name = n, .shape = Shape::indexMap, .refers = refers};
 }
 constexpr Field object(std::string_view n, Fields inner) { return {.name = n, .shape = Shape::object, .inner = inner}; }
-constexpr Field objects(std::string_view n, Fields inner)
+constexpr Field list(Field field, std::size_t length = 0)
 {
-    return {.name = n, .shape = Shape::objects, .inner = inner};
+    field.list = true;
+    field.length = length;
+    return field;
 }
+constexpr Field indices(std::string_view n, std::string_view refers) { return list(index(n, refers)); }
+constexpr Field numbers(std::string_view n, std::size_t length = 0) { return list(number(n), length); }
+constexpr Field objects(std::string_view n, Fields inner) { return list(object(n, inner)); }
 constexpr Field required(Field field)
 {
     field.required = true;
@@ -115,8 +112,7 @@ inline constexpr std::array kAsset{required(text("version")), text("minVersion")
 inline constexpr std::array kScene{text("name"), indices("nodes", "nodes")};
 
 inline constexpr std::array kNodeLight{required(index("light", "lights"))};
-inline constexpr std::array kNodeInstancing{
-    Field{.name = "attributes", .shape = Shape::indexMap, .required = true, .refers = "accessors"}};
+inline constexpr std::array kNodeInstancing{required(indexMap("attributes", "accessors"))};
 inline constexpr std::array kNodeExtensions{object("KHR_lights_punctual", kNodeLight),
                                             object("EXT_mesh_gpu_instancing", kNodeInstancing)};
 inline constexpr std::array kNode{text("name"),
@@ -133,13 +129,12 @@ inline constexpr std::array kNode{text("name"),
 
 inline constexpr std::array kDraco{required(index("bufferView", "bufferViews")), required(object("attributes", {}))};
 inline constexpr std::array kPrimitiveExtensions{object("KHR_draco_mesh_compression", kDraco)};
-inline constexpr std::array kPrimitive{
-    Field{.name = "attributes", .shape = Shape::indexMap, .required = true, .refers = "accessors"},
-    index("indices", "accessors"),
-    index("material", "materials"),
-    integer("mode", 0, 6),
-    Field{.name = "targets", .shape = Shape::indexMaps, .refers = "accessors"},
-    object("extensions", kPrimitiveExtensions)};
+inline constexpr std::array kPrimitive{required(indexMap("attributes", "accessors")),
+                                       index("indices", "accessors"),
+                                       index("material", "materials"),
+                                       integer("mode", 0, 6),
+                                       list(indexMap("targets", "accessors")),
+                                       object("extensions", kPrimitiveExtensions)};
 inline constexpr std::array kMesh{text("name"), required(objects("primitives", kPrimitive)), numbers("weights")};
 
 inline constexpr std::array kSparseIndices{required(index("bufferView", "bufferViews")), integer("byteOffset"),
@@ -259,7 +254,7 @@ inline constexpr std::array kRoot{required(object("asset", kAsset)),
                                   objects("cameras", kCamera),
                                   objects("animations", {}),
                                   object("extensions", kRootExtensions),
-                                  Field{.name = "extensionsUsed", .shape = Shape::texts},
-                                  Field{.name = "extensionsRequired", .shape = Shape::texts}};
+                                  list(text("extensionsUsed")),
+                                  list(text("extensionsRequired"))};
 
 } // namespace cotan::gltf_schema

@@ -10,6 +10,7 @@
 #include <glm/gtc/quaternion.hpp>
 
 #include "elements.hpp"
+#include "schema.hpp"
 
 namespace cotan::gltf {
 
@@ -32,11 +33,9 @@ Attributes attributesOf(const Json& object)
     return attributes;
 }
 
-constexpr std::array kElementTypes{"SCALAR", "VEC2", "VEC3", "VEC4", "MAT2", "MAT3", "MAT4"};
-
 ElementType elementTypeOf(std::string_view name)
 {
-    return ElementType(std::find(kElementTypes.begin(), kElementTypes.end(), name) - kElementTypes.begin());
+    return ElementType(std::ranges::find(gltf_schema::kElementTypes, name) - gltf_schema::kElementTypes);
 }
 
 Sparse readSparse(const Json& sparse)
@@ -135,7 +134,7 @@ std::size_t componentCount(ElementType type)
     return counts[std::size_t(type)];
 }
 
-const char* nameOf(ElementType type) { return kElementTypes[std::size_t(type)]; }
+std::string_view nameOf(ElementType type) { return gltf_schema::kElementTypes[std::size_t(type)]; }
 
 std::size_t elementSize(const Accessor& accessor)
 {
