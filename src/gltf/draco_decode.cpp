@@ -5,7 +5,6 @@
 
 #include <draco/compression/decode.h>
 #include <draco/core/decoder_buffer.h>
-#include <fmt/format.h>
 
 #include "elements.hpp"
 #include "gltf/draco.hpp"

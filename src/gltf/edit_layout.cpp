@@ -1,5 +1,6 @@
 // From a changed document to one JSON and one buffer. Compressed geometry that nobody changed is written as it came.
 #include <algorithm>
+#include <map>
 
 #include <fmt/ranges.h>
 

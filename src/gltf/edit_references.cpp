@@ -92,14 +92,16 @@ void forEachReference(Json& root, Collection collection, const Visit& visit)
         visitPath(root, path, visit);
 }
 
-std::vector<bool> usedItems(const Json& root, Collection collection)
+std::vector<bool> usedItems(const Json& root, Collection collection, std::string_view besides)
 {
     std::vector<bool> used(countOf(root, referencesTo(collection).collection), false);
-    // Only read through: the visitors serve changing and looking alike.
-    forEachReference(const_cast<Json&>(root), collection, [&](Json& index) {
+    const Visit mark = [&](const Json& index) {
         if (const auto i = index.get<std::size_t>(); i < used.size())
             used[i] = true;
-    });
+    };
+    for (const std::string_view path : referencesTo(collection).paths)
+        if (path != besides)
+            visitPath(const_cast<Json&>(root), path, mark); // only read through
     return used;
 }
 

@@ -109,20 +109,6 @@ void closeGaps(GltfDocument& document, std::size_t view, const std::vector<Clust
     rootOf(document)["bufferViews"][index] = std::move(made);
 }
 
-// Views that something else than the dense part of an accessor uses.
-std::vector<bool> otherUses(const Json& root)
-{
-    Json without = Json::object();
-    for (const char* const part : {"accessors", "images", "meshes"})
-        if (root.contains(part))
-            without[part] = root[part];
-    if (without.contains("accessors"))
-        for (Json& accessor : without["accessors"])
-            accessor.erase("bufferView");
-    without["bufferViews"] = root["bufferViews"];
-    return usedItems(without, Collection::bufferViews);
-}
-
 std::size_t strideOf(const GltfDocument& document, std::size_t view)
 {
     return gltf::valueOr(rootOf(document)["bufferViews"][view], "byteStride", std::size_t(0));
@@ -151,7 +137,8 @@ void repackViews(GltfDocument& document, const std::vector<bool>& removed)
         const std::size_t end = accessor.count == 0 ? begin : begin + (accessor.count - 1) * stride + size;
         kept[view].push_back({a, begin, end, size});
     }
-    const std::vector<bool> other = otherUses(rootOf(document));
+    // Views that something else than the dense part of an accessor uses.
+    const std::vector<bool> other = usedItems(rootOf(document), Collection::bufferViews, "accessors/*/bufferView");
     for (std::size_t view = 0; view < views; ++view) {
         if (!lost[view] || kept[view].empty() || other[view] || packedView(document, view)) // the last: as it came
             continue;

@@ -3,17 +3,16 @@
 
 #include <cstdint>
 #include <functional>
-#include <map>
 #include <set>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "cotan/gltf.hpp"
 #include "elements.hpp"
 #include "gltf/json/lookup.hpp"
 #include "gltf_file.hpp"
-#include "problem.hpp"
 
 namespace cotan {
 
@@ -38,8 +37,9 @@ enum class Collection { accessors, bufferViews, images };
 // core of glTF or in an extension. Values that are no index are passed over.
 void forEachReference(Json& root, Collection collection, const std::function<void(Json&)>& visit);
 
-// For each item of the collection whether something refers to it.
-std::vector<bool> usedItems(const Json& root, Collection collection);
+// For each item of the collection whether something refers to it. besides: references that do not count, as their path
+// in edit_references.cpp.
+std::vector<bool> usedItems(const Json& root, Collection collection, std::string_view besides = {});
 
 // The names of extensions in it, in the order in which they are met.
 std::vector<std::string> extensionsIn(const Json& object);

@@ -5,7 +5,6 @@
 #include <new>
 #include <system_error>
 
-#include "cotan/image.hpp"
 #include "edit_state.hpp"
 #include "files/bytes.hpp"
 #include "files/extension.hpp"

@@ -1,7 +1,6 @@
 // A scene as a glTF document, so that what came from another format can be written as glTF.
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <limits>
 
 #include "cotan/image.hpp"

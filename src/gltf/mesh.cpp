@@ -6,7 +6,6 @@
 #include <numeric>
 
 #include <glm/geometric.hpp>
-#include <glm/matrix.hpp>
 
 #include "cotan/covector.hpp"
 #include "cotan/vector.hpp"

@@ -1,6 +1,5 @@
 // Compressed geometry of a glTF file, made plain: Draco streams where LoadLimits says in a process of their own.
 #include <algorithm>
-#include <map>
 #include <optional>
 #include <set>
 
@@ -197,7 +196,7 @@ private:
                         {m, p, *draco, primitive["indices"].get<int>(), primitive["attributes"]});
                 takeOut(primitive, kDracoExtension);
                 // Primitives may share a stream and its accessors.
-                if (job && made_.emplace(targets_.back(), jobs_.size()).second)
+                if (job && made_.insert(targets_.back()).second)
                     jobs_.push_back(std::move(*job));
                 else
                     targets_.pop_back();
@@ -240,8 +239,8 @@ private:
     GltfFile& file_;
     const LoadLimits& limits_;
     std::vector<DracoJob> jobs_;
-    std::vector<std::vector<int>> targets_;        // the accessors of each job: attributes, then indices
-    std::map<std::vector<int>, std::size_t> made_; // jobs by their accessors
+    std::vector<std::vector<int>> targets_; // the accessors of each job: attributes, then indices
+    std::set<std::vector<int>> made_;       // those that have a job
 };
 
 // Whether an answer has the sizes that were asked for.
