@@ -20,28 +20,14 @@ int gltfNormalMapSet(const GltfModel& model, int material)
     return map.texture < 0 ? -1 : map.texcoord;
 }
 
-// The image of a texture, or the one that an extension gives it in another format; -1 if there is none.
-int GltfMaterials::imageOf(const gltf::Texture& texture) const
-{
-    return texture.image >= 0 || model_.limits.pixels == Pixels::all ? texture.image : texture.foreign;
-}
-
-int GltfMaterials::imageSlot(int image)
-{
-    image = firstEqual(image);
-    const auto [slot, isNew] = slots_.emplace(image, int(scene_.images.size()));
-    if (isNew)
-        scene_.images.emplace_back();
-    return slot->second;
-}
-
 Texture GltfMaterials::texture(const gltf::TextureUse& use, const Mesh& mesh, const std::string& field)
 {
     Texture texture;
     if (use.texture < 0)
         return texture;
     const gltf::Texture& source = model_.structure.textures[std::size_t(use.texture)];
-    const int image = imageOf(source);
+    // Its own, or the one that an extension gives it in another format.
+    const int image = source.image >= 0 || model_.limits.pixels == Pixels::all ? source.image : source.foreign;
     if (image < 0) {
         model_.warnings.add(fmt::format("textures[{}]", use.texture), "no PNG or JPEG image, the texture is left out");
         return texture;
@@ -58,7 +44,10 @@ Texture GltfMaterials::texture(const gltf::TextureUse& use, const Mesh& mesh, co
         texture.sampler = model_.structure.samplers[std::size_t(source.sampler)];
     texture.uRow = use.uRow;
     texture.vRow = use.vRow;
-    texture.image = imageSlot(image);
+    const auto [slot, isNew] = slots_.emplace(firstEqual(image), int(scene_.images.size()));
+    if (isNew)
+        scene_.images.emplace_back();
+    texture.image = slot->second;
     return texture;
 }
 
@@ -107,14 +96,10 @@ Material GltfMaterials::make(int index, const Mesh& mesh)
 int GltfMaterials::use(int material, const Mesh& mesh)
 {
     const int sets = (mesh.texcoords[0].empty() ? 0 : 1) + (mesh.texcoords[1].empty() ? 0 : 2);
-    const std::pair key(material, material < 0 ? 0 : sets);
-    const auto known = made_.find(key);
-    if (known != made_.end())
-        return known->second;
-    const int slot = int(scene_.materials.size());
-    scene_.materials.push_back(make(material, mesh));
-    made_.emplace(key, slot);
-    return slot;
+    const auto [made, isNew] = made_.try_emplace({material, material < 0 ? 0 : sets}, int(scene_.materials.size()));
+    if (isNew)
+        scene_.materials.push_back(make(material, mesh));
+    return made->second;
 }
 
 // ---- images ---------------------------------------------------------------------------------

@@ -33,8 +33,6 @@ public:
 private:
     Texture texture(const gltf::TextureUse& use, const Mesh& mesh, const std::string& field);
     Material make(int material, const Mesh& mesh);
-    int imageOf(const gltf::Texture& texture) const;
-    int imageSlot(int image);
     int firstEqual(int image);
     std::uint64_t bytesOfFiles() const;
 
