@@ -39,9 +39,10 @@ void checkHeader(std::span<const std::byte> bytes)
         failGltf("GLB header: it says that the file has {} bytes, found {}", readWord(bytes, 8), bytes.size());
 }
 
-// Walks the chunks; unknown ones are passed over, as the specification asks.
-void splitChunks(GltfFile& file, GltfWarnings& warnings)
+// Walks the chunks and returns the JSON; unknown ones are passed over, as the specification asks.
+std::span<const std::byte> splitChunks(GltfFile& file, GltfWarnings& warnings)
 {
+    std::span<const std::byte> text;
     const std::span<const std::byte> bytes = file.bytes;
     checkHeader(bytes);
     std::size_t at = 12;
@@ -59,11 +60,12 @@ void splitChunks(GltfFile& file, GltfWarnings& warnings)
             failGltf("GLB chunk {}: expected {}, found type 0x{:08x}", chunk,
                      chunk == 0 ? "JSON first" : "JSON only once", type);
         if (chunk == 0)
-            file.text = bytes.subspan(at + 8, length);
+            text = bytes.subspan(at + 8, length);
         if (chunk == 1 && type == kChunkBinary)
             file.binary = bytes.subspan(at + 8, length);
         at += 8 + length;
     }
+    return text;
 }
 
 // ---- URIs -----------------------------------------------------------------------------------
@@ -178,14 +180,9 @@ GltfFile openGltf(const fs::path& path, const LoadLimits& limits, GltfWarnings& 
     file.isBinary = file.bytes.size() >= 4 && readWord(file.bytes, 0) == kMagic;
     if (!file.isBinary && lowerExtension(path) == ".glb")
         failGltf("GLB header: expected the file to begin with \"glTF\"");
-    if (file.isBinary)
-        splitChunks(file, warnings);
-    else
-        file.text = file.bytes;
-    file.json = parseGltfJson(file.text);
+    file.json = parseGltfJson(file.isBinary ? splitChunks(file, warnings) : file.bytes);
     if (!file.isBinary)
         file.bytes = {}; // large where buffers are embedded as text
-    file.text = {};
     return file;
 }
 

@@ -43,7 +43,6 @@ struct GltfFile {
     std::function<Result<std::vector<std::byte>>(const std::string&)> readFile; // in place of the disk; LoadLimits
     std::filesystem::path folder;                                               // canonical; nothing outside is opened
     std::vector<std::byte> bytes;                                               // the whole file, where it is a GLB
-    std::span<const std::byte> text;                                            // its JSON, until that is parsed
     std::span<const std::byte> binary; // the BIN chunk of a GLB; empty if there is none
     bool isBinary = false;
     std::size_t size = 0; // bytes of the model and, once they are loaded, of its buffer files

@@ -68,8 +68,10 @@ private:
 
     Mesh finish(GltfPrimitive&& primitive)
     {
-        const int set = gltfNormalMapSet(model_, primitive.mesh.material);
-        return finishGltfMesh(std::move(primitive), set, model_.warnings);
+        const int material = primitive.mesh.material;
+        const gltf::TextureUse map =
+            material < 0 ? gltf::TextureUse{} : model_.structure.materials[std::size_t(material)].normal;
+        return finishGltfMesh(std::move(primitive), map.texture < 0 ? -1 : map.texcoord, model_.warnings);
     }
 
     const gltf::Mesh& sourceMesh(int mesh) const { return model_.structure.meshes[std::size_t(mesh)]; }
@@ -94,44 +96,37 @@ private:
         return entry->second;
     }
 
-    bool hasJoints(int mesh) const
-    {
-        return std::ranges::all_of(sourceMesh(mesh).primitives,
-                                   [](const gltf::Primitive& p) { return p.attributes.contains("JOINTS_0"); });
-    }
-
     MeshUse useOf(int node)
     {
         const gltf::Node& n = model_.structure.nodes[std::size_t(node)];
         MeshUse use{n.mesh, n.skin, n.weights.empty() ? sourceMesh(n.mesh).weights : n.weights};
-        if (use.skin >= 0 && !hasJoints(use.mesh)) {
+        const bool hasJoints = std::ranges::all_of(sourceMesh(use.mesh).primitives, [](const gltf::Primitive& p) {
+            return p.attributes.contains("JOINTS_0");
+        });
+        if (use.skin >= 0 && !hasJoints) {
             use.skin = -1;
             model_.warnings.add(fmt::format("nodes[{}]", node), "its mesh lacks JOINTS_0, so its skin is ignored");
         }
         return use;
     }
 
-    void addInstances(int node, const std::vector<int>& meshes, const std::vector<glm::mat4>& placements)
-    {
-        const std::string& name = model_.structure.nodes[std::size_t(node)].name;
-        if (meshes.size() * placements.size() > model_.limits.nodes - scene_.instances.size())
-            failGltf("nodes[{}]: the limit is {} instances in all", node, model_.limits.nodes);
-        for (const glm::mat4& placement : placements)
-            for (const int mesh : meshes)
-                scene_.instances.push_back(
-                    {name.empty() ? scene_.meshes[std::size_t(mesh)].name : name, mesh, placement});
-    }
-
     // A skin puts vertices into world space by itself: the node's transform does not count.
     void placeMeshes()
     {
         for (const int node : nodes_.visible) {
-            if (model_.structure.nodes[std::size_t(node)].mesh < 0)
+            const gltf::Node& source = model_.structure.nodes[std::size_t(node)];
+            if (source.mesh < 0)
                 continue;
             const MeshUse use = useOf(node);
             const std::vector<int>& meshes = meshesFor(use);
-            addInstances(node, meshes,
-                         use.skin >= 0 ? std::vector<glm::mat4>{glm::mat4(1)} : gltfPlacements(model_, nodes_, node));
+            const std::vector<glm::mat4> placements =
+                use.skin >= 0 ? std::vector<glm::mat4>{glm::mat4(1)} : gltfPlacements(model_, nodes_, node);
+            if (meshes.size() * placements.size() > model_.limits.nodes - scene_.instances.size())
+                failGltf("nodes[{}]: the limit is {} instances in all", node, model_.limits.nodes);
+            for (const glm::mat4& placement : placements)
+                for (const int mesh : meshes)
+                    scene_.instances.push_back(
+                        {source.name.empty() ? scene_.meshes[std::size_t(mesh)].name : source.name, mesh, placement});
         }
     }
 

@@ -12,14 +12,6 @@ namespace cotan {
 
 namespace fs = std::filesystem;
 
-int gltfNormalMapSet(const GltfModel& model, int material)
-{
-    if (material < 0)
-        return -1;
-    const gltf::TextureUse& map = model.structure.materials[std::size_t(material)].normal;
-    return map.texture < 0 ? -1 : map.texcoord;
-}
-
 Texture GltfMaterials::texture(const gltf::TextureUse& use, const Mesh& mesh, const std::string& field)
 {
     Texture texture;

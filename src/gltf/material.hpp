@@ -45,7 +45,4 @@ private:
     std::map<std::pair<std::size_t, std::string_view>, int> imagesLike_;
 };
 
-// The uv set that the material's normal map uses; -1 if it has none.
-int gltfNormalMapSet(const GltfModel& model, int material);
-
 } // namespace cotan
