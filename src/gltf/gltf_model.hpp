@@ -135,8 +135,7 @@ GltfNodes readGltfNodes(GltfModel& model);
 std::vector<glm::mat4> gltfPlacements(GltfModel& model, const GltfNodes& nodes, int node);
 
 // Lights and cameras of the visible nodes.
-std::vector<Light> readGltfLights(const GltfModel& model, const GltfNodes& nodes);
-std::vector<Camera> readGltfCameras(const GltfModel& model, const GltfNodes& nodes);
+void addGltfLightsAndCameras(const GltfModel& model, const GltfNodes& nodes, Scene& scene);
 
 // ---- animations -----------------------------------------------------------------------------
 

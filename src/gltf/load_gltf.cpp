@@ -37,8 +37,7 @@ public:
         readSkins();
         placeMeshes();
         checkUnusedMeshes();
-        scene_.lights = readGltfLights(model_, nodes_);
-        scene_.cameras = readGltfCameras(model_, nodes_);
+        addGltfLightsAndCameras(model_, nodes_, scene_);
         if (images && images->size() == scene_.images.size()) {
             scene_.images = *images;
         } else {

@@ -205,25 +205,19 @@ Camera placed(Camera camera, const glm::dmat4& world)
 
 } // namespace
 
-std::vector<Light> readGltfLights(const GltfModel& model, const GltfNodes& nodes)
+void addGltfLightsAndCameras(const GltfModel& model, const GltfNodes& nodes, Scene& scene)
 {
-    std::vector<Light> lights;
-    for (const int node : nodes.visible)
-        if (const int light = nodeAt(model, node).light; light >= 0)
-            lights.push_back(placed(model.structure.lights[std::size_t(light)], nodes.world[std::size_t(node)]));
-    return lights;
-}
-
-std::vector<Camera> readGltfCameras(const GltfModel& model, const GltfNodes& nodes)
-{
-    std::vector<Camera> cameras;
-    for (const int node : nodes.visible)
-        if (const int camera = nodeAt(model, node).camera; camera >= 0) {
-            cameras.push_back(placed(model.structure.cameras[std::size_t(camera)], nodes.world[std::size_t(node)]));
-            if (cameras.back().name.empty())
-                cameras.back().name = nodeAt(model, node).name;
-        }
-    return cameras;
+    for (const int node : nodes.visible) {
+        const gltf::Node& n = nodeAt(model, node);
+        const glm::dmat4& world = nodes.world[std::size_t(node)];
+        if (n.light >= 0)
+            scene.lights.push_back(placed(model.structure.lights[std::size_t(n.light)], world));
+        if (n.camera < 0)
+            continue;
+        scene.cameras.push_back(placed(model.structure.cameras[std::size_t(n.camera)], world));
+        if (scene.cameras.back().name.empty())
+            scene.cameras.back().name = n.name;
+    }
 }
 
 } // namespace cotan
