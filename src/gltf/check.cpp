@@ -157,8 +157,7 @@ private:
 
 // ---- version and extensions -----------------------------------------------------------------
 
-// Before anything about structure: in version 1 the collections are objects, and the asset may be
-// missing.
+// Before anything about structure: in version 1 the collections are objects, and the asset may be missing.
 void refuseVersion1(const Json& root)
 {
     if (const Json* const version = member(member(root, "asset"), "version")) {
@@ -193,9 +192,8 @@ constexpr std::string_view kSupported[] = {
 // The same in a format that is not read; it matters to who needs the pixels.
 constexpr std::string_view kUnreadImages = "EXT_texture_avif";
 
-// KHR_materials_... refine how a surface looks and leave shape and normal map alone: such a model
-// can be drawn without them, if that is said. Any other unknown extension may change what the
-// data mean.
+// KHR_materials_... refine how a surface looks and leave shape and normal map alone: such a model can be drawn without
+// them, if that is said. Any other unknown extension may change what the data mean.
 void checkExtensions(const Json& root, Pixels pixels, GltfWarnings& warnings)
 {
     std::vector<std::string> ignored;

@@ -192,8 +192,7 @@ void place(Layout& out, const Part& part, std::size_t offset)
         view["byteOffset"] = offset;
 }
 
-// The file's views in the order of their bytes. Where views share bytes they go on doing so; bytes
-// between views go.
+// The file's views in the order of their bytes. Where views share bytes they go on doing so; bytes between views go.
 void appendFileParts(const GltfDocument& document, std::vector<Part> parts, Layout& out)
 {
     std::erase_if(parts, [](const Part& p) { return !p.fromFile; });

@@ -239,8 +239,7 @@ void putImagesBeside(GltfDocument& document, const fs::path& file, const LoadLim
     }
 }
 
-// Image files go to the same place relative to the new folder; what is there already has to be the
-// same.
+// Image files go to the same place relative to the new folder; what is there already has to be the same.
 void copyImages(const GltfSource& source, const Json& root, const fs::path& folder, const LoadLimits& limits,
                 std::vector<Output>& outputs)
 {

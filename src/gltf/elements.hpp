@@ -13,8 +13,7 @@
 
 namespace cotan::gltf {
 
-// The bytes of a buffer view as accessors see them. Where an extension packs them, they are those
-// after unpacking.
+// The bytes of a buffer view as accessors see them. Where an extension packs them, they are those after unpacking.
 struct ViewBytes {
     std::span<const std::byte> bytes;
     std::size_t stride = 0; // as in BufferView

@@ -62,8 +62,7 @@ inline constexpr int kGltfDepth = 128;
 // GltfProblem where it is no JSON, and where it is nested too deep.
 gltf::Json parseGltfJson(std::span<const std::byte> text);
 
-// Reads the file, splits a GLB into chunks and parses the JSON. Every length is checked against
-// the file.
+// Reads the file, splits a GLB into chunks and parses the JSON. Every length is checked against the file.
 GltfFile openGltf(const std::filesystem::path& path, const LoadLimits& limits, GltfWarnings& warnings);
 
 // The bytes of a resource that is a file, be it on the disk or not.
@@ -76,15 +75,13 @@ bool isGltfFallback(const gltf::Json& buffer);
 // Fills GltfFile::buffers; those of isGltfFallback stay empty. The JSON must have passed checkGltfShape.
 void loadGltfBuffers(GltfFile& file, const LoadLimits& limits);
 
-// What a URI of the model stands for. Data URIs are decoded. Files are looked up in the model's
-// folder; schemes, absolute paths and anything that leads out of the folder, be it by ".." or by a
-// symbolic link, are refused. field: where the URI stands, for messages. mayMiss: a file that does
-// not exist gives an empty resource instead of a failure.
+// What a URI of the model stands for. Data URIs are decoded. Files are looked up in the model's folder; schemes,
+// absolute paths and anything that leads out of the folder, be it by ".." or by a symbolic link, are refused. field:
+// where the URI stands, for messages. mayMiss: a file that does not exist gives an empty resource instead of a failure.
 GltfResource resolveGltfUri(const GltfFile& file, std::string_view uri, const std::string& field, bool mayMiss = false);
 
-// Checks that every member the reader uses has the type, range and length that the glTF 2.0
-// specification asks for, and that every index points at something. Also the version and the
-// required extensions.
+// Checks that every member the reader uses has the type, range and length that the glTF 2.0 specification asks for, and
+// that every index points at something. Also the version and the required extensions.
 void checkGltfShape(const gltf::Json& root, const LoadLimits& limits, GltfWarnings& warnings);
 
 // The same for what poseGltf reads.

@@ -148,9 +148,8 @@ void findGltfAccessors(GltfModel& model)
 {
     findViews(model);
     const std::set<int> texcoords = texcoordAccessors(model.structure);
-    // Accessors without a view are zeros that cost the file nothing, and many may share one view:
-    // what they add up to bounds memory and time. Counts are below 2^53 and elements at most 64
-    // bytes, so one of them overflows nothing.
+    // Accessors without a view are zeros that cost the file nothing, and many may share one view: what they add up to
+    // bounds memory and time. Counts are below 2^53 and elements at most 64 bytes, so one of them overflows nothing.
     const std::size_t most = gltfAllowance(model);
     std::size_t total = 0, i = 0;
     model.accessors = gltf::readAll(&model.file.json, "accessors", [&](const Json& json) {

@@ -12,8 +12,7 @@ namespace cotan {
 
 namespace {
 
-// A mesh of the file as one node needs it: primitives depend on the node where there are morph
-// weights or a skin.
+// A mesh of the file as one node needs it: primitives depend on the node where there are morph weights or a skin.
 struct MeshUse {
     int mesh = -1;
     int skin = -1;

@@ -156,9 +156,8 @@ public:
     {
     }
 
-    // The limits for the next image: no more than what is left. Images that are decoded at the
-    // same time see the same rest, so the total may be overdrawn by one image a thread until
-    // `take` notices.
+    // The limits for the next image: no more than what is left. Images that are decoded at the same time see the same
+    // rest, so the total may be overdrawn by one image a thread until `take` notices.
     LoadLimits next() const
     {
         LoadLimits limits = limits_;

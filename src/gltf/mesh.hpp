@@ -35,10 +35,9 @@ std::vector<std::uint32_t> gltfTriangles(int mode, std::vector<std::uint32_t> or
 // memory grows with `count`, the number of vertices that there are. Every corner must be below it.
 std::vector<std::uint32_t> takeUsedVertices(std::vector<std::uint32_t>& corners, std::size_t count);
 
-// Moves the vertices to where the joints put them. joints: for each joint of the skin, its world
-// matrix times its inverse bind matrix. Normals go by the inverse transpose, tangents with the
-// surface; where the joints mirror, TANGENT.w changes sign, and where they mirror everything, so
-// does the winding.
+// Moves the vertices to where the joints put them. joints: for each joint of the skin, its world matrix times its
+// inverse bind matrix. Normals go by the inverse transpose, tangents with the surface; where the joints mirror,
+// TANGENT.w changes sign, and where they mirror everything, so does the winding.
 void skinGltfPrimitive(GltfPrimitive& primitive, const std::vector<glm::dmat4>& joints, GltfWarnings& warnings);
 
 // The unit vector of a normal. One that is unit up to rounding keeps its bits: normalising again would make some equal

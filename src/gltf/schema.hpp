@@ -26,8 +26,7 @@ struct Field;
 using Fields = std::span<const Field>;
 
 inline constexpr double kMaxInt = 2147483647.0;
-// Offsets, lengths and counts up to here can be added and multiplied by a stride (at most 252)
-// in 64 bits.
+// Offsets, lengths and counts up to here can be added and multiplied by a stride (at most 252) in 64 bits.
 inline constexpr double kMaxSize = 9007199254740992.0; // 2^53
 // No lamp or map is beyond these, and products with them stay finite in float.
 inline constexpr double kBrightest = 1e12;

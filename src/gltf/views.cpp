@@ -58,10 +58,9 @@ glm::dquat rotationOf(const glm::dvec4& xyzw)
     return glm::dquat(xyzw.w / length, xyzw.x / length, xyzw.y / length, xyzw.z / length);
 }
 
-// KHR_texture_transform: scale, then turn, then shift. The turn is counter-clockwise as seen in
-// the image, whose v runs down; so its sine stands in the first row, not in the second. (The
-// extension's example, offset (0,1), a quarter turn, scale 1/2, has to select the lower left
-// quadrant.) The extension may name another uv set than the texture itself.
+// KHR_texture_transform: scale, then turn, then shift. The turn is counter-clockwise as seen in the image, whose v runs
+// down; so its sine stands in the first row, not in the second. (The extension's example, offset (0,1), a quarter turn,
+// scale 1/2, has to select the lower left quadrant.) The extension may name another uv set than the texture itself.
 void applyTransform(const Json& transform, TextureUse& use)
 {
     const auto offset = vectorOr(transform, "offset", glm::dvec2(0)),
