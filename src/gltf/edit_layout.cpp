@@ -50,8 +50,7 @@ void addExtension(Json& root, const GltfPacked& packed, const std::string& name)
 // The extension by which a view is compressed with meshoptimizer.
 std::string meshoptName(const Json& view)
 {
-    return view["extensions"].contains("EXT_meshopt_compression") ? "EXT_meshopt_compression"
-                                                                  : "KHR_meshopt_compression";
+    return kMeshoptExtensions[view["extensions"].contains(kMeshoptExtensions[0]) ? 0 : 1];
 }
 
 // Gives primitives their Draco stream back where their vertices and indices are those of the file. Attributes that were

@@ -213,7 +213,7 @@ bool isGltfFallback(const gltf::Json& buffer)
 {
     if (gltf::member(buffer, "uri"))
         return false;
-    for (const char* const name : {"EXT_meshopt_compression", "KHR_meshopt_compression"})
+    for (const char* const name : kMeshoptExtensions)
         if (const gltf::Json* const packed = gltf::extension(buffer, name))
             return gltf::valueOr(*packed, "fallback", false);
     return false;

@@ -24,6 +24,7 @@ struct GltfResource {
 };
 
 inline constexpr const char* kDracoExtension = "KHR_draco_mesh_compression";
+inline constexpr const char* kMeshoptExtensions[] = {"EXT_meshopt_compression", "KHR_meshopt_compression"};
 
 // Compressed geometry as the file has it, for who writes the file again: nobody has to compress what nobody changed.
 struct GltfPacked {

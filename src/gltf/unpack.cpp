@@ -15,8 +15,6 @@ using gltf::Json;
 
 namespace {
 
-constexpr const char* kMeshopt[] = {"EXT_meshopt_compression", "KHR_meshopt_compression"};
-
 void takeOut(Json& object, const std::string& name)
 {
     const auto extensions = object.find("extensions");
@@ -42,11 +40,11 @@ public:
 
     void run()
     {
-        for (const char* const name : kMeshopt)
+        for (const char* const name : kMeshoptExtensions)
             unpackViews(name);
         readDracoJobs();
         unpackPrimitives();
-        for (const char* const name : {kMeshopt[0], kMeshopt[1], kDracoExtension}) {
+        for (const char* const name : {kMeshoptExtensions[0], kMeshoptExtensions[1], kDracoExtension}) {
             if (requiresExtension(name))
                 file_.packed.required.emplace_back(name);
             takeOffExtension(file_.json, name);
