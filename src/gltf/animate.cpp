@@ -148,9 +148,11 @@ private:
         std::vector<double> now(v.value.size());
         const double t = at.part, t2 = t * t, t3 = t2 * t;
         for (std::size_t i = 0; i < now.size(); ++i)
-            now[i] = !cubic ? v.value[i] + (v.next[i] - v.value[i]) * t
-                            : (2 * t3 - 3 * t2 + 1) * v.value[i] + (t3 - 2 * t2 + t) * at.seconds * v.outTangent[i]
+            if (cubic)
+                now[i] = (2 * t3 - 3 * t2 + 1) * v.value[i] + (t3 - 2 * t2 + t) * at.seconds * v.outTangent[i]
                     + (3 * t2 - 2 * t3) * v.next[i] + (t3 - t2) * at.seconds * v.inTangent[i];
+            else
+                now[i] = v.value[i] + (v.next[i] - v.value[i]) * t;
         return now; // a rotation is normalised where it is used
     }
 
