@@ -3,6 +3,7 @@
 #include <limits>
 #include <map>
 #include <new>
+#include <set>
 #include <system_error>
 
 #include "edit_state.hpp"
@@ -44,10 +45,8 @@ std::map<std::size_t, fs::path> imageFiles(const GltfSource& source, const Json&
     return files;
 }
 
-std::size_t totalSize(std::vector<fs::path> files)
+std::size_t totalSize(const std::set<fs::path>& files)
 {
-    std::sort(files.begin(), files.end());
-    files.erase(std::unique(files.begin(), files.end()), files.end());
     std::size_t total = 0;
     for (const fs::path& file : files) {
         std::error_code error;
@@ -59,12 +58,12 @@ std::size_t totalSize(std::vector<fs::path> files)
 
 std::size_t sizeBefore(const GltfSource& source)
 {
-    std::vector<fs::path> files;
+    std::set<fs::path> files;
     for (const auto& [file, bytes] : source.file.bufferFiles)
-        files.push_back(file);
+        files.insert(file);
     for (const auto& [image, file] : imageFiles(source, source.root))
-        files.push_back(file);
-    return source.bytes + totalSize(std::move(files));
+        files.insert(file);
+    return source.bytes + totalSize(files);
 }
 
 std::vector<std::byte> readOrFail(const GltfSource& source, const fs::path& file, const LoadLimits& limits)
@@ -314,11 +313,11 @@ GltfWritten write(GltfDocument document, const fs::path& file, const LoadLimits&
         copyImages(*document.source, layout.root, folderOf(file), limits, outputs);
     if (Status done = writeTogether(outputs); !done)
         throw done.error();
-    std::vector<fs::path> images;
+    std::set<fs::path> images;
     for (const auto& [i, path] : imageFiles(*document.source, layout.root)) {
         const auto isImage = [&, &image = path](const Output& o) { return fs::equivalent(o.file, image, error); };
         if (std::ranges::none_of(outputs, isImage))
-            images.push_back(path);
+            images.insert(path);
     }
     written.bytesAfter += totalSize(images);
     for (const Output& output : outputs)

@@ -56,9 +56,6 @@ struct GltfFile {
     GltfPacked packed;                                                   // what they were made of
 };
 
-// Deeper JSON is refused: what walks through a document recurses once a level.
-inline constexpr int kGltfDepth = 128;
-
 // In time that grows with the length of the text alone. Of members of the same name the last counts. Throws
 // GltfProblem where it is no JSON, and where it is nested too deep.
 gltf::Json parseGltfJson(std::span<const std::byte> text);
