@@ -1,19 +1,23 @@
-#include "animate.hpp"
+// Models at a moment of an animation, and where animations get to.
+#include "gltf_model.hpp"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
 #include <string_view>
 
+#include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
 
-#include "named.hpp"
+#include "core/parse_number.hpp"
+#include "scene/bounds.hpp"
 
 namespace cotan {
 
 namespace {
 
 using gltf::Accessor, gltf::Choice, gltf::ElementType, gltf::Json;
-
-enum class Interpolation { step, linear, cubic };
 
 // Where a time lies among the keys of a channel.
 struct Moment {
@@ -58,8 +62,7 @@ private:
         }
         const bool rotation = path == "rotation";
         if (!rotation && path != "translation" && path != "scale") {
-            model_.warnings.add(field_,
-                                fmt::format("the path \"{}\" is not animated here", oneLine(std::string(path))));
+            model_.warnings.add(field_, fmt::format("the path \"{}\" is not animated here", oneLine(path)));
             return;
         }
         if (node.matrix)
@@ -83,7 +86,7 @@ private:
         takeGltfBytes(model_, choice.size() * width * sizeof(float), field_);
         std::vector<float> numbers(choice.size() * width);
         if (!numbers.empty())
-            gltf::readFloats(model_.accessors[std::size_t(accessor)], choice, width, numbers.data());
+            gltf::readNumbers(model_.accessors[std::size_t(accessor)], choice, width, numbers.data());
         return numbers;
     }
 
@@ -132,25 +135,24 @@ private:
 
     std::vector<double> values(const Json& sampler, ElementType type, std::size_t each, bool rotation)
     {
-        const std::string word = gltf::valueOr(sampler, "interpolation", std::string("LINEAR"));
-        const Interpolation way = word == "STEP" ? Interpolation::step
-            : word == "CUBICSPLINE"              ? Interpolation::cubic
-                                                 : Interpolation::linear;
+        const std::string way = gltf::valueOr(sampler, "interpolation", std::string("LINEAR"));
+        const bool cubic = way == "CUBICSPLINE";
         const int input = sampler["input"].get<int>();
         const Moment at = momentOf(input);
         const Around v = around(sampler["output"].get<int>(), at, model_.accessors[std::size_t(input)].accessor.count,
-                                each, type, way == Interpolation::cubic);
-        if (at.key == at.next || way == Interpolation::step)
+                                each, type, cubic);
+        if (at.key == at.next || way == "STEP")
             return v.value;
-        if (rotation && way == Interpolation::linear)
+        if (rotation && !cubic)
             return turned(v.value, v.next, at.part);
         std::vector<double> now(v.value.size());
         const double t = at.part, t2 = t * t, t3 = t2 * t;
         for (std::size_t i = 0; i < now.size(); ++i)
-            now[i] = way == Interpolation::linear
-                ? v.value[i] + (v.next[i] - v.value[i]) * t
-                : (2 * t3 - 3 * t2 + 1) * v.value[i] + (t3 - 2 * t2 + t) * at.seconds * v.outTangent[i]
+            if (cubic)
+                now[i] = (2 * t3 - 3 * t2 + 1) * v.value[i] + (t3 - 2 * t2 + t) * at.seconds * v.outTangent[i]
                     + (3 * t2 - 2 * t3) * v.next[i] + (t3 - t2) * at.seconds * v.inTangent[i];
+            else
+                now[i] = v.value[i] + (v.next[i] - v.value[i]) * t;
         return now; // a rotation is normalised where it is used
     }
 
@@ -186,7 +188,7 @@ double lastKey(const GltfModel& model, int input)
         return 0;
     float last = 0;
     const std::vector<std::uint32_t> chosen = {std::uint32_t(a.count - 1)};
-    gltf::readFloats(times, Choice(a.count, chosen), 1, &last);
+    gltf::readNumbers(times, Choice(a.count, chosen), 1, &last);
     return std::max(double(last), 0.0);
 }
 
@@ -216,6 +218,104 @@ void poseGltf(GltfModel& model)
     const std::size_t animation = findAnimation(model.file.json, model.limits.pose.animation);
     checkGltfAnimations(model.file.json);
     Poser(model, animation).run();
+}
+
+// ---- where an animation gets to -------------------------------------------------------------
+
+namespace {
+
+constexpr double kMomentsASecond = 30;
+constexpr std::size_t kMaxMoments = 256, kFewestMoments = 9;
+constexpr std::size_t kMaxPosed = 8'000'000; // vertices of all moments
+constexpr std::size_t kMaxKept = 300'000;    // points
+constexpr std::size_t kDirections = 64;
+
+// Evenly over the sphere, with their opposites (R. Swinbank, R. J. Purser, Fibonacci grids, 2006).
+std::array<glm::vec3, kDirections> directions()
+{
+    std::array<glm::vec3, kDirections> all;
+    for (std::size_t i = 0; i < kDirections; ++i) {
+        const float z = 1 - (float(i) + 0.5f) / float(kDirections), side = std::sqrt(1 - z * z);
+        const float angle = 2.399963f * float(i);
+        all[i] = {side * std::cos(angle), side * std::sin(angle), z};
+    }
+    return all;
+}
+
+void addAll(const Scene& scene, std::vector<glm::vec3>& points)
+{
+    forEachPlacedPoint(
+        scene, [&](const glm::mat4& toWorld, const glm::vec3& p) { points.emplace_back(toWorld * glm::vec4(p, 1)); });
+}
+
+// The points that lie furthest to both sides along each direction.
+void addFurthest(const Scene& scene, std::vector<glm::vec3>& points)
+{
+    static const std::array<glm::vec3, kDirections> kAlong = directions();
+    struct Furthest {
+        float low = std::numeric_limits<float>::infinity(), high = -std::numeric_limits<float>::infinity();
+        glm::vec3 lowest{0}, highest{0};
+    };
+    std::array<Furthest, kDirections> found;
+    forEachPlacedPoint(scene, [&](const glm::mat4& toWorld, const glm::vec3& p) {
+        const glm::vec3 world(toWorld * glm::vec4(p, 1));
+        for (std::size_t i = 0; i < kDirections; ++i) {
+            const float far = glm::dot(world, kAlong[i]);
+            if (far < found[i].low)
+                found[i].low = far, found[i].lowest = world;
+            if (far > found[i].high)
+                found[i].high = far, found[i].highest = world;
+        }
+    });
+    for (const Furthest& f : found)
+        if (f.low <= f.high) {
+            points.push_back(f.lowest);
+            points.push_back(f.highest);
+        }
+}
+
+std::size_t verticesPlaced(const Scene& scene)
+{
+    std::size_t count = 0;
+    for (const Instance& instance : scene.instances)
+        if (const Mesh* mesh = meshPlacedBy(scene, instance))
+            count += mesh->vertexCount();
+    return count;
+}
+
+double secondsOf(const AnimatedGltf& model, const std::string& animation)
+{
+    const auto& all = model.animations();
+    const auto named = std::ranges::find(all, animation, &GltfAnimation::name);
+    if (named != all.end())
+        return named->seconds;
+    std::size_t number = 0;
+    return parseNumber(std::string_view(animation), number) && number < all.size() ? all[number].seconds : 0;
+}
+
+} // namespace
+
+Result<std::vector<glm::vec3>> pointsReached(AnimatedGltf& model, const std::string& animation)
+{
+    const double seconds = secondsOf(model, animation);
+    std::vector<glm::vec3> points;
+    std::size_t moments = 1, vertices = 0;
+    for (std::size_t i = 0; i < moments; ++i) {
+        const double part = moments > 1 ? double(i) / double(moments - 1) : 0;
+        const auto scene = model.at({animation, seconds * part});
+        if (!scene)
+            return scene.error();
+        if (i == 0 && seconds > 0) {
+            vertices = std::max<std::size_t>(verticesPlaced(*scene), 1);
+            const std::size_t payable = std::clamp(kMaxPosed / vertices, kFewestMoments, kMaxMoments);
+            moments = std::min(payable, std::size_t(std::min(seconds * kMomentsASecond, 1e6)) + 2);
+        }
+        if (vertices * moments <= kMaxKept)
+            addAll(*scene, points);
+        else
+            addFurthest(*scene, points);
+    }
+    return points;
 }
 
 } // namespace cotan

@@ -1,6 +1,5 @@
 // Compares the JSON with the tables of schema.hpp.
 #include <algorithm>
-#include <array>
 #include <cstdint>
 #include <map>
 #include <set>
@@ -36,8 +35,7 @@ std::string describe(const Place& place)
     const std::string before = describe(*place.parent);
     if (place.name.empty())
         return fmt::format("{}[{}]", before, place.index);
-    return before.empty() ? oneLine(std::string(place.name))
-                          : fmt::format("{}.{}", before, oneLine(std::string(place.name)));
+    return before.empty() ? oneLine(place.name) : fmt::format("{}.{}", before, oneLine(place.name));
 }
 
 std::string found(const Json& value)
@@ -77,18 +75,17 @@ private:
         const auto known = sizes_.find(collection);
         if (known != sizes_.end())
             return known->second;
-        const Json* const lights = gltf::extension(root_, "KHR_lights_punctual");
-        const Json* const owner = collection == "lights" ? lights : &root_;
-        const Json* const list = owner ? member(*owner, collection) : nullptr;
+        const Json* const list =
+            member(collection == "lights" ? gltf::extension(root_, "KHR_lights_punctual") : &root_, collection);
         return sizes_[collection] = list && list->is_array() ? list->size() : 0;
     }
 
-    void checkNumber(const Json& value, double low, double high, const Place& place) const
+    void checkNumber(const Json& value, const Field& field, const Place& place) const
     {
         if (!value.is_number())
             wrong(place, "a number", value);
-        if (const auto x = value.get<double>(); !(x >= low && x <= high))
-            wrong(place, fmt::format("a number from {:g} to {:g}", low, high), value);
+        if (const auto x = value.get<double>(); !(x >= field.low && x <= field.high))
+            wrong(place, fmt::format("a number from {:g} to {:g}", field.low, field.high), value);
     }
 
     void checkInteger(const Json& value, const Field& field, const Place& place) const
@@ -98,10 +95,7 @@ private:
         const auto x = value.get<double>();
         if (!(x >= field.low && x <= field.high))
             wrong(place, fmt::format("an integer from {:.0f} to {:.0f}", field.low, field.high), value);
-        bool allowed = field.integers.empty();
-        for (const int i : field.integers)
-            allowed = allowed || x == i;
-        if (!allowed)
+        if (!field.integers.empty() && std::ranges::find(field.integers, x) == field.integers.end())
             wrong(place, fmt::format("one of {}", fmt::join(field.integers, ", ")), value);
         if (value.get<std::uint64_t>() % field.multipleOf != 0)
             wrong(place, fmt::format("a multiple of {}", field.multipleOf), value);
@@ -111,10 +105,8 @@ private:
     {
         if (!value.is_string())
             wrong(place, "a string", value);
-        bool allowed = field.texts.empty();
-        for (const std::string_view t : field.texts)
-            allowed = allowed || value.get_ref<const std::string&>() == t;
-        if (!allowed)
+        if (!field.texts.empty()
+            && std::ranges::find(field.texts, value.get_ref<const std::string&>()) == field.texts.end())
             wrong(place, fmt::format("one of {}", fmt::join(field.texts, ", ")), value);
     }
 
@@ -125,38 +117,8 @@ private:
             wrong(place, fmt::format("an index below {}, the number of {}", count, refers), value);
     }
 
-    void checkIndexMap(const Json& value, const Field& field, const Place& place) const
-    {
-        if (!value.is_object())
-            wrong(place, "an object", value);
-        for (const auto& [key, item] : value.items())
-            checkIndex(item, field.refers, Place{&place, key});
-    }
-
-    template<class Check> void each(const Json& value, const Place& place, const Check& check) const
-    {
-        if (!value.is_array())
-            wrong(place, "an array", value);
-        for (std::size_t i = 0; i < value.size(); ++i)
-            check(value[i], Place{&place, {}, i});
-    }
-
-    void checkArray(const Json& value, const Field& field, const Place& place) const
-    {
-        if (field.length > 0 && value.is_array() && value.size() != field.length)
-            failGltf("{}: expected {} numbers, found {}", describe(place), field.length, value.size());
-        each(value, place, [&](const Json& item, const Place& at) {
-            switch (field.shape) {
-            case Shape::numbers: checkNumber(item, field.low, field.high, at); break;
-            case Shape::indices: checkIndex(item, field.refers, at); break;
-            case Shape::texts: checkText(item, field, at); break;
-            case Shape::indexMaps: checkIndexMap(item, field, at); break;
-            default: fields(item, field.inner, at); break;
-            }
-        });
-    }
-
-    void check(const Json& value, const Field& field, const Place& place) const
+    // What is no list, or an item of one.
+    void checkOne(const Json& value, const Field& field, const Place& place) const
     {
         switch (field.shape) {
         case Shape::boolean:
@@ -164,17 +126,29 @@ private:
                 wrong(place, "true or false", value);
             break;
         case Shape::integer: checkInteger(value, field, place); break;
-        case Shape::number: checkNumber(value, field.low, field.high, place); break;
+        case Shape::number: checkNumber(value, field, place); break;
         case Shape::text: checkText(value, field, place); break;
         case Shape::index: checkIndex(value, field.refers, place); break;
         case Shape::object: fields(value, field.inner, place); break;
-        case Shape::indexMap: checkIndexMap(value, field, place); break;
-        case Shape::numbers:
-        case Shape::indices:
-        case Shape::texts:
-        case Shape::objects:
-        case Shape::indexMaps: checkArray(value, field, place); break;
+        case Shape::indexMap:
+            if (!value.is_object())
+                wrong(place, "an object", value);
+            for (const auto& [key, item] : value.items())
+                checkIndex(item, field.refers, Place{&place, key});
+            break;
         }
+    }
+
+    void check(const Json& value, const Field& field, const Place& place) const
+    {
+        if (!field.list)
+            return checkOne(value, field, place);
+        if (!value.is_array())
+            wrong(place, "an array", value);
+        if (field.length > 0 && value.size() != field.length)
+            failGltf("{}: expected {} numbers, found {}", describe(place), field.length, value.size());
+        for (std::size_t i = 0; i < value.size(); ++i)
+            checkOne(value[i], field, Place{&place, {}, i});
     }
 
     const Json& root_;
@@ -183,12 +157,10 @@ private:
 
 // ---- version and extensions -----------------------------------------------------------------
 
-// Before anything about structure: in version 1 the collections are objects, and the asset may be
-// missing.
+// Before anything about structure: in version 1 the collections are objects, and the asset may be missing.
 void refuseVersion1(const Json& root)
 {
-    const Json* const asset = member(root, "asset");
-    if (const Json* const version = asset ? member(*asset, "version") : nullptr) {
+    if (const Json* const version = member(member(root, "asset"), "version")) {
         const std::string text = version->is_string() ? version->get<std::string>() : version->dump();
         if (text.starts_with("1.") || text == "1" || text.starts_with("0."))
             failGltfVersion1("asset.version");
@@ -209,23 +181,19 @@ void checkVersion(const Json& asset)
         failGltf("asset.minVersion: expected 2.0, found \"{}\"", oneLine(least));
 }
 
-constexpr std::array kSupported{
-    string_view("KHR_texture_transform"),      string_view("KHR_materials_unlit"),
-    string_view("KHR_lights_punctual"),        string_view("KHR_materials_emissive_strength"),
-    string_view("KHR_mesh_quantization"),      string_view("EXT_mesh_gpu_instancing"),
-    string_view("KHR_draco_mesh_compression"), string_view("EXT_meshopt_compression"),
-    string_view("KHR_meshopt_compression"),    string_view("KHR_materials_clearcoat"),
-    string_view("KHR_materials_anisotropy"),   string_view("KHR_materials_ior"),
-    string_view("KHR_materials_specular"),     string_view("KHR_materials_sheen"),
-    string_view("KHR_materials_transmission"), string_view("KHR_materials_variants"),
-};
+constexpr std::string_view kSupported[] = {
+    "KHR_texture_transform",           "KHR_materials_unlit",      "KHR_lights_punctual",
+    "KHR_materials_emissive_strength", "KHR_mesh_quantization",    "EXT_mesh_gpu_instancing",
+    "KHR_draco_mesh_compression",      "EXT_meshopt_compression",  "KHR_meshopt_compression",
+    "KHR_materials_clearcoat",         "KHR_materials_anisotropy", "KHR_materials_ior",
+    "KHR_materials_specular",          "KHR_materials_sheen",      "KHR_materials_transmission",
+    "KHR_materials_variants"};
 
 // The same in a format that is not read; it matters to who needs the pixels.
-constexpr string_view kUnreadImages = "EXT_texture_avif";
+constexpr std::string_view kUnreadImages = "EXT_texture_avif";
 
-// KHR_materials_... refine how a surface looks and leave shape and normal map alone: such a model
-// can be drawn without them, if that is said. Any other unknown extension may change what the
-// data mean.
+// KHR_materials_... refine how a surface looks and leave shape and normal map alone: such a model can be drawn without
+// them, if that is said. Any other unknown extension may change what the data mean.
 void checkExtensions(const Json& root, Pixels pixels, GltfWarnings& warnings)
 {
     std::vector<std::string> ignored;
@@ -235,7 +203,7 @@ void checkExtensions(const Json& root, Pixels pixels, GltfWarnings& warnings)
         for (std::size_t i = 0; names && i < names->size(); ++i) {
             const Json& item = (*names)[i];
             const auto& name = item.get_ref<const std::string&>();
-            const auto in = [&](const auto& all) { return std::ranges::find(all, name) != all.end(); };
+            const auto in = [&](const auto& all) { return std::ranges::find(all, name) != std::end(all); };
             const bool known = in(kSupported) || in(gltf::kReadImageExtensions), image = name == kUnreadImages;
             const bool harmless = name.starts_with("KHR_materials_") || (image && pixels != Pixels::all);
             if (!known && !harmless && list == std::string_view("extensionsRequired"))

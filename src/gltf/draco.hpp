@@ -38,6 +38,13 @@ struct DracoGeometry {
 Result<std::vector<DracoGeometry>> decodeDraco(const std::vector<DracoJob>& jobs, const std::string& name,
                                                const LoadLimits& limits);
 
+namespace gltf {
+
+// In this process, whatever the limits say.
+Result<std::vector<DracoGeometry>> decodeDracoHere(const std::vector<DracoJob>& jobs);
+
+} // namespace gltf
+
 // What the two processes say to each other.
 template<class W, class T> void exchangeDracoJobs(W& w, T& jobs)
 {

@@ -5,12 +5,9 @@
 
 #include <draco/compression/decode.h>
 #include <draco/core/decoder_buffer.h>
-#include <fmt/format.h>
 
-#include "codes.hpp"
-#include "draco_streams.hpp"
 #include "elements.hpp"
-#include "gltf/json/views.hpp"
+#include "gltf/draco.hpp"
 #include "problem.hpp"
 
 namespace cotan::gltf {
@@ -90,19 +87,6 @@ void checkHeader(const DracoJob& job)
     if (vertices > job.vertices)
         failGltf("{}: expected {} vertices, as the accessors have, found {} in the Draco stream", job.field,
                  job.vertices, vertices);
-}
-
-// Calls use(T()) with the type of a component.
-template<class Use> void withType(int componentType, const Use& use)
-{
-    switch (componentType) {
-    case kByte: return use(std::int8_t());
-    case kUnsignedByte: return use(std::uint8_t());
-    case kShort: return use(std::int16_t());
-    case kUnsignedShort: return use(std::uint16_t());
-    case kUnsignedInt: return use(std::uint32_t());
-    default: return use(float());
-    }
 }
 
 std::vector<std::byte> valuesOf(const draco::Mesh& mesh, const DracoAttribute& wanted, const DracoJob& job)

@@ -1,13 +1,65 @@
-// Opening a glTF file for changes; images, textures and materials.
+// Opening a glTF file for changes; its geometry; images, textures and materials.
+#include <numeric>
 
-#include <fmt/format.h>
-
+#include "cotan/vector.hpp"
 #include "edit_state.hpp"
-#include "files/bytes.hpp"
 #include "mesh.hpp"
-#include "nodes.hpp"
+#include "scene/texture_sample.hpp"
 
 namespace cotan {
+
+namespace gltf_edit {
+
+std::span<const std::byte> viewBytes(const GltfDocument& document, std::size_t view)
+{
+    const std::vector<gltf::ViewBytes>& old = document.source->views;
+    return view < old.size() ? old[view].bytes : document.added[view - old.size()];
+}
+
+gltf::Elements elementsOf(const GltfDocument& document, const Json& accessor)
+{
+    const auto bytesOf = [&](std::size_t view) {
+        return gltf::ViewBytes{viewBytes(document, view),
+                               gltf::valueOr(rootOf(document)["bufferViews"][view], "byteStride", std::size_t(0))};
+    };
+    return gltf::findElements(gltf::readAccessor(accessor), bytesOf, "accessor");
+}
+
+std::vector<std::uint32_t> readTriangles(const GltfDocument& document, const gltf::Primitive& primitive)
+{
+    const Json& accessors = rootOf(document)["accessors"];
+    const int positions = gltf::accessorOf(primitive.attributes, "POSITION");
+    std::vector<std::uint32_t> order;
+    if (primitive.indices >= 0) {
+        const gltf::Elements indices = elementsOf(document, accessors[std::size_t(primitive.indices)]);
+        order.resize(indices.accessor.count);
+        gltf::readNumbers(indices, order.size(), 1, order.data());
+    } else if (positions >= 0) {
+        order.resize(accessors[std::size_t(positions)]["count"].get<std::size_t>());
+        std::iota(order.begin(), order.end(), 0u);
+    }
+    return gltfTriangles(primitive.mode, std::move(order));
+}
+
+std::size_t addView(GltfDocument& document, std::vector<std::byte> bytes, std::size_t stride, int target)
+{
+    Json view = {{"buffer", 0}, {"byteLength", bytes.size()}};
+    if (stride > 0)
+        view["byteStride"] = stride;
+    if (target > 0)
+        view["target"] = target;
+    document.added.push_back(std::move(bytes));
+    return addItem(document, "bufferViews", std::move(view));
+}
+
+std::size_t addItem(GltfDocument& document, const char* collection, Json item)
+{
+    Json& items = rootOf(document)[collection];
+    items.push_back(std::move(item));
+    return items.size() - 1;
+}
+
+} // namespace gltf_edit
 
 using namespace gltf_edit;
 
@@ -43,7 +95,7 @@ void checkModel(GltfModel& model)
     readGltfNodes(model);
     for (std::size_t m = 0; m < model.structure.meshes.size(); ++m)
         for (std::size_t p = 0; p < model.structure.meshes[m].primitives.size(); ++p)
-            readGltfPrimitive(model, static_cast<int>(m), p, {});
+            readGltfPrimitive(model, int(m), p, {});
     checkCounts(model);
 }
 
@@ -78,6 +130,58 @@ Json withImage(GltfDocument& document, Json image, std::vector<std::byte> bytes,
     return image;
 }
 
+// The attribute of the chosen vertices; empty where the primitive lacks it.
+template<class Vector>
+std::vector<Vector> readAttribute(const GltfDocument& document, const gltf::Primitive& primitive,
+                                  const std::string& name, const gltf::Choice& choice, const std::string& field)
+{
+    const int accessor = gltf::accessorOf(primitive.attributes, name);
+    if (accessor < 0)
+        return {};
+    return gltf::readVectors<Vector>(
+        gltf_edit::elementsOf(document, rootOf(document)["accessors"][std::size_t(accessor)]), choice,
+        {accessor, field + "." + name});
+}
+
+// The uv as a map reads them.
+void readTexcoords(const GltfDocument& document, const gltf::Primitive& primitive, const gltf::TextureUse& map,
+                   const gltf::Choice& choice, const std::string& field, GltfGeometry& out)
+{
+    out.texcoordSet = map.texcoord;
+    out.texcoords =
+        readAttribute<glm::vec2>(document, primitive, fmt::format("TEXCOORD_{}", map.texcoord), choice, field);
+    for (glm::vec2& uv : out.texcoords) {
+        if (!isFinite(uv))
+            uv = glm::vec2(0);
+        if (map.moves())
+            uv = moveUv(map.uRow, map.vRow, uv);
+    }
+}
+
+GltfGeometry readGeometry(const GltfDocument& document, const Json& source, const std::string& field, NormalSlot slot,
+                          std::optional<std::size_t> material)
+{
+    gltf::Primitive primitive = gltf::readPrimitive(source);
+    if (material)
+        primitive.material = int(*material);
+    const gltf::TextureUse map = primitive.material < 0
+        ? gltf::TextureUse{}
+        : normalMapOf(rootOf(document), std::size_t(primitive.material), slot);
+    const int positions = gltf::accessorOf(primitive.attributes, "POSITION");
+    GltfGeometry out;
+    if (positions < 0) // what it may hold else has not been checked
+        return out;
+    out.indices = gltf_edit::readTriangles(document, primitive);
+    const auto count = rootOf(document)["accessors"][std::size_t(positions)]["count"].get<std::size_t>();
+    const std::vector<std::uint32_t> vertices = takeUsedVertices(out.indices, count);
+    const gltf::Choice choice(count, vertices);
+    out.positions = readAttribute<glm::vec3>(document, primitive, "POSITION", choice, field);
+    out.normals = readAttribute<glm::vec3>(document, primitive, "NORMAL", choice, field);
+    out.tangents = readAttribute<glm::vec4>(document, primitive, "TANGENT", choice, field);
+    readTexcoords(document, primitive, map, choice, field, out);
+    return out;
+}
+
 } // namespace
 
 Result<GltfDocument> openGltfDocument(const std::filesystem::path& file, const LoadLimits& limits)
@@ -86,6 +190,15 @@ Result<GltfDocument> openGltfDocument(const std::filesystem::path& file, const L
 }
 
 const std::filesystem::path& gltfPath(const GltfDocument& document) { return document.source->path; }
+
+Result<GltfGeometry> gltfGeometry(const GltfDocument& document, std::size_t mesh, std::size_t primitive,
+                                  NormalSlot slot, std::optional<std::size_t> material)
+{
+    return caughtGltf(document.source->path, [&] {
+        return readGeometry(document, rootOf(document)["meshes"][mesh]["primitives"][primitive],
+                            primitiveField(mesh, primitive), slot, material);
+    });
+}
 
 Result<std::vector<std::byte>> gltfImageBytes(const GltfDocument& document, std::size_t image, const LoadLimits& limits)
 {
@@ -121,8 +234,7 @@ std::size_t addGltfImage(GltfDocument& document, std::vector<std::byte> bytes, c
     if (!name.empty())
         image["name"] = name;
     image = withImage(document, std::move(image), std::move(bytes), mimeType);
-    rootOf(document)["images"].push_back(std::move(image));
-    return rootOf(document)["images"].size() - 1;
+    return addItem(document, "images", std::move(image));
 }
 
 std::size_t copyGltfTexture(GltfDocument& document, std::size_t texture, std::size_t image)
@@ -130,15 +242,12 @@ std::size_t copyGltfTexture(GltfDocument& document, std::size_t texture, std::si
     Json copy = rootOf(document)["textures"][texture];
     copy["source"] = image;
     copy.erase("extensions");
-    rootOf(document)["textures"].push_back(std::move(copy));
-    return rootOf(document)["textures"].size() - 1;
+    return addItem(document, "textures", std::move(copy));
 }
 
 std::size_t copyGltfMaterial(GltfDocument& document, std::size_t material)
 {
-    Json copy = rootOf(document)["materials"][material];
-    rootOf(document)["materials"].push_back(std::move(copy));
-    return rootOf(document)["materials"].size() - 1;
+    return addItem(document, "materials", rootOf(document)["materials"][material]);
 }
 
 } // namespace cotan

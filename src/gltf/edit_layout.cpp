@@ -1,5 +1,6 @@
-// From a changed document to one JSON and one buffer.
+// From a changed document to one JSON and one buffer. Compressed geometry that nobody changed is written as it came.
 #include <algorithm>
+#include <map>
 
 #include <fmt/ranges.h>
 
@@ -8,6 +9,114 @@
 namespace cotan::gltf_edit {
 
 namespace {
+
+// ---- what is compressed: KHR_draco_mesh_compression, EXT_ and KHR_meshopt_compression --------
+
+bool isAsRead(const GltfDocument& document, const char* collection, std::size_t index)
+{
+    const Json& now = rootOf(document)[collection];
+    return index < now.size() && now[index] == document.source->root[collection][index];
+}
+
+// What of a stream the primitive still has, as the extension names it: ids by attribute. Empty where the positions or
+// the triangles are others than in the file.
+Json attributesLeft(const GltfDocument& document, const Json& primitive, const GltfPacked::Primitive& packed)
+{
+    const auto isSame = [&](int accessor) { return isAsRead(document, "accessors", std::size_t(accessor)); };
+    if (gltf::valueOr(primitive, "indices", -1) != packed.indices || !isSame(packed.indices)
+        || gltf::valueOr(primitive, "mode", gltf::kTriangles) != gltf::kTriangles)
+        return Json::object();
+    Json left = Json::object();
+    for (const auto& [name, id] : packed.draco["attributes"].items()) {
+        const int accessor = packed.attributes[name].get<int>();
+        if (gltf::valueOr(primitive["attributes"], name, -1) == accessor && isSame(accessor))
+            left[name] = id;
+    }
+    return left.contains("POSITION") ? left : Json::object();
+}
+
+// Lists an extension as used, and as required where the file requires it.
+void addExtension(Json& root, const GltfPacked& packed, const std::string& name)
+{
+    const auto addTo = [&](Json& names) {
+        if (std::find(names.begin(), names.end(), name) == names.end())
+            names.push_back(name);
+    };
+    addTo(root["extensionsUsed"]);
+    if (std::ranges::find(packed.required, name) != packed.required.end())
+        addTo(root["extensionsRequired"]);
+}
+
+// The extension by which a view is compressed with meshoptimizer.
+std::string meshoptName(const Json& view)
+{
+    return kMeshoptExtensions[view["extensions"].contains(kMeshoptExtensions[0]) ? 0 : 1];
+}
+
+// Gives primitives their Draco stream back where their vertices and indices are those of the file. Attributes that were
+// dropped since are in it still, and nothing names them. Notes what is written plain.
+void restoreDraco(GltfDocument& document)
+{
+    const GltfPacked& packed = document.source->file.packed;
+    if (packed.primitives.empty())
+        return;
+    Json& root = rootOf(document);
+    // How often each accessor is referred to, and how often by primitives that have their stream back.
+    std::vector<std::size_t> uses(countOf(root, "accessors")), packedUses(uses.size());
+    forEachReference(root, Collection::accessors, [&](Json& index) {
+        if (const auto i = index.get<std::size_t>(); i < uses.size()) // extensions may say anything
+            ++uses[i];
+    });
+    std::size_t restored = 0, withMore = 0;
+    for (const GltfPacked::Primitive& p : packed.primitives) {
+        Json& primitive = root["meshes"][p.mesh]["primitives"][p.primitive];
+        Json left = attributesLeft(document, primitive, p);
+        if (left.empty())
+            continue;
+        for (const auto& [name, id] : left.items())
+            ++packedUses[primitive["attributes"][name].get<std::size_t>()];
+        ++packedUses[std::size_t(p.indices)];
+        ++restored;
+        withMore += left.size() < p.draco["attributes"].size();
+        Json& extension = primitive["extensions"][kDracoExtension] = p.draco;
+        extension["attributes"] = std::move(left);
+    }
+    if (restored > 0) {
+        for (const auto& [index, json] : packed.accessors) // those that only streams fill need no bytes of their own
+            if (const auto i = std::size_t(index); packedUses[i] > 0 && uses[i] == packedUses[i])
+                root["accessors"][i] = json;
+        addExtension(root, packed, kDracoExtension);
+    }
+    if (withMore > 0)
+        document.notes.push_back(
+            fmt::format("{}: {} of {} streams are kept as they are, with the tangents inside, which "
+                        "nothing reads now; \"gltf-transform draco\" packs them without",
+                        kDracoExtension, withMore, packed.primitives.size()));
+    if (restored < packed.primitives.size())
+        document.notes.push_back(fmt::format("{}: {} of {} primitives have other vertices now and are written plain; "
+                                             "\"gltf-transform draco\" packs them again",
+                                             kDracoExtension, packed.primitives.size() - restored,
+                                             packed.primitives.size()));
+}
+
+// Notes the bytes of views that were compressed and are written plain: those that are used and not packedView().
+void notePlainViews(GltfDocument& document)
+{
+    const std::map<std::size_t, Json>& views = document.source->file.packed.views;
+    const std::vector<bool> used = usedItems(rootOf(document), Collection::bufferViews);
+    const auto gone = std::ranges::count_if(views, [&](const auto& view) { return !used[view.first]; });
+    const Json* const accessors = gltf::member(rootOf(document), "accessors");
+    const bool replaced =
+        accessors && std::ranges::any_of(*accessors, [&](const Json& accessor) {
+            return gltf::valueOr(accessor, "bufferView", std::size_t(0)) >= document.source->views.size();
+        });
+    if (gone > 0 && replaced)
+        document.notes.push_back(fmt::format("{} of {} compressed buffer views are replaced by plain ones; "
+                                             "\"gltf-transform meshopt\" packs them again",
+                                             gone, views.size()));
+}
+
+// ---- layout ---------------------------------------------------------------------------------
 
 // Items that the file used, or that were added, and that nothing uses now.
 std::vector<bool> released(const GltfDocument& document, Collection collection)
@@ -36,31 +145,30 @@ struct Part {
 std::vector<Part> partsOf(const GltfDocument& document)
 {
     std::vector<Part> parts(countOf(rootOf(document), "bufferViews"));
-    const std::size_t old = document.source->views.size();
     for (std::size_t i = 0; i < parts.size(); ++i) {
-        parts[i].bytes = viewBytes(document, i);
-        parts[i].fromFile = i < old;
-        if (!parts[i].fromFile)
-            continue;
-        if (const Json* const packed = packedView(document, i)) {
-            const Json& extension = (*packed)["extensions"][meshoptName(*packed)];
-            parts[i].packed = packed;
-            parts[i].buffer = extension["buffer"].get<std::size_t>();
-            parts[i].offset = gltf::valueOr(extension, "byteOffset", std::size_t(0));
-            parts[i].bytes = document.source->file.buffers[parts[i].buffer].subspan(
-                parts[i].offset, extension["byteLength"].get<std::size_t>());
-            continue;
+        Part& part = parts[i];
+        part.view = i;
+        part.bytes = viewBytes(document, i);
+        part.fromFile = i < document.source->views.size();
+        part.packed = part.fromFile ? packedView(document, i) : nullptr;
+        if (part.packed) {
+            const Json& extension = (*part.packed)["extensions"][meshoptName(*part.packed)];
+            part.buffer = extension["buffer"].get<std::size_t>();
+            part.offset = gltf::valueOr(extension, "byteOffset", std::size_t(0));
+            part.bytes = document.source->file.buffers[part.buffer].subspan(part.offset,
+                                                                            extension["byteLength"].get<std::size_t>());
+        } else if (part.fromFile) {
+            const gltf::BufferView view = gltf::readBufferView(document.source->root["bufferViews"][i]);
+            part.buffer = view.buffer;
+            part.offset = view.offset;
         }
-        const gltf::BufferView view = gltf::readBufferView(document.source->root["bufferViews"][i]);
-        parts[i].buffer = view.buffer;
-        parts[i].offset = view.offset;
     }
     return parts;
 }
 
 void alignFor(std::vector<std::byte>& buffer, std::size_t offset)
 {
-    buffer.resize((buffer.size() + 3) / 4 * 4 + offset % 4);
+    buffer.resize(gltf::aligned(buffer.size()) + offset % 4);
 }
 
 void place(Layout& out, const Part& part, std::size_t offset)
@@ -71,7 +179,7 @@ void place(Layout& out, const Part& part, std::size_t offset)
         view = *part.packed;
         view["buffer"] = 1;
         view["byteOffset"] = out.decoded;
-        out.decoded += (view["byteLength"].get<std::size_t>() + 3) / 4 * 4;
+        out.decoded += gltf::aligned(view["byteLength"].get<std::size_t>());
         out.packers.insert(name);
         Json& extension = view["extensions"][name];
         extension["buffer"] = 0;
@@ -83,8 +191,7 @@ void place(Layout& out, const Part& part, std::size_t offset)
         view["byteOffset"] = offset;
 }
 
-// The file's views in the order of their bytes. Where views share bytes they go on doing so; bytes
-// between views go.
+// The file's views in the order of their bytes. Where views share bytes they go on doing so; bytes between views go.
 void appendFileParts(const GltfDocument& document, std::vector<Part> parts, Layout& out)
 {
     std::erase_if(parts, [](const Part& p) { return !p.fromFile; });
@@ -142,6 +249,14 @@ void describeBuffer(GltfDocument& document, Layout& out)
 
 } // namespace
 
+const Json* packedView(const GltfDocument& document, std::size_t view)
+{
+    const auto found = document.source->file.packed.views.find(view);
+    if (found == document.source->file.packed.views.end() || !isAsRead(document, "bufferViews", view))
+        return nullptr;
+    return &found->second;
+}
+
 Layout layOut(GltfDocument& document)
 {
     restoreDraco(document);
@@ -167,11 +282,7 @@ Layout layOut(GltfDocument& document)
     std::vector<Part> parts = partsOf(document);
     if (const auto views = released(document, Collection::bufferViews); removes && any(views)) {
         removeItems(rootOf(document), Collection::bufferViews, views);
-        std::vector<Part> kept;
-        for (std::size_t i = 0; i < parts.size(); ++i)
-            if (!views[i])
-                kept.push_back(parts[i]);
-        parts = std::move(kept);
+        std::erase_if(parts, [&](const Part& part) { return views[part.view]; });
     }
     for (std::size_t i = 0; i < parts.size(); ++i)
         parts[i].view = i;

@@ -1,6 +1,5 @@
 // Who refers to accessors, buffer views and images, in the core of glTF and in known extensions.
 #include <algorithm>
-#include <array>
 #include <set>
 
 #include "edit_state.hpp"
@@ -11,117 +10,62 @@ namespace {
 
 using Visit = std::function<void(Json&)>;
 
-// A member that is an object or array; nothing where it is missing or something else: animations
-// and extensions are not checked when the file is read.
-Json* inside(Json& object, const char* member)
+// Where indices into a collection are: names of members with slashes between, "*" for each item or member.
+struct References {
+    const char* collection;
+    std::vector<std::string_view> paths;
+};
+
+const References& referencesTo(Collection collection)
 {
-    if (!object.is_object())
-        return nullptr;
-    const auto found = object.find(member);
-    return found != object.end() && found->is_structured() ? &*found : nullptr;
+    static const References all[] = {
+        {"accessors",
+         {"meshes/*/primitives/*/indices", "meshes/*/primitives/*/attributes/*", "meshes/*/primitives/*/targets/*/*",
+          "skins/*/inverseBindMatrices", "animations/*/samplers/*/input", "animations/*/samplers/*/output",
+          "nodes/*/extensions/EXT_mesh_gpu_instancing/attributes/*"}},
+        {"bufferViews",
+         {"accessors/*/bufferView", "accessors/*/sparse/indices/bufferView", "accessors/*/sparse/values/bufferView",
+          "images/*/bufferView", "meshes/*/primitives/*/extensions/KHR_draco_mesh_compression/bufferView"}},
+        {"images", {"textures/*/source", "textures/*/extensions/*/source"}}};
+    return all[std::size_t(collection)];
 }
 
-template<class Each> void forItems(Json& object, const char* list, const Each& each)
+// What is missing or something else is passed over: animations and extensions are not checked when the file is read.
+void visitPath(Json& value, std::string_view path, const Visit& visit)
 {
-    if (Json* const items = inside(object, list))
-        for (Json& item : *items)
-            if (item.is_structured())
-                each(item);
-}
-
-void visitMember(Json& object, const char* member, const Visit& visit)
-{
-    const auto found = object.find(member);
-    if (found != object.end() && found->is_number_unsigned())
-        visit(*found);
-}
-
-void visitValues(Json& object, const Visit& visit)
-{
-    for (Json& value : object)
+    if (path.empty()) {
         if (value.is_number_unsigned())
             visit(value);
+        return;
+    }
+    const std::string_view step = path.substr(0, path.find('/'));
+    const std::string_view rest = path.substr(std::min(step.size() + 1, path.size()));
+    if (step == "*") {
+        if (value.is_structured())
+            for (Json& item : value)
+                visitPath(item, rest, visit);
+    } else if (const auto found = value.find(step); found != value.end()) {
+        visitPath(*found, rest, visit);
+    }
 }
 
-Json* extension(Json& object, const char* name)
-{
-    Json* const extensions = inside(object, "extensions");
-    return extensions ? inside(*extensions, name) : nullptr;
-}
+// Extensions, by their names or what those begin with, that are known to refer to no accessor, view, buffer or image
+// but in the places that are visited above.
+constexpr std::string_view kKnown[] = {"KHR_lights_punctual",
+                                       "KHR_mesh_quantization",
+                                       "KHR_draco_mesh_compression",
+                                       "KHR_animation_pointer",
+                                       "EXT_mesh_gpu_instancing",
+                                       "MSFT_texture_dds",
+                                       "MSFT_lod",
+                                       "FB_ngon_encoding"};
+constexpr std::string_view kKnownFamilies[] = {"KHR_materials_", "KHR_texture_", "EXT_texture_",
+                                               "KHR_xmp",        "KHR_node_",    "EXT_materials_"};
 
-void visitPrimitive(Json& primitive, const Visit& visit)
-{
-    visitMember(primitive, "indices", visit);
-    if (Json* const attributes = inside(primitive, "attributes"))
-        visitValues(*attributes, visit);
-    forItems(primitive, "targets", [&](Json& target) { visitValues(target, visit); });
-}
-
-void visitAccessors(Json& root, const Visit& visit)
-{
-    forItems(root, "meshes",
-             [&](Json& mesh) { forItems(mesh, "primitives", [&](Json& p) { visitPrimitive(p, visit); }); });
-    forItems(root, "skins", [&](Json& skin) { visitMember(skin, "inverseBindMatrices", visit); });
-    forItems(root, "animations", [&](Json& animation) {
-        forItems(animation, "samplers", [&](Json& sampler) {
-            visitMember(sampler, "input", visit);
-            visitMember(sampler, "output", visit);
-        });
-    });
-    forItems(root, "nodes", [&](Json& node) {
-        if (Json* const instancing = extension(node, "EXT_mesh_gpu_instancing"))
-            if (Json* const attributes = inside(*instancing, "attributes"))
-                visitValues(*attributes, visit);
-    });
-}
-
-void visitViews(Json& root, const Visit& visit)
-{
-    forItems(root, "accessors", [&](Json& accessor) {
-        visitMember(accessor, "bufferView", visit);
-        if (Json* const sparse = inside(accessor, "sparse"))
-            for (const char* const part : {"indices", "values"})
-                if (Json* const p = inside(*sparse, part))
-                    visitMember(*p, "bufferView", visit);
-    });
-    forItems(root, "images", [&](Json& image) { visitMember(image, "bufferView", visit); });
-    forItems(root, "meshes", [&](Json& mesh) {
-        forItems(mesh, "primitives", [&](Json& primitive) {
-            if (Json* const draco = extension(primitive, "KHR_draco_mesh_compression"))
-                visitMember(*draco, "bufferView", visit);
-        });
-    });
-}
-
-void visitImages(Json& root, const Visit& visit)
-{
-    forItems(root, "textures", [&](Json& texture) {
-        visitMember(texture, "source", visit);
-        if (Json* const extensions = inside(texture, "extensions"))
-            for (Json& e : *extensions)
-                if (e.is_object())
-                    visitMember(e, "source", visit);
-    });
-}
-
-// Whether an extension is known to refer to no accessor, view, buffer or image but in the places
-// that are visited above.
 bool isKnown(std::string_view name)
 {
-    constexpr std::array families{std::string_view("KHR_materials_"), std::string_view("KHR_texture_"),
-                                  std::string_view("EXT_texture_"),   std::string_view("KHR_xmp"),
-                                  std::string_view("KHR_node_"),      std::string_view("EXT_materials_")};
-    constexpr std::array single{std::string_view("KHR_lights_punctual"),
-                                std::string_view("KHR_mesh_quantization"),
-                                std::string_view("KHR_draco_mesh_compression"),
-                                std::string_view("KHR_animation_pointer"),
-                                std::string_view("EXT_mesh_gpu_instancing"),
-                                std::string_view("MSFT_texture_dds"),
-                                std::string_view("MSFT_lod"),
-                                std::string_view("FB_ngon_encoding")};
-    return std::find(single.begin(), single.end(), name) != single.end()
-        || std::any_of(families.begin(), families.end(),
-                       [&](std::string_view family) { return name.starts_with(family); });
+    return std::ranges::find(kKnown, name) != std::end(kKnown)
+        || std::ranges::any_of(kKnownFamilies, [&](std::string_view family) { return name.starts_with(family); });
 }
 
 struct ExtensionNames {
@@ -142,29 +86,22 @@ void collectExtensions(const Json& value, ExtensionNames& names)
 
 } // namespace
 
-const char* nameOf(Collection collection)
-{
-    constexpr std::array names{"accessors", "bufferViews", "images"};
-    return names[std::size_t(collection)];
-}
-
 void forEachReference(Json& root, Collection collection, const Visit& visit)
 {
-    switch (collection) {
-    case Collection::accessors: return visitAccessors(root, visit);
-    case Collection::bufferViews: return visitViews(root, visit);
-    case Collection::images: return visitImages(root, visit);
-    }
+    for (const std::string_view path : referencesTo(collection).paths)
+        visitPath(root, path, visit);
 }
 
-std::vector<bool> usedItems(const Json& root, Collection collection)
+std::vector<bool> usedItems(const Json& root, Collection collection, std::string_view besides)
 {
-    std::vector<bool> used(countOf(root, nameOf(collection)), false);
-    // Only read through: the visitors serve changing and looking alike.
-    forEachReference(const_cast<Json&>(root), collection, [&](Json& index) {
+    std::vector<bool> used(countOf(root, referencesTo(collection).collection), false);
+    const Visit mark = [&](const Json& index) {
         if (const auto i = index.get<std::size_t>(); i < used.size())
             used[i] = true;
-    });
+    };
+    for (const std::string_view path : referencesTo(collection).paths)
+        if (path != besides)
+            visitPath(const_cast<Json&>(root), path, mark); // only read through
     return used;
 }
 
@@ -187,7 +124,7 @@ void removeItems(Json& root, Collection collection, const std::vector<bool>& rem
 {
     std::vector<std::size_t> moved(removed.size());
     Json kept = Json::array();
-    Json& items = root[nameOf(collection)];
+    Json& items = root[referencesTo(collection).collection];
     for (std::size_t i = 0; i < removed.size(); ++i) {
         moved[i] = kept.size();
         if (!removed[i])
@@ -198,7 +135,7 @@ void removeItems(Json& root, Collection collection, const std::vector<bool>& rem
             index = moved[i];
     });
     if (kept.empty())
-        root.erase(nameOf(collection));
+        root.erase(referencesTo(collection).collection);
     else
         items = std::move(kept);
 }

@@ -19,7 +19,7 @@ using Cluster = std::vector<Range>; // ranges that overlap, by `begin`
 
 std::vector<Cluster> clusters(std::vector<Range> ranges)
 {
-    std::sort(ranges.begin(), ranges.end(), [](const Range& a, const Range& b) { return a.begin < b.begin; });
+    std::ranges::sort(ranges, {}, &Range::begin);
     std::vector<Cluster> out;
     std::size_t end = 0;
     for (const Range& r : ranges) {
@@ -31,13 +31,7 @@ std::vector<Cluster> clusters(std::vector<Range> ranges)
     return out;
 }
 
-std::size_t endOf(const Cluster& cluster)
-{
-    std::size_t end = 0;
-    for (const Range& r : cluster)
-        end = std::max(end, r.end);
-    return end;
-}
+std::size_t endOf(const Cluster& cluster) { return std::ranges::max(cluster, {}, &Range::end).end; }
 
 // Which words of four bytes of a row the cluster uses; empty if it is not a block of rows.
 std::vector<bool> usedWords(const Cluster& cluster, std::size_t stride)
@@ -99,7 +93,7 @@ void closeGaps(GltfDocument& document, std::size_t view, const std::vector<Clust
     const std::size_t index = addView(document, {});
     for (const Cluster& cluster : kept) {
         const std::size_t start = cluster.front().begin / 4 * 4;
-        bytes.resize((bytes.size() + 3) / 4 * 4);
+        bytes.resize(gltf::aligned(bytes.size()));
         for (const Range& r : cluster) {
             Json& accessor = rootOf(document)["accessors"][r.accessor];
             accessor["bufferView"] = index;
@@ -113,20 +107,6 @@ void closeGaps(GltfDocument& document, std::size_t view, const std::vector<Clust
     made.erase("byteOffset");
     document.added.back() = std::move(bytes);
     rootOf(document)["bufferViews"][index] = std::move(made);
-}
-
-// Views that something else than the dense part of an accessor uses.
-std::vector<bool> otherUses(const Json& root)
-{
-    Json without = Json::object();
-    for (const char* const part : {"accessors", "images", "meshes"})
-        if (root.contains(part))
-            without[part] = root[part];
-    if (without.contains("accessors"))
-        for (Json& accessor : without["accessors"])
-            accessor.erase("bufferView");
-    without["bufferViews"] = root["bufferViews"];
-    return usedItems(without, Collection::bufferViews);
 }
 
 std::size_t strideOf(const GltfDocument& document, std::size_t view)
@@ -157,7 +137,8 @@ void repackViews(GltfDocument& document, const std::vector<bool>& removed)
         const std::size_t end = accessor.count == 0 ? begin : begin + (accessor.count - 1) * stride + size;
         kept[view].push_back({a, begin, end, size});
     }
-    const std::vector<bool> other = otherUses(rootOf(document));
+    // Views that something else than the dense part of an accessor uses.
+    const std::vector<bool> other = usedItems(rootOf(document), Collection::bufferViews, "accessors/*/bufferView");
     for (std::size_t view = 0; view < views; ++view) {
         if (!lost[view] || kept[view].empty() || other[view] || packedView(document, view)) // the last: as it came
             continue;

@@ -3,17 +3,16 @@
 
 #include <cstdint>
 #include <functional>
-#include <map>
 #include <set>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "cotan/gltf.hpp"
 #include "elements.hpp"
 #include "gltf/json/lookup.hpp"
 #include "gltf_file.hpp"
-#include "problem.hpp"
 
 namespace cotan {
 
@@ -34,14 +33,13 @@ namespace gltf_edit {
 // Which collection an index points into.
 enum class Collection { accessors, bufferViews, images };
 
-const char* nameOf(Collection collection);
-
 // Calls `visit` for every place known to us that holds an index into the collection, be it in the
 // core of glTF or in an extension. Values that are no index are passed over.
 void forEachReference(Json& root, Collection collection, const std::function<void(Json&)>& visit);
 
-// For each item of the collection whether something refers to it.
-std::vector<bool> usedItems(const Json& root, Collection collection);
+// For each item of the collection whether something refers to it. besides: references that do not count, as their path
+// in edit_references.cpp.
+std::vector<bool> usedItems(const Json& root, Collection collection, std::string_view besides = {});
 
 // The names of extensions in it, in the order in which they are met.
 std::vector<std::string> extensionsIn(const Json& object);
@@ -52,7 +50,7 @@ std::vector<std::string> unknownExtensions(const Json& root);
 // Removes the items marked and lets all references follow; an empty collection goes as a whole.
 void removeItems(Json& root, Collection collection, const std::vector<bool>& removed);
 
-// ---- edit_elements.cpp ------------------------------------------------------------------------
+// ---- edit.cpp ---------------------------------------------------------------------------------
 
 // The bytes of a buffer view, of the file or added.
 std::span<const std::byte> viewBytes(const GltfDocument& document, std::size_t view);
@@ -65,23 +63,9 @@ std::vector<std::uint32_t> readTriangles(const GltfDocument& document, const glt
 
 // Adds a buffer view; stride and target 0: left out. Returns its index.
 std::size_t addView(GltfDocument& document, std::vector<std::byte> bytes, std::size_t stride = 0, int target = 0);
-std::size_t addAccessor(GltfDocument& document, Json accessor);
 
-// ---- edit_vertices.cpp ------------------------------------------------------------------------
-
-// Accessors that were made for new vertices: by the index of the old one that of the new one.
-using Renewed = std::map<std::size_t, std::size_t>;
-
-// Gives a primitive new vertices, copies of old ones with all attributes and morph targets, to the bit.
-// sources: per new vertex the old one. renewed: those that primitives share are made once.
-void renewVertices(GltfDocument& document, Json& primitive, std::span<const std::uint32_t> sources, Renewed& renewed);
-
-// Notes the extensions of a primitive whose vertices were copied that might hold something for each vertex.
-void noteCopied(GltfDocument& document, const Json& primitive, const std::string& field);
-
-// Makes the primitive a list of triangles; all indices are below vertexCount.
-void setTriangles(GltfDocument& document, Json& primitive, std::span<const std::uint32_t> indices,
-                  std::size_t vertexCount);
+// Adds an item to a collection of the root; returns its index.
+std::size_t addItem(GltfDocument& document, const char* collection, Json item);
 
 // ---- edit_repack.cpp --------------------------------------------------------------------------
 
@@ -89,25 +73,10 @@ void setTriangles(GltfDocument& document, Json& primitive, std::span<const std::
 // cut out, columns of interleaved views too. Such views are replaced by added ones.
 void repackViews(GltfDocument& document, const std::vector<bool>& removedAccessors);
 
-// ---- edit_packed.cpp --------------------------------------------------------------------------
-
-// Gives primitives their Draco stream back where their vertices and indices are those of the file. Attributes that were
-// dropped since are in it still, and nothing names them. Notes what is written plain.
-void restoreDraco(GltfDocument& document);
-
-// Lists an extension as used, and as required where the file requires it.
-void addExtension(Json& root, const GltfPacked& packed, const std::string& name);
-
-// The extension by which a view is compressed with meshoptimizer.
-std::string meshoptName(const Json& view);
+// ---- edit_layout.cpp --------------------------------------------------------------------------
 
 // The view that meshoptimizer compressed, where it still is that of the file: its JSON as the file has it; else null.
 const Json* packedView(const GltfDocument& document, std::size_t view);
-
-// Notes the bytes of views that were compressed and are written plain: those that are used and not packedView().
-void notePlainViews(GltfDocument& document);
-
-// ---- edit_layout.cpp --------------------------------------------------------------------------
 
 struct Layout {
     Json root;

@@ -1,21 +1,25 @@
-// Other vertices and other triangles for a primitive: what tangents and provoking vertices have in common.
+// Other vertices and other triangles for primitives: TANGENT set, with as few vertices copied as possible, or dropped;
+// vertices numbered so that every triangle owns its provoking vertex.
 #include <algorithm>
 #include <cstring>
+#include <map>
 
+#include "cotan/tangents.hpp"
 #include "edit_state.hpp"
+#include "mesh.hpp"
 
-namespace cotan::gltf_edit {
+namespace cotan {
+
+using namespace gltf_edit;
 
 namespace {
 
 using Sources = std::span<const std::uint32_t>;
 
-std::size_t strideFor(std::size_t size) { return (size + 3) / 4 * 4; }
-
 // A view of vertex data, each element on a multiple of four bytes.
 std::size_t addVertexView(GltfDocument& document, const gltf::Run& elements, std::size_t size, Sources sources)
 {
-    const std::size_t stride = strideFor(size);
+    const std::size_t stride = gltf::aligned(size);
     std::vector<std::byte> bytes(stride * sources.size());
     for (std::size_t i = 0; i < sources.size(); ++i)
         std::memcpy(bytes.data() + i * stride, elements.at(sources[i]), size);
@@ -44,21 +48,6 @@ std::pair<int, std::vector<std::byte>> smallestIndices(std::span<const std::uint
     return {gltf::kUnsignedInt, asBytes<std::uint32_t>(values)};
 }
 
-// The place of a vertex among the sparse values, or their number. The indices rise.
-std::size_t sparsePlace(const gltf::Elements& elements, std::uint32_t vertex)
-{
-    std::size_t first = 0, end = elements.sparseIndices.count;
-    while (first < end) {
-        const std::size_t middle = first + (end - first) / 2;
-        if (elements.sparseIndex(middle) < vertex)
-            first = middle + 1;
-        else
-            end = middle;
-    }
-    const bool found = first < elements.sparseIndices.count && elements.sparseIndex(first) == vertex;
-    return found ? first : elements.sparseIndices.count;
-}
-
 // Puts the sparse part for the new vertices into the accessor: copies of a replaced element are replaced as well.
 void renewSparse(GltfDocument& document, const gltf::Elements& old, Json& accessor, Sources sources)
 {
@@ -66,8 +55,8 @@ void renewSparse(GltfDocument& document, const gltf::Elements& old, Json& access
     std::vector<std::uint32_t> places;
     std::vector<std::byte> values;
     for (std::uint32_t i = 0; i < sources.size(); ++i) {
-        const std::size_t found = sparsePlace(old, sources[i]);
-        if (found == old.sparseIndices.count)
+        const std::size_t found = old.sparsePlace(sources[i]);
+        if (found == old.sparseIndices.count || old.sparseIndex(found) != sources[i])
             continue;
         places.push_back(i);
         const std::byte* const from = old.sparseValues.at(found);
@@ -110,11 +99,14 @@ std::size_t renewAccessor(GltfDocument& document, std::size_t index, Sources sou
     accessor["count"] = sources.size();
     if (!allAmong(old.accessor.count, sources))
         gltf::renewBounds(accessor, elementsOf(document, accessor));
-    return addAccessor(document, std::move(accessor));
+    return addItem(document, "accessors", std::move(accessor));
 }
 
-} // namespace
+// Accessors that were made for new vertices: by the index of the old one that of the new one.
+using Renewed = std::map<std::size_t, std::size_t>;
 
+// Gives a primitive new vertices, copies of old ones with all attributes and morph targets, to the bit.
+// sources: per new vertex the old one. renewed: those that primitives share are made once.
 void renewVertices(GltfDocument& document, Json& primitive, Sources sources, Renewed& renewed)
 {
     const auto renewAll = [&](Json& attributes) {
@@ -131,6 +123,7 @@ void renewVertices(GltfDocument& document, Json& primitive, Sources sources, Ren
             renewAll(target);
 }
 
+// Notes the extensions of a primitive whose vertices were copied that might hold something for each vertex.
 void noteCopied(GltfDocument& document, const Json& primitive, const std::string& field)
 {
     for (const std::string& name : unknownExtensions(primitive))
@@ -138,6 +131,7 @@ void noteCopied(GltfDocument& document, const Json& primitive, const std::string
             fmt::format("{}: vertices were copied; its extension {} is kept as it is", field, oneLine(name)));
 }
 
+// Makes the primitive a list of triangles; all indices are below vertexCount.
 void setTriangles(GltfDocument& document, Json& primitive, std::span<const std::uint32_t> indices,
                   std::size_t vertexCount)
 {
@@ -153,9 +147,224 @@ void setTriangles(GltfDocument& document, Json& primitive, std::span<const std::
     accessor["componentType"] = type;
     accessor["count"] = indices.size();
     accessor["type"] = "SCALAR";
-    primitive["indices"] = addAccessor(document, std::move(accessor));
+    primitive["indices"] = addItem(document, "accessors", std::move(accessor));
     if (gltf::valueOr(primitive, "mode", gltf::kTriangles) != gltf::kTriangles)
         primitive.erase("mode"); // a list now
 }
 
-} // namespace cotan::gltf_edit
+// ---- tangents -------------------------------------------------------------------------------
+
+// Primitives that share all attributes, and so their vertices.
+struct Group {
+    std::vector<const GltfCornerTangents*> members;
+    std::vector<std::vector<std::uint32_t>> triangles; // of each member
+    std::size_t vertexCount = 0;
+};
+
+Json& primitiveOf(GltfDocument& document, const GltfCornerTangents& t)
+{
+    return rootOf(document)["meshes"][t.mesh]["primitives"][t.primitive];
+}
+
+// What two primitives have in common if they share vertices, as text.
+std::string sharedKey(const Json& primitive)
+{
+    Json attributes = primitive["attributes"];
+    attributes.erase("TANGENT");
+    Json targets = primitive.value("targets", Json::array());
+    return nlohmann::json(attributes).dump() + nlohmann::json(targets).dump();
+}
+
+std::vector<Group> makeGroups(GltfDocument& document, std::span<const GltfCornerTangents> tangents)
+{
+    std::map<std::string, std::size_t> known;
+    std::vector<Group> groups;
+    for (const GltfCornerTangents& t : tangents) {
+        const Json& primitive = primitiveOf(document, t);
+        const std::string field = primitiveField(t.mesh, t.primitive);
+        const Json& attributes = primitive["attributes"];
+        for (const char* const needed : {"POSITION", "NORMAL"})
+            if (!attributes.contains(needed))
+                failGltf("{}: expected {}, without which glTF gives TANGENT no meaning", field, needed);
+        const auto [place, isNew] = known.emplace(sharedKey(primitive), groups.size());
+        if (isNew)
+            groups.emplace_back().vertexCount =
+                rootOf(document)["accessors"][attributes["POSITION"].get<std::size_t>()]["count"];
+        Group& group = groups[place->second];
+        group.members.push_back(&t);
+        group.triangles.push_back(readTriangles(document, gltf::readPrimitive(primitive)));
+        if (group.triangles.back().size() != t.corners.size())
+            throw Error{ErrorKind::usage,
+                        fmt::format("{}: expected {} corner tangents, found {}", field, group.triangles.back().size(),
+                                    t.corners.size())};
+    }
+    return groups;
+}
+
+std::size_t addTangents(GltfDocument& document, const std::vector<glm::vec4>& values)
+{
+    const auto bytes = std::as_bytes(std::span(values));
+    const std::size_t view = addView(document, {bytes.begin(), bytes.end()}, sizeof(glm::vec4), gltf::kArrayBuffer);
+    return addItem(document, "accessors",
+                   {{"bufferView", view}, {"componentType", gltf::kFloat}, {"count", values.size()}, {"type", "VEC4"}});
+}
+
+bool sameOrder(const GltfDocument& document, const Json& primitive, std::span<const std::uint32_t> indices)
+{
+    if (primitive.value("mode", 4) != 4)
+        return false;
+    const std::vector<std::uint32_t> before = readTriangles(document, gltf::readPrimitive(primitive));
+    return std::equal(before.begin(), before.end(), indices.begin(), indices.end());
+}
+
+// Returns how many vertices were added.
+std::size_t setGroup(GltfDocument& document, const Group& group)
+{
+    std::vector<std::uint32_t> indices;
+    std::vector<glm::vec4> corners;
+    for (std::size_t m = 0; m < group.members.size(); ++m) {
+        indices.insert(indices.end(), group.triangles[m].begin(), group.triangles[m].end());
+        const auto& c = group.members[m]->corners;
+        corners.insert(corners.end(), c.begin(), c.end());
+    }
+    const VertexSplit split = splitVertices(group.vertexCount, indices, corners);
+    const std::size_t count = split.sources.size();
+    const bool copied = count > group.vertexCount;
+    // A vertex that no triangle uses gets a unit vector, as glTF asks for.
+    std::vector<glm::vec4> values(count, glm::vec4(1, 0, 0, 1));
+    for (std::size_t i = 0; i < corners.size(); ++i)
+        values[split.indices[i]] = corners[i];
+    const std::size_t tangents = addTangents(document, values);
+
+    Renewed renewed{{tangents, tangents}}; // those are for the new vertices already
+    std::size_t first = 0;
+    for (std::size_t m = 0; m < group.members.size(); ++m) {
+        Json& primitive = primitiveOf(document, *group.members[m]);
+        const std::size_t length = group.triangles[m].size();
+        const auto own = std::span(split.indices).subspan(first, length);
+        first += length;
+        if (!sameOrder(document, primitive, own))
+            setTriangles(document, primitive, own, count);
+        primitive["attributes"]["TANGENT"] = tangents;
+        if (copied) {
+            renewVertices(document, primitive, split.sources, renewed);
+            noteCopied(document, primitive, primitiveField(group.members[m]->mesh, group.members[m]->primitive));
+        }
+    }
+    return count - group.vertexCount;
+}
+
+// glTF wants a target to have some attribute: one without any becomes an explicit "no change".
+void fillEmptyTarget(GltfDocument& document, std::size_t count, Json& target)
+{
+    const Json zero = {0, 0, 0};
+    target["POSITION"] =
+        addItem(document, "accessors",
+                {{"componentType", gltf::kFloat}, {"count", count}, {"type", "VEC3"}, {"min", zero}, {"max", zero}});
+}
+
+// ---- provoking vertices ---------------------------------------------------------------------
+
+// What a primitive draws, as text: those that draw the same go on sharing it.
+std::string drawnBy(const Json& primitive)
+{
+    Json drawn = Json::object();
+    for (const char* const part : {"attributes", "indices", "mode", "targets"})
+        drawn[part] = primitive.contains(part) ? primitive[part] : Json();
+    return nlohmann::json(drawn).dump();
+}
+
+// The primitive with the vertices and triangles of `like`.
+void drawAs(Json& primitive, const Json& like)
+{
+    for (const char* const part : {"attributes", "indices", "targets"})
+        if (like.contains(part))
+            primitive[part] = like[part];
+    primitive.erase("mode");
+}
+
+// Nothing is changed where there are no triangles.
+GltfProvoked provoke(GltfDocument& document, std::size_t m, std::size_t p, ProvokingVertex provoking)
+{
+    Json& primitive = rootOf(document)["meshes"][m]["primitives"][p];
+    GltfProvoked done{.mesh = m, .primitive = p};
+    if (!primitive["attributes"].contains("POSITION"))
+        return done;
+    const auto position = primitive["attributes"]["POSITION"].get<std::size_t>();
+    const auto count = rootOf(document)["accessors"][position]["count"].get<std::size_t>();
+    std::vector<std::uint32_t> corners = readTriangles(document, gltf::readPrimitive(primitive));
+    if (corners.empty())
+        return done;
+    const std::vector<std::uint32_t> used = takeUsedVertices(corners, count);
+    ProvokingMesh own = provokingMesh(corners, used.size(), provoking);
+    for (std::uint32_t& source : own.sources)
+        source = used[source];
+    setTriangles(document, primitive, own.indices, own.sources.size());
+    Renewed renewed; // of this primitive: vertex k belongs to its triangle k
+    renewVertices(document, primitive, own.sources, renewed);
+    noteCopied(document, primitive, primitiveField(m, p));
+    done.triangles = corners.size() / 3;
+    done.verticesBefore = used.size();
+    done.verticesAfter = own.sources.size();
+    return done;
+}
+
+} // namespace
+
+Result<std::size_t> setGltfTangents(GltfDocument& document, std::span<const GltfCornerTangents> tangents)
+{
+    try {
+        std::size_t added = 0;
+        for (const Group& group : makeGroups(document, tangents))
+            added += setGroup(document, group);
+        return added;
+    } catch (const GltfProblem& problem) {
+        return inputError(document.source->path.string() + ": " + problem.error.message);
+    } catch (const Error& error) {
+        return error;
+    }
+}
+
+bool dropGltfTangents(GltfDocument& document, std::size_t mesh, std::size_t primitive)
+{
+    Json& p = rootOf(document)["meshes"][mesh]["primitives"][primitive];
+    if (p["attributes"].erase("TANGENT") == 0)
+        return false;
+    for (std::size_t t = 0; p.contains("targets") && t < p["targets"].size(); ++t) {
+        Json& target = p["targets"][t];
+        const auto tangents = target.find("TANGENT");
+        if (tangents == target.end())
+            continue;
+        const Json& count = rootOf(document)["accessors"][tangents->get<std::size_t>()]["count"];
+        const auto vertices = count.get<std::size_t>();
+        target.erase("TANGENT");
+        if (target.empty())
+            fillEmptyTarget(document, vertices, target);
+    }
+    return true;
+}
+
+Result<std::vector<GltfProvoked>> setGltfProvoking(GltfDocument& document, ProvokingVertex provoking)
+{
+    return caughtGltf(document.source->path, [&] {
+        std::vector<GltfProvoked> all;
+        std::map<std::string, Json> done; // by what a primitive drew what it draws now
+        (void)forEachPrimitive(rootOf(document), [&](std::size_t m, std::size_t p) -> Status {
+            Json& primitive = rootOf(document)["meshes"][m]["primitives"][p];
+            const std::string drawn = drawnBy(primitive);
+            if (const auto found = done.find(drawn); found != done.end()) {
+                drawAs(primitive, found->second);
+                return Done{};
+            }
+            const GltfProvoked row = provoke(document, m, p, provoking);
+            if (row.triangles == 0)
+                return Done{};
+            done[drawn] = primitive;
+            all.push_back(row);
+            return Done{};
+        });
+        return all;
+    });
+}
+
+} // namespace cotan

@@ -3,15 +3,14 @@
 #include <limits>
 #include <map>
 #include <new>
+#include <set>
 #include <system_error>
 
-#include "cotan/image.hpp"
 #include "edit_state.hpp"
 #include "files/bytes.hpp"
 #include "files/extension.hpp"
 #include "files/output.hpp"
 #include "image/format_table.hpp"
-#include "parse_json.hpp"
 
 namespace cotan {
 
@@ -46,27 +45,25 @@ std::map<std::size_t, fs::path> imageFiles(const GltfSource& source, const Json&
     return files;
 }
 
-std::size_t totalSize(std::vector<fs::path> files)
+std::size_t totalSize(const std::set<fs::path>& files)
 {
-    std::sort(files.begin(), files.end());
-    files.erase(std::unique(files.begin(), files.end()), files.end());
     std::size_t total = 0;
     for (const fs::path& file : files) {
         std::error_code error;
         const auto size = fs::file_size(file, error);
-        total += error ? 0 : static_cast<std::size_t>(size);
+        total += error ? 0 : std::size_t(size);
     }
     return total;
 }
 
 std::size_t sizeBefore(const GltfSource& source)
 {
-    std::vector<fs::path> files;
+    std::set<fs::path> files;
     for (const auto& [file, bytes] : source.file.bufferFiles)
-        files.push_back(file);
+        files.insert(file);
     for (const auto& [image, file] : imageFiles(source, source.root))
-        files.push_back(file);
-    return source.bytes + totalSize(std::move(files));
+        files.insert(file);
+    return source.bytes + totalSize(files);
 }
 
 std::vector<std::byte> readOrFail(const GltfSource& source, const fs::path& file, const LoadLimits& limits)
@@ -77,13 +74,6 @@ std::vector<std::byte> readOrFail(const GltfSource& source, const fs::path& file
     return std::move(*bytes);
 }
 
-// Empty: no picture that glTF knows.
-std::string mimeTypeOf(std::span<const std::byte> bytes)
-{
-    const ImageFormat* const format = imageFormatOf(bytes);
-    return std::string(format ? format->mime : "");
-}
-
 // An image file used twice is embedded once.
 void embedImages(GltfDocument& document, const LoadLimits& limits)
 {
@@ -91,10 +81,10 @@ void embedImages(GltfDocument& document, const LoadLimits& limits)
     for (const auto& [i, file] : imageFiles(*document.source, rootOf(document))) {
         if (!embedded.contains(file)) {
             std::vector<std::byte> bytes = readOrFail(*document.source, file, limits);
-            const std::string type = mimeTypeOf(bytes);
+            const ImageFormat* const format = imageFormatOf(bytes);
             embedded[file] = nullptr;
-            if (!type.empty())
-                embedded[file] = {{"mimeType", type}, {"bufferView", addView(document, std::move(bytes))}};
+            if (format && !format->mime.empty()) // else no picture that glTF knows
+                embedded[file] = {{"mimeType", format->mime}, {"bufferView", addView(document, std::move(bytes))}};
         }
         if (embedded[file].is_null())
             continue;
@@ -112,24 +102,24 @@ void embedImages(GltfDocument& document, const LoadLimits& limits)
 void appendWord(std::vector<std::byte>& bytes, std::size_t word)
 {
     for (int shift = 0; shift < 32; shift += 8)
-        bytes.push_back(static_cast<std::byte>(word >> shift & 0xff));
+        bytes.push_back(std::byte(word >> shift & 0xff));
 }
 
 void appendChunk(std::vector<std::byte>& bytes, std::uint32_t type, std::span<const std::byte> content, char padding)
 {
-    const std::size_t padded = (content.size() + 3) / 4 * 4;
+    const std::size_t padded = gltf::aligned(content.size());
     appendWord(bytes, padded);
     appendWord(bytes, type);
     bytes.insert(bytes.end(), content.begin(), content.end());
-    bytes.resize(bytes.size() + padded - content.size(), static_cast<std::byte>(padding));
+    bytes.resize(bytes.size() + padded - content.size(), std::byte(padding));
 }
 
 std::vector<std::byte> makeGlb(const Layout& layout)
 {
     constexpr std::uint32_t kJson = 0x4E4F534A, kBinary = 0x004E4942;
     const std::string text = layout.root.dump();
-    const std::size_t padded[2] = {(text.size() + 3) / 4 * 4, (layout.buffer.size() + 3) / 4 * 4};
-    const std::size_t total = 12 + 8 + padded[0] + (layout.buffer.empty() ? 0 : 8 + padded[1]);
+    const std::size_t total =
+        12 + 8 + gltf::aligned(text.size()) + (layout.buffer.empty() ? 0 : 8 + gltf::aligned(layout.buffer.size()));
     if (total > std::numeric_limits<std::uint32_t>::max())
         failGltf("a .glb of {} bytes cannot be written, the limit is 4 GiB; write .gltf", total);
     std::vector<std::byte> bytes;
@@ -148,12 +138,11 @@ std::vector<std::byte> makeGlb(const Layout& layout)
 std::string encodePercent(const std::string& name)
 {
     std::string uri;
-    for (const char c : name) {
-        const auto u = static_cast<unsigned char>(c);
-        if (std::isalnum(u) || c == '-' || c == '_' || c == '.' || c == '~')
-            uri += c;
+    for (const unsigned char c : name) {
+        if (std::isalnum(c) || c == '-' || c == '_' || c == '.' || c == '~')
+            uri += char(c);
         else
-            uri += fmt::format("%{:02X}", u);
+            uri += fmt::format("%{:02X}", c);
     }
     return uri;
 }
@@ -178,8 +167,8 @@ std::string plainName(const std::string& name)
 {
     constexpr std::size_t kMax = 64;
     std::string plain;
-    for (const char c : name.substr(0, kMax))
-        plain += std::isalnum(static_cast<unsigned char>(c)) || c == '-' || c == '_' ? c : '_';
+    for (const unsigned char c : name.substr(0, kMax))
+        plain += std::isalnum(c) || c == '-' || c == '_' ? char(c) : '_';
     return plain;
 }
 
@@ -234,10 +223,9 @@ void putImagesBeside(GltfDocument& document, const fs::path& file, const LoadLim
         const std::string ending(format == kImageFormats.end() ? ".png" : format->endings[0]);
         const auto taken = [&](const fs::path& target) {
             std::error_code error;
-            const bool here =
-                std::any_of(outputs.begin(), outputs.end(), [&](const Output& o) { return o.file == target; });
-            const bool input = std::find(read.begin(), read.end(), fs::weakly_canonical(target, error)) != read.end();
-            const bool ours = std::find(own.begin(), own.end(), encodePercent(target.filename().string())) != own.end();
+            const bool here = std::ranges::find(outputs, target, &Output::file) != outputs.end();
+            const bool input = std::ranges::find(read, fs::weakly_canonical(target, error)) != read.end();
+            const bool ours = std::ranges::find(own, encodePercent(target.filename().string())) != own.end();
             return here || input || (fs::exists(target, error) && !ours);
         };
         fs::path target = folderOf(file) / (stem + ending);
@@ -250,8 +238,7 @@ void putImagesBeside(GltfDocument& document, const fs::path& file, const LoadLim
     }
 }
 
-// Image files go to the same place relative to the new folder; what is there already has to be the
-// same.
+// Image files go to the same place relative to the new folder; what is there already has to be the same.
 void copyImages(const GltfSource& source, const Json& root, const fs::path& folder, const LoadLimits& limits,
                 std::vector<Output>& outputs)
 {
@@ -260,8 +247,7 @@ void copyImages(const GltfSource& source, const Json& root, const fs::path& fold
         return;
     for (const auto& [i, file] : imageFiles(source, root)) {
         const fs::path target = folder / file.lexically_relative(source.file.folder);
-        const auto same = [&](const Output& o) { return o.file == target; };
-        if (std::any_of(outputs.begin(), outputs.end(), same))
+        if (std::ranges::find(outputs, target, &Output::file) != outputs.end())
             continue;
         std::vector<std::byte> bytes = readOrFail(source, file, limits);
         if (fs::exists(target, error)) {
@@ -327,11 +313,12 @@ GltfWritten write(GltfDocument document, const fs::path& file, const LoadLimits&
         copyImages(*document.source, layout.root, folderOf(file), limits, outputs);
     if (Status done = writeTogether(outputs); !done)
         throw done.error();
-    std::vector<fs::path> images;
-    for (const auto& image : imageFiles(*document.source, layout.root))
-        if (const fs::path& path = image.second; std::none_of(
-                outputs.begin(), outputs.end(), [&](const Output& o) { return fs::equivalent(o.file, path, error); }))
-            images.push_back(path);
+    std::set<fs::path> images;
+    for (const auto& [i, path] : imageFiles(*document.source, layout.root)) {
+        const auto isImage = [&, &image = path](const Output& o) { return fs::equivalent(o.file, image, error); };
+        if (std::ranges::none_of(outputs, isImage))
+            images.insert(path);
+    }
     written.bytesAfter += totalSize(images);
     for (const Output& output : outputs)
         written.files.push_back(output.file);

@@ -12,13 +12,6 @@ namespace cotan::gltf {
 
 namespace {
 
-std::uint32_t indexAt(const std::byte* at, int componentType)
-{
-    std::uint32_t value = 0;
-    std::memcpy(&value, at, componentSize(componentType)); // little-endian, as the file
-    return value;
-}
-
 // Checks that `count` elements lie in the view. All numbers come from the JSON and are below 2^53,
 // strides at most 252, so nothing here overflows 64 bits.
 Run runIn(const ViewBytes& from, int view, std::size_t offset, std::size_t stride, std::size_t size, std::size_t count,
@@ -53,9 +46,9 @@ template<class Out, class Stored> Out convert(Stored value, bool normalized)
     if constexpr (std::is_same_v<Stored, float> || !std::is_same_v<Out, float>)
         return static_cast<Out>(value);
     else if (!normalized)
-        return static_cast<float>(value);
+        return float(value);
     else
-        return std::max(static_cast<float>(value) / static_cast<float>(std::numeric_limits<Stored>::max()), -1.0f);
+        return std::max(float(value) / float(std::numeric_limits<Stored>::max()), -1.0f);
 }
 
 // An element of a run, and where its numbers go.
@@ -83,17 +76,9 @@ void convertRun(const Run& run, std::size_t components, bool normalized, std::si
 template<class Out, class MoveOf>
 void convertAny(const Run& run, const Accessor& a, std::size_t count, const MoveOf& move, Out* out, std::size_t room)
 {
-    const auto as = [&](auto stored) {
+    withType(a.componentType, [&](auto stored) {
         convertRun<decltype(stored), Out>(run, componentCount(a.type), a.normalized, count, move, out, room);
-    };
-    switch (a.componentType) {
-    case kByte: return as(std::int8_t());
-    case kUnsignedByte: return as(std::uint8_t());
-    case kShort: return as(std::int16_t());
-    case kUnsignedShort: return as(std::uint16_t());
-    case kUnsignedInt: return as(std::uint32_t());
-    default: return as(float());
-    }
+    });
 }
 
 // Which sparse values go where, of those that are chosen. The indices rise: checkSparse.
@@ -107,38 +92,33 @@ std::vector<Move> sparseMoves(const Elements& elements, const Choice& choice)
         return moves;
     }
     for (std::size_t i = 0, at = 0; i < choice.chosen.size() && at < count; ++i) {
-        std::size_t end = count;
-        while (at < end) { // the first that is not below
-            const std::size_t middle = at + (end - at) / 2;
-            if (elements.sparseIndex(middle) < choice.chosen[i])
-                at = middle + 1;
-            else
-                end = middle;
-        }
+        at = elements.sparsePlace(choice.chosen[i], at);
         if (at < count && elements.sparseIndex(at) == choice.chosen[i])
             moves.push_back({at, i});
     }
     return moves;
 }
 
-template<class Out> void readNumbers(const Elements& elements, const Choice& choice, std::size_t room, Out* out)
-{
-    const Accessor& a = elements.accessor;
-    const auto dense = [&](std::size_t i) { return Move{choice.all ? i : choice.chosen[i], i}; };
-    if (elements.dense.first)
-        convertAny(elements.dense, a, choice.size(), dense, out, room);
-    if (!a.sparse)
-        return;
-    const std::vector<Move> moves = sparseMoves(elements, choice);
-    convertAny(
-        elements.sparseValues, a, moves.size(), [&](std::size_t i) { return moves[i]; }, out, room);
-}
-
 } // namespace
 
 std::uint32_t Elements::sparseIndex(std::size_t i) const
 {
-    return indexAt(sparseIndices.at(i), accessor.sparse->indicesType);
+    std::uint32_t value = 0;
+    std::memcpy(&value, sparseIndices.at(i), componentSize(accessor.sparse->indicesType)); // little-endian, as the file
+    return value;
+}
+
+std::size_t Elements::sparsePlace(std::uint32_t element, std::size_t first) const
+{
+    std::size_t end = sparseIndices.count;
+    while (first < end) {
+        const std::size_t middle = first + (end - first) / 2;
+        if (sparseIndex(middle) < element)
+            first = middle + 1;
+        else
+            end = middle;
+    }
+    return first;
 }
 
 Elements findElements(const Accessor& a, const ViewBytesOf& viewBytes, const std::string& field)
@@ -216,15 +196,21 @@ void expectIndices(const Accessor& a, const Role& role)
                  nameOfComponent(a.componentType));
 }
 
-void readFloats(const Elements& elements, const Choice& choice, std::size_t room, float* out)
+template<class Out> void readNumbers(const Elements& elements, const Choice& choice, std::size_t room, Out* out)
 {
-    readNumbers(elements, choice, room, out);
+    const Accessor& a = elements.accessor;
+    const auto dense = [&](std::size_t i) { return Move{choice.all ? i : choice.chosen[i], i}; };
+    if (elements.dense.first)
+        convertAny(elements.dense, a, choice.size(), dense, out, room);
+    if (!a.sparse)
+        return;
+    const std::vector<Move> moves = sparseMoves(elements, choice);
+    convertAny(
+        elements.sparseValues, a, moves.size(), [&](std::size_t i) { return moves[i]; }, out, room);
 }
 
-void readIntegers(const Elements& elements, const Choice& choice, std::size_t room, std::uint32_t* out)
-{
-    readNumbers(elements, choice, room, out);
-}
+template void readNumbers(const Elements&, const Choice&, std::size_t, float*);
+template void readNumbers(const Elements&, const Choice&, std::size_t, std::uint32_t*);
 
 template<class Vector> std::vector<Vector> readVectors(const Elements& elements, const Choice& choice, const Role& role)
 {
@@ -235,7 +221,7 @@ template<class Vector> std::vector<Vector> readVectors(const Elements& elements,
                  nameOfComponent(elements.accessor.componentType));
     std::vector<Vector> out(choice.size(), Vector(0));
     if (!out.empty())
-        readFloats(elements, choice, std::size_t(Vector::length()), &out[0].x);
+        readNumbers(elements, choice, std::size_t(Vector::length()), &out[0].x);
     return out;
 }
 
@@ -255,7 +241,7 @@ void renewBounds(Json& accessor, Elements elements)
     a.normalized = false; // bounds are of the numbers that are stored
     const std::size_t width = componentCount(a.type);
     std::vector<float> values(a.count * width);
-    readFloats(elements, a.count, width, values.data());
+    readNumbers(elements, a.count, width, values.data());
     for (std::size_t c = 0; c < width; ++c) {
         float low = values[c], high = values[c];
         for (std::size_t i = c; i < values.size(); i += width) {

@@ -6,20 +6,22 @@
 #include <functional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
-#include "codes.hpp"
 #include "gltf/json/views.hpp"
 
 namespace cotan::gltf {
 
-// The bytes of a buffer view as accessors see them. Where an extension packs them, they are those
-// after unpacking.
+// The bytes of a buffer view as accessors see them. Where an extension packs them, they are those after unpacking.
 struct ViewBytes {
     std::span<const std::byte> bytes;
     std::size_t stride = 0; // as in BufferView
 };
 using ViewBytesOf = std::function<ViewBytes(std::size_t view)>;
+
+// Up to a multiple of four, where attributes of vertices, views and chunks begin.
+constexpr std::size_t aligned(std::size_t bytes) { return (bytes + 3) / 4 * 4; }
 
 // A run of equally spaced elements.
 struct Run {
@@ -37,6 +39,10 @@ struct Elements {
     Run sparseIndices, sparseValues; // equally many; the indices rise once checkSparse has looked at them
 
     std::uint32_t sparseIndex(std::size_t i) const;
+
+    // The place of the sparse value of an element, from `first` on, or of the next one; their number where none
+    // follows.
+    std::size_t sparsePlace(std::uint32_t element, std::size_t first = 0) const;
 };
 
 // Throws GltfProblem where something lies outside its view. field: for the message.
@@ -71,8 +77,21 @@ struct Role {
     std::string field; // "meshes[0].primitives[1].NORMAL"
 };
 
-const char* nameOf(ElementType type);
+std::string_view nameOf(ElementType type);
 const char* nameOfComponent(int componentType);
+
+// Calls use(T()) with the type of a component.
+template<class Use> void withType(int componentType, const Use& use)
+{
+    switch (componentType) {
+    case kByte: return use(std::int8_t());
+    case kUnsignedByte: return use(std::uint8_t());
+    case kShort: return use(std::int16_t());
+    case kUnsignedShort: return use(std::uint16_t());
+    case kUnsignedInt: return use(std::uint32_t());
+    default: return use(float());
+    }
+}
 
 // Throws GltfProblem for another type or number of elements.
 void expectElements(const Accessor& accessor, ElementType type, std::size_t count, const Role& role);
@@ -81,9 +100,8 @@ void expectElements(const Accessor& accessor, ElementType type, std::size_t coun
 void expectIndices(const Accessor& accessor, const Role& role);
 
 // The numbers of the chosen elements, sparse values put in: integers that are normalised become [0,1]
-// or [-1,1], others their value. out: zeros; an element has room for `room` numbers there.
-void readFloats(const Elements& elements, const Choice& choice, std::size_t room, float* out);
-void readIntegers(const Elements& elements, const Choice& choice, std::size_t room, std::uint32_t* out);
+// or [-1,1], others their value. Out: float or std::uint32_t. out: zeros; an element has room for `room` numbers there.
+template<class Out> void readNumbers(const Elements& elements, const Choice& choice, std::size_t room, Out* out);
 
 // The same as vectors. Throws GltfProblem where the elements are none, and for unsigned integers.
 template<class Vector>

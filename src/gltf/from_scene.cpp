@@ -1,7 +1,6 @@
 // A scene as a glTF document, so that what came from another format can be written as glTF.
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <limits>
 
 #include "cotan/image.hpp"
@@ -25,7 +24,7 @@ std::size_t addElements(GltfDocument& document, const std::vector<T>& elements, 
                      {"count", elements.size()},
                      {"type", type}};
     accessor.update(more);
-    return addAccessor(document, std::move(accessor));
+    return addItem(document, "accessors", std::move(accessor));
 }
 
 Json array(const glm::vec3& v) { return Json::array({v.x, v.y, v.z}); }
@@ -70,10 +69,8 @@ Json primitiveOf(GltfDocument& document, const Mesh& mesh, const Material& mater
 
 std::size_t addTexture(GltfDocument& document, const Texture& texture)
 {
-    rootOf(document)["samplers"].push_back(gltf::writeSampler(texture.sampler));
-    rootOf(document)["textures"].push_back(
-        {{"source", std::size_t(texture.image)}, {"sampler", rootOf(document)["samplers"].size() - 1}});
-    return rootOf(document)["textures"].size() - 1;
+    const std::size_t sampler = addItem(document, "samplers", gltf::writeSampler(texture.sampler));
+    return addItem(document, "textures", {{"source", std::size_t(texture.image)}, {"sampler", sampler}});
 }
 
 // KHR_texture_transform knows a turn and two scales: uRow = (c sx, s sy, ox), vRow = (-s sx, c sy, oy).
@@ -174,13 +171,11 @@ Result<GltfDocument> gltfDocumentOf(const Scene& scene)
             return png.error();
         addGltfImage(document, std::move(*png), "image/png", image.name);
     }
-    for (const Material& material : scene.materials) {
-        Json made = materialOf(document, material);
-        root["materials"].push_back(std::move(made));
-    }
+    for (const Material& material : scene.materials)
+        addItem(document, "materials", materialOf(document, material));
     for (const Mesh& mesh : scene.meshes) {
         Json primitive = primitiveOf(document, mesh, scene.materials[std::size_t(mesh.material)]);
-        root["meshes"].push_back({{"name", mesh.name}, {"primitives", Json::array({std::move(primitive)})}});
+        addItem(document, "meshes", {{"name", mesh.name}, {"primitives", Json::array({std::move(primitive)})}});
     }
     Json nodes = Json::array(), indices = Json::array();
     for (const Instance& instance : scene.instances) {

@@ -1,13 +1,13 @@
 #include "gltf_file.hpp"
 
 #include <array>
+#include <charconv>
 #include <optional>
 #include <string_view>
 
 #include "files/bytes.hpp"
 #include "files/extension.hpp"
 #include "files/folder.hpp"
-#include "parse_json.hpp"
 
 namespace cotan {
 
@@ -39,9 +39,10 @@ void checkHeader(std::span<const std::byte> bytes)
         failGltf("GLB header: it says that the file has {} bytes, found {}", readWord(bytes, 8), bytes.size());
 }
 
-// Walks the chunks; unknown ones are passed over, as the specification asks.
-void splitChunks(GltfFile& file, GltfWarnings& warnings)
+// Walks the chunks and returns the JSON; unknown ones are passed over, as the specification asks.
+std::span<const std::byte> splitChunks(GltfFile& file, GltfWarnings& warnings)
 {
+    std::span<const std::byte> text;
     const std::span<const std::byte> bytes = file.bytes;
     checkHeader(bytes);
     std::size_t at = 12;
@@ -59,23 +60,15 @@ void splitChunks(GltfFile& file, GltfWarnings& warnings)
             failGltf("GLB chunk {}: expected {}, found type 0x{:08x}", chunk,
                      chunk == 0 ? "JSON first" : "JSON only once", type);
         if (chunk == 0)
-            file.text = bytes.subspan(at + 8, length);
+            text = bytes.subspan(at + 8, length);
         if (chunk == 1 && type == kChunkBinary)
             file.binary = bytes.subspan(at + 8, length);
         at += 8 + length;
     }
+    return text;
 }
 
 // ---- URIs -----------------------------------------------------------------------------------
-
-int hexDigit(char c)
-{
-    if (c >= '0' && c <= '9')
-        return c - '0';
-    if (c >= 'a' && c <= 'f')
-        return c - 'a' + 10;
-    return c >= 'A' && c <= 'F' ? c - 'A' + 10 : -1;
-}
 
 // "%20" becomes a space. A percent sign that starts no code stands for itself: files named so
 // exist, written by exporters that do not encode.
@@ -83,9 +76,12 @@ std::string decodePercent(std::string_view uri)
 {
     std::string text;
     for (std::size_t i = 0; i < uri.size(); ++i) {
-        const bool code = uri[i] == '%' && i + 2 < uri.size() && hexDigit(uri[i + 1]) >= 0 && hexDigit(uri[i + 2]) >= 0;
-        text += code ? static_cast<char>(hexDigit(uri[i + 1]) * 16 + hexDigit(uri[i + 2])) : uri[i];
-        i += code ? 2 : 0;
+        unsigned code = 0;
+        const char* const digits = uri.data() + i + 1;
+        const bool coded =
+            uri[i] == '%' && i + 2 < uri.size() && std::from_chars(digits, digits + 2, code, 16).ptr == digits + 2;
+        text += coded ? char(code) : uri[i];
+        i += coded ? 2 : 0;
     }
     return text;
 }
@@ -115,11 +111,11 @@ std::optional<std::vector<std::byte>> decodeBase64(std::string_view text)
         const int digit = kBase64[static_cast<unsigned char>(c)];
         if (digit < 0)
             return std::nullopt;
-        bits = bits << 6 | static_cast<std::uint32_t>(digit);
+        bits = bits << 6 | std::uint32_t(digit);
         held += 6;
         if (held >= 8) {
             held -= 8;
-            bytes.push_back(static_cast<std::byte>(bits >> held & 0xff));
+            bytes.push_back(std::byte(bits >> held & 0xff));
         }
     }
     return bytes;
@@ -132,7 +128,7 @@ std::vector<std::byte> decodeDataUri(std::string_view uri, const std::string& fi
     const std::size_t comma = uri.find(',');
     const std::string_view head = uri.substr(0, comma);
     if (comma == std::string_view::npos || !head.ends_with(";base64") || head.find(";;") != std::string_view::npos)
-        failGltf("{}: expected data:TYPE;base64,... , found {}...", field, oneLine(std::string(uri.substr(0, 60))));
+        failGltf("{}: expected data:TYPE;base64,... , found {}...", field, oneLine(uri.substr(0, 60)));
     auto bytes = decodeBase64(uri.substr(comma + 1));
     if (!bytes)
         failGltf("{}: the data URI is not valid base64", field);
@@ -177,24 +173,16 @@ GltfFile openGltf(const fs::path& path, const LoadLimits& limits, GltfWarnings& 
 {
     GltfFile file;
     file.readFile = limits.readFile;
-    Result<std::vector<std::byte>> bytes = readGltfResource(file, path, limits);
-    if (!bytes)
-        throw GltfProblem{inputError(bytes.error().message)};
-    file.bytes = std::move(*bytes);
+    file.bytes = valueOrFail(readGltfResource(file, path, limits));
     file.size = file.bytes.size();
     if (!file.readFile)
         file.folder = fs::canonical(path.has_parent_path() ? path.parent_path() : fs::path("."));
     file.isBinary = file.bytes.size() >= 4 && readWord(file.bytes, 0) == kMagic;
     if (!file.isBinary && lowerExtension(path) == ".glb")
         failGltf("GLB header: expected the file to begin with \"glTF\"");
-    if (file.isBinary)
-        splitChunks(file, warnings);
-    else
-        file.text = file.bytes;
-    file.json = parseGltfJson(file.text);
+    file.json = parseGltfJson(file.isBinary ? splitChunks(file, warnings) : file.bytes);
     if (!file.isBinary)
         file.bytes = {}; // large where buffers are embedded as text
-    file.text = {};
     return file;
 }
 
@@ -206,7 +194,7 @@ GltfResource resolveGltfUri(const GltfFile& file, std::string_view uri, const st
         return resource;
     }
     if (hasScheme(uri))
-        failGltf("{}: expected a file in the model's folder, found \"{}\"", field, oneLine(std::string(uri)));
+        failGltf("{}: expected a file in the model's folder, found \"{}\"", field, oneLine(uri));
     if (file.readFile) {
         resource.file = decodePercent(uri);
         return resource;
@@ -214,10 +202,9 @@ GltfResource resolveGltfUri(const GltfFile& file, std::string_view uri, const st
     bool outside = false;
     const std::optional<fs::path> found = findInFolder(file.folder, decodePercent(uri), outside);
     if (outside)
-        failGltf("{}: expected a file in the model's folder, found \"{}\", which leads out of it", field,
-                 oneLine(std::string(uri)));
+        failGltf("{}: expected a file in the model's folder, found \"{}\", which leads out of it", field, oneLine(uri));
     if (!found && !mayMiss)
-        failGltf("{}: there is no file \"{}\" in the model's folder", field, oneLine(std::string(uri)));
+        failGltf("{}: there is no file \"{}\" in the model's folder", field, oneLine(uri));
     resource.file = found.value_or(fs::path());
     return resource;
 }
@@ -226,7 +213,7 @@ bool isGltfFallback(const gltf::Json& buffer)
 {
     if (gltf::member(buffer, "uri"))
         return false;
-    for (const char* const name : {"EXT_meshopt_compression", "KHR_meshopt_compression"})
+    for (const char* const name : kMeshoptExtensions)
         if (const gltf::Json* const packed = gltf::extension(buffer, name))
             return gltf::valueOr(*packed, "fallback", false);
     return false;

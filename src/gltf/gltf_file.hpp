@@ -24,6 +24,7 @@ struct GltfResource {
 };
 
 inline constexpr const char* kDracoExtension = "KHR_draco_mesh_compression";
+inline constexpr const char* kMeshoptExtensions[] = {"EXT_meshopt_compression", "KHR_meshopt_compression"};
 
 // Compressed geometry as the file has it, for who writes the file again: nobody has to compress what nobody changed.
 struct GltfPacked {
@@ -43,7 +44,6 @@ struct GltfFile {
     std::function<Result<std::vector<std::byte>>(const std::string&)> readFile; // in place of the disk; LoadLimits
     std::filesystem::path folder;                                               // canonical; nothing outside is opened
     std::vector<std::byte> bytes;                                               // the whole file, where it is a GLB
-    std::span<const std::byte> text;                                            // its JSON, until that is parsed
     std::span<const std::byte> binary; // the BIN chunk of a GLB; empty if there is none
     bool isBinary = false;
     std::size_t size = 0; // bytes of the model and, once they are loaded, of its buffer files
@@ -56,8 +56,11 @@ struct GltfFile {
     GltfPacked packed;                                                   // what they were made of
 };
 
-// Reads the file, splits a GLB into chunks and parses the JSON. Every length is checked against
-// the file.
+// In time that grows with the length of the text alone. Of members of the same name the last counts. Throws
+// GltfProblem where it is no JSON, and where it is nested too deep.
+gltf::Json parseGltfJson(std::span<const std::byte> text);
+
+// Reads the file, splits a GLB into chunks and parses the JSON. Every length is checked against the file.
 GltfFile openGltf(const std::filesystem::path& path, const LoadLimits& limits, GltfWarnings& warnings);
 
 // The bytes of a resource that is a file, be it on the disk or not.
@@ -70,18 +73,39 @@ bool isGltfFallback(const gltf::Json& buffer);
 // Fills GltfFile::buffers; those of isGltfFallback stay empty. The JSON must have passed checkGltfShape.
 void loadGltfBuffers(GltfFile& file, const LoadLimits& limits);
 
-// What a URI of the model stands for. Data URIs are decoded. Files are looked up in the model's
-// folder; schemes, absolute paths and anything that leads out of the folder, be it by ".." or by a
-// symbolic link, are refused. field: where the URI stands, for messages. mayMiss: a file that does
-// not exist gives an empty resource instead of a failure.
+// What a URI of the model stands for. Data URIs are decoded. Files are looked up in the model's folder; schemes,
+// absolute paths and anything that leads out of the folder, be it by ".." or by a symbolic link, are refused. field:
+// where the URI stands, for messages. mayMiss: a file that does not exist gives an empty resource instead of a failure.
 GltfResource resolveGltfUri(const GltfFile& file, std::string_view uri, const std::string& field, bool mayMiss = false);
 
-// Checks that every member the reader uses has the type, range and length that the glTF 2.0
-// specification asks for, and that every index points at something. Also the version and the
-// required extensions.
+// Checks that every member the reader uses has the type, range and length that the glTF 2.0 specification asks for, and
+// that every index points at something. Also the version and the required extensions.
 void checkGltfShape(const gltf::Json& root, const LoadLimits& limits, GltfWarnings& warnings);
 
 // The same for what poseGltf reads.
 void checkGltfAnimations(const gltf::Json& root);
+
+// ---- compressed geometry: KHR_draco_mesh_compression, EXT_ and KHR_meshopt_compression ------
+
+// Decodes what the extensions hold into new buffers, points views and accessors there, and takes the extensions out of
+// the JSON: nothing behind this has to know of them. Where the plain numbers are in the file too, those are taken. The
+// buffers must be loaded. Decoded bytes count in GltfFile::unpacked; over limits.geometryBytes and 64 times the size of
+// the file they are refused before they are decoded.
+// Throws GltfProblem: damaged streams; ErrorKind::unavailable where this build lacks the decoder.
+void unpackGltf(GltfFile& file, const LoadLimits& limits);
+
+namespace gltf {
+
+// A buffer view as EXT_meshopt_compression has it.
+struct MeshoptView {
+    std::span<const std::byte> bytes;
+    std::size_t count = 0, stride = 0; // of the elements
+    std::string mode, filter;          // the extension's words
+};
+
+// count * stride bytes. field: for messages. Throws GltfProblem.
+std::vector<std::byte> decodeMeshopt(const MeshoptView& view, const std::string& field);
+
+} // namespace gltf
 
 } // namespace cotan

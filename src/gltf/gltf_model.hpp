@@ -4,18 +4,61 @@
 #include <cstddef>
 #include <cstdint>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <glm/mat4x4.hpp>
-#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
 
 #include "cotan/files.hpp"
+#include "cotan/gltf.hpp"
 #include "elements.hpp"
 #include "gltf_file.hpp"
 #include "problem.hpp"
-#include "structure.hpp"
+
+namespace cotan::gltf {
+
+// A material without its textures, and how it uses those.
+struct MaterialSource {
+    Material factors;
+    TextureUse baseColor, metallicRoughness, normal, occlusion, emissive;
+    TextureUse coat, coatRoughness, coatNormal, anisotropy, specular, specularColor, sheenColor, sheenRoughness,
+        transmission;
+    std::string frame; // that the maps were made for, by the extras; empty if they say nothing
+};
+
+// Lights and cameras stand at the origin and look along -z, until a node places them.
+struct Structure {
+    std::vector<std::vector<int>> scenes; // the nodes that each lists
+    int defaultScene = -1;
+    std::vector<Node> nodes;
+    std::vector<Mesh> meshes;
+    std::vector<Skin> skins;
+    std::vector<Camera> cameras;
+    std::vector<Light> lights;
+    std::vector<MaterialSource> materials;
+    std::vector<Texture> textures;
+    std::vector<Image> images; // their URIs point into the JSON
+    std::vector<Sampler> samplers;
+};
+
+// root: has passed checkGltfShape. Throws GltfProblem where a camera or a spot light is not described.
+Structure readStructure(const Json& root);
+
+// Calls read(object) for each of a collection of the root, or of an extension of it.
+template<class Read> auto readAll(const Json* owner, const char* collection, const Read& read)
+{
+    std::vector<decltype(read(std::declval<const Json&>()))> all;
+    if (const Json* const list = owner ? member(*owner, collection) : nullptr) {
+        all.reserve(list->size());
+        for (const Json& item : *list)
+            all.push_back(read(item));
+    }
+    return all;
+}
+
+} // namespace cotan::gltf
 
 namespace cotan {
 
@@ -32,7 +75,7 @@ struct GltfModel {
 };
 
 // Reads what `file`, just opened, holds, within `limits`: checks the JSON, loads the buffers, decodes compressed
-// geometry (unpack.hpp), fills the structure, the views and the accessors, moves the nodes (animate.hpp).
+// geometry, fills the structure, the views and the accessors, moves the nodes (poseGltf).
 void readGltfModel(GltfModel& model);
 
 // The bytes that the geometry of this file may take: a part that every file has, and so many times
@@ -43,6 +86,10 @@ inline std::size_t gltfAllowance(const GltfModel& model)
 {
     return model.limits.geometryBytes + 16 * model.file.size + 4 * model.file.unpacked;
 }
+
+// The place in names of what is wanted, by its name, of several the first, or by its number. what: for the message, in
+// the plural. Throws GltfProblem with ErrorKind::usage, which lists the names, where there is no such thing.
+std::size_t findNamed(const std::vector<std::string>& names, const std::string& wanted, const char* what);
 
 // Counts bytes before they are allocated. field: for the message where they are too many.
 void takeGltfBytes(GltfModel& model, std::size_t bytes, const std::string& field);
@@ -72,5 +119,37 @@ std::vector<glm::mat4> readGltfMatrices(GltfModel& model, int accessor, std::siz
 // Vertex indices, each below vertexCount and none the primitive restart value.
 std::vector<std::uint32_t> readGltfIndices(GltfModel& model, int accessor, std::size_t vertexCount,
                                            const std::string& field);
+
+// ---- the node hierarchy, and what hangs on it besides meshes --------------------------------
+
+struct GltfNodes {
+    std::vector<glm::dmat4> world; // of every node, in the order of the file
+    std::vector<int> visible;      // nodes of the scene that is shown, parents first
+};
+
+// Resolves the hierarchy. Cycles, nodes with two parents and transforms that are not affine or
+// not finite are refused. The scene shown is the default one, else the first, else all roots.
+GltfNodes readGltfNodes(GltfModel& model);
+
+// Where the node's mesh stands: one matrix, or one for each instance of EXT_mesh_gpu_instancing.
+std::vector<glm::mat4> gltfPlacements(GltfModel& model, const GltfNodes& nodes, int node);
+
+// Lights and cameras of the visible nodes.
+void addGltfLightsAndCameras(const GltfModel& model, const GltfNodes& nodes, Scene& scene);
+
+// ---- animations -----------------------------------------------------------------------------
+
+// Sets translation, rotation, scale and weights of the nodes that limits.pose moves; everything that is read from the
+// structure afterwards follows. Nothing where no animation is asked for. The accessors must have been found. Times
+// before the first and behind the last key of a channel give that key.
+// Throws GltfProblem: ErrorKind::usage where the model has no such animation; damaged channels. Source: glTF 2.0,
+// section 3.11 and appendix C.
+void poseGltf(GltfModel& model);
+
+// The animations of the file and how long they are. Never fails: what is damaged in one is said where it is asked for.
+std::vector<GltfAnimation> gltfAnimations(GltfModel& model);
+
+// As AnimatedGltf::reach, each time anew.
+Result<std::vector<glm::vec3>> pointsReached(AnimatedGltf& model, const std::string& animation);
 
 } // namespace cotan

@@ -5,7 +5,6 @@
 #include <fmt/format.h>
 
 #include "gltf/json/lookup.hpp"
-#include "gltf/json/placed.hpp"
 
 namespace cotan {
 

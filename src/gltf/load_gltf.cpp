@@ -1,22 +1,18 @@
 // glTF 2.0 and GLB files to Scene.
+#include <algorithm>
 #include <map>
 #include <tuple>
 #include <utility>
 
-#include "animate.hpp"
-#include "cotan/gltf.hpp"
 #include "material.hpp"
 #include "mesh.hpp"
-#include "nodes.hpp"
-#include "reach.hpp"
 #include "scene/normal_maps.hpp"
 
 namespace cotan {
 
 namespace {
 
-// A mesh of the file as one node needs it: primitives depend on the node where there are morph
-// weights or a skin.
+// A mesh of the file as one node needs it: primitives depend on the node where there are morph weights or a skin.
 struct MeshUse {
     int mesh = -1;
     int skin = -1;
@@ -40,8 +36,7 @@ public:
         readSkins();
         placeMeshes();
         checkUnusedMeshes();
-        scene_.lights = readGltfLights(model_, nodes_);
-        scene_.cameras = readGltfCameras(model_, nodes_);
+        addGltfLightsAndCameras(model_, nodes_, scene_);
         if (images && images->size() == scene_.images.size()) {
             scene_.images = *images;
         } else {
@@ -65,17 +60,19 @@ private:
                                         field + ".inverseBindMatrices");
             std::vector<glm::dmat4>& joints = joints_.emplace_back();
             for (std::size_t j = 0; j < skin.joints.size(); ++j)
-                joints.push_back(nodes_.world[static_cast<std::size_t>(skin.joints[j])] * glm::dmat4(bind[j]));
+                joints.push_back(nodes_.world[std::size_t(skin.joints[j])] * glm::dmat4(bind[j]));
         }
     }
 
     Mesh finish(GltfPrimitive&& primitive)
     {
-        const int set = gltfNormalMapSet(model_, primitive.material);
-        return finishGltfMesh(std::move(primitive), set, model_.warnings);
+        const int material = primitive.mesh.material;
+        const gltf::TextureUse map =
+            material < 0 ? gltf::TextureUse{} : model_.structure.materials[std::size_t(material)].normal;
+        return finishGltfMesh(std::move(primitive), map.texture < 0 ? -1 : map.texcoord, model_.warnings);
     }
 
-    const gltf::Mesh& sourceMesh(int mesh) const { return model_.structure.meshes[static_cast<std::size_t>(mesh)]; }
+    const gltf::Mesh& sourceMesh(int mesh) const { return model_.structure.meshes[std::size_t(mesh)]; }
 
     // The scene's meshes for a use, made when it is met first.
     const std::vector<int>& meshesFor(const MeshUse& use)
@@ -88,56 +85,46 @@ private:
             if (!primitive)
                 continue;
             if (use.skin >= 0)
-                skinGltfPrimitive(*primitive, joints_[static_cast<std::size_t>(use.skin)], model_.warnings);
-            const int material = primitive->material;
+                skinGltfPrimitive(*primitive, joints_[std::size_t(use.skin)], model_.warnings);
             Mesh mesh = finish(std::move(*primitive));
-            mesh.material = materials_.use(material, mesh);
-            entry->second.push_back(static_cast<int>(scene_.meshes.size()));
+            mesh.material = materials_.use(mesh.material, mesh);
+            entry->second.push_back(int(scene_.meshes.size()));
             scene_.meshes.push_back(std::move(mesh));
         }
         return entry->second;
     }
 
-    bool hasJoints(int mesh) const
-    {
-        for (const gltf::Primitive& p : sourceMesh(mesh).primitives)
-            if (gltf::accessorOf(p.attributes, "JOINTS_0") < 0)
-                return false;
-        return true;
-    }
-
     MeshUse useOf(int node)
     {
-        const gltf::Node& n = model_.structure.nodes[static_cast<std::size_t>(node)];
+        const gltf::Node& n = model_.structure.nodes[std::size_t(node)];
         MeshUse use{n.mesh, n.skin, n.weights.empty() ? sourceMesh(n.mesh).weights : n.weights};
-        if (use.skin >= 0 && !hasJoints(use.mesh)) {
+        const bool hasJoints = std::ranges::all_of(sourceMesh(use.mesh).primitives, [](const gltf::Primitive& p) {
+            return p.attributes.contains("JOINTS_0");
+        });
+        if (use.skin >= 0 && !hasJoints) {
             use.skin = -1;
             model_.warnings.add(fmt::format("nodes[{}]", node), "its mesh lacks JOINTS_0, so its skin is ignored");
         }
         return use;
     }
 
-    void addInstances(int node, const std::vector<int>& meshes, const std::vector<glm::mat4>& placements)
-    {
-        const std::string& name = model_.structure.nodes[static_cast<std::size_t>(node)].name;
-        if (meshes.size() * placements.size() > model_.limits.nodes - scene_.instances.size())
-            failGltf("nodes[{}]: the limit is {} instances in all", node, model_.limits.nodes);
-        for (const glm::mat4& placement : placements)
-            for (const int mesh : meshes)
-                scene_.instances.push_back(
-                    {name.empty() ? scene_.meshes[static_cast<std::size_t>(mesh)].name : name, mesh, placement});
-    }
-
     // A skin puts vertices into world space by itself: the node's transform does not count.
     void placeMeshes()
     {
         for (const int node : nodes_.visible) {
-            if (model_.structure.nodes[static_cast<std::size_t>(node)].mesh < 0)
+            const gltf::Node& source = model_.structure.nodes[std::size_t(node)];
+            if (source.mesh < 0)
                 continue;
             const MeshUse use = useOf(node);
             const std::vector<int>& meshes = meshesFor(use);
-            addInstances(node, meshes,
-                         use.skin >= 0 ? std::vector<glm::mat4>{glm::mat4(1)} : gltfPlacements(model_, nodes_, node));
+            const std::vector<glm::mat4> placements =
+                use.skin >= 0 ? std::vector<glm::mat4>{glm::mat4(1)} : gltfPlacements(model_, nodes_, node);
+            if (meshes.size() * placements.size() > model_.limits.nodes - scene_.instances.size())
+                failGltf("nodes[{}]: the limit is {} instances in all", node, model_.limits.nodes);
+            for (const glm::mat4& placement : placements)
+                for (const int mesh : meshes)
+                    scene_.instances.push_back(
+                        {source.name.empty() ? scene_.meshes[std::size_t(mesh)].name : source.name, mesh, placement});
         }
     }
 
@@ -146,10 +133,10 @@ private:
     {
         std::vector<bool> used(model_.structure.meshes.size(), false);
         for (const auto& [use, meshes] : made_)
-            used[static_cast<std::size_t>(use.mesh)] = true;
+            used[std::size_t(use.mesh)] = true;
         for (std::size_t m = 0; m < used.size(); ++m)
             for (std::size_t p = 0; !used[m] && p < model_.structure.meshes[m].primitives.size(); ++p)
-                if (auto primitive = readGltfPrimitive(model_, static_cast<int>(m), p, {}))
+                if (auto primitive = readGltfPrimitive(model_, int(m), p, {}))
                     finish(std::move(*primitive));
     }
 

@@ -3,6 +3,11 @@
 #include <algorithm>
 
 #include <fmt/format.h>
+#include <glm/geometric.hpp>
+
+#include "cotan/portable.hpp"
+#include "mesh.hpp"
+#include "scene/geometry.hpp"
 
 namespace cotan {
 
@@ -28,9 +33,9 @@ void collectTextures(const Json& object, const std::vector<const Json*>& besides
     for (const auto& [key, value] : object.items()) {
         if (std::ranges::find(besides, &value) != besides.end())
             continue;
-        const bool slot = key.size() >= 7 && key.ends_with("exture") && value.is_object() && value.contains("index");
-        if (slot && value["index"].is_number_unsigned())
-            textures.insert(value["index"].get<std::size_t>());
+        const Json* const index = key.size() >= 7 && key.ends_with("exture") ? gltf::member(value, "index") : nullptr;
+        if (index && index->is_number_unsigned())
+            textures.insert(index->get<std::size_t>());
         collectTextures(value, besides, textures);
     }
 }
@@ -38,10 +43,9 @@ void collectTextures(const Json& object, const std::vector<const Json*>& besides
 // Where a material has a normal map; null where it has none.
 const Json* slotOf(const Json& material, NormalSlot slot)
 {
-    if (slot == NormalSlot::surface)
-        return gltf::member(material, "normalTexture");
-    const Json* const coat = gltf::extension(material, "KHR_materials_clearcoat");
-    return coat ? gltf::member(*coat, "clearcoatNormalTexture") : nullptr;
+    return slot == NormalSlot::surface
+        ? gltf::member(material, "normalTexture")
+        : gltf::member(gltf::extension(material, "KHR_materials_clearcoat"), "clearcoatNormalTexture");
 }
 
 } // namespace
@@ -55,15 +59,15 @@ std::vector<std::size_t> materialsOf(const Json& root, const Json& primitive)
 {
     std::vector<std::size_t> materials;
     const auto add = [&](const Json& object) {
-        if (!object.is_object() || !object.contains("material") || !object["material"].is_number_unsigned())
+        const Json* const material = gltf::member(object, "material");
+        if (!material || !material->is_number_unsigned())
             return;
-        const std::size_t m = object["material"].get<std::size_t>();
-        if (m < countOf(root, "materials") && std::find(materials.begin(), materials.end(), m) == materials.end())
+        const std::size_t m = material->get<std::size_t>();
+        if (m < countOf(root, "materials") && std::ranges::find(materials, m) == materials.end())
             materials.push_back(m);
     };
     add(primitive);
-    const Json* const variants = gltf::extension(primitive, "KHR_materials_variants");
-    const Json* const mappings = variants ? gltf::member(*variants, "mappings") : nullptr;
+    const Json* const mappings = gltf::member(gltf::extension(primitive, "KHR_materials_variants"), "mappings");
     if (mappings && mappings->is_structured()) // of an extension nothing has been checked
         for (const Json& mapping : *mappings)
             add(mapping);
@@ -72,10 +76,7 @@ std::vector<std::size_t> materialsOf(const Json& root, const Json& primitive)
 
 gltf::TextureUse normalMapOf(const Json& root, std::size_t material, NormalSlot slot)
 {
-    const Json& surface = root["materials"][material];
-    return slot == NormalSlot::surface
-        ? gltf::readTextureUse(&surface, "normalTexture")
-        : gltf::readTextureUse(gltf::extension(surface, "KHR_materials_clearcoat"), "clearcoatNormalTexture");
+    return gltf::readTextureUse(slotOf(root["materials"][material], slot));
 }
 
 Json& normalSlotOf(Json& root, std::size_t material, NormalSlot slot)
@@ -131,6 +132,68 @@ void takeOffExtension(Json& root, const std::string& name)
         if (items.empty())
             root.erase(list);
     }
+}
+
+// ---- as it stands in the world --------------------------------------------------------------
+
+std::vector<std::vector<glm::dmat3>> gltfPlacings(const Json& root)
+{
+    std::vector<std::vector<glm::dmat3>> result(countOf(root, "meshes"));
+    const std::vector<gltf::Node> nodes = gltf::readAll(&root, "nodes", gltf::readNode);
+    std::vector<bool> child(nodes.size(), false);
+    for (const gltf::Node& node : nodes)
+        for (const int c : node.children)
+            child[std::size_t(c)] = true;
+    std::vector<std::pair<std::size_t, glm::dmat3>> open;
+    for (std::size_t n = 0; n < nodes.size(); ++n)
+        if (!child[n])
+            open.emplace_back(n, glm::dmat3(1));
+    while (!open.empty()) { // a forest: openGltfDocument has checked it
+        const auto [n, above] = open.back();
+        open.pop_back();
+        const gltf::Node& node = nodes[n];
+        const glm::dmat3 here = above * glm::dmat3(gltf::localMatrix(node));
+        for (const int c : node.children)
+            open.emplace_back(std::size_t(c), here);
+        if (node.mesh >= 0) // a skin replaces the node
+            addPlacing(result[std::size_t(node.mesh)], node.skin >= 0 ? glm::dmat3(1) : here);
+    }
+    placeUnshown(result);
+    return result;
+}
+
+void makeUnit(std::vector<glm::vec3>& normals)
+{
+    for (glm::vec3& n : normals)
+        n = unitNormal(n);
+}
+
+Mesh gltfMesh(GltfGeometry geometry)
+{
+    Mesh mesh;
+    mesh.positions = std::move(geometry.positions);
+    mesh.normals = std::move(geometry.normals);
+    mesh.tangents = std::move(geometry.tangents);
+    mesh.texcoords[0] = std::move(geometry.texcoords);
+    mesh.indices = std::move(geometry.indices);
+    makeUnit(mesh.normals);
+    if (!mesh.normals.empty())
+        return mesh;
+    Mesh flat;
+    for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
+        const glm::vec3 &a = mesh.positions[mesh.indices[i]], &b = mesh.positions[mesh.indices[i + 1]],
+                        &c = mesh.positions[mesh.indices[i + 2]];
+        const glm::vec3 n = f32::cotan_normalize_or(glm::cross(b - a, c - a), glm::vec3(0));
+        for (std::size_t k = 0; k < 3; ++k) {
+            const std::uint32_t v = mesh.indices[i + k];
+            flat.positions.push_back(mesh.positions[v]);
+            flat.normals.push_back(n);
+            if (!mesh.texcoords[0].empty())
+                flat.texcoords[0].push_back(mesh.texcoords[0][v]);
+            flat.indices.push_back(std::uint32_t(i + k));
+        }
+    }
+    return flat;
 }
 
 } // namespace cotan

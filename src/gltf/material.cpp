@@ -1,55 +1,45 @@
 #include "material.hpp"
 
+#include <algorithm>
+#include <atomic>
+
+#include "core/loops.hpp"
+#include "cotan/image.hpp"
+#include "files/folder.hpp"
+#include "image/component_types.hpp"
+
 namespace cotan {
 
-int gltfNormalMapSet(const GltfModel& model, int material)
-{
-    if (material < 0)
-        return -1;
-    const gltf::TextureUse& map = model.structure.materials[static_cast<std::size_t>(material)].normal;
-    return map.texture < 0 ? -1 : map.texcoord;
-}
-
-// The image of a texture, or the one that an extension gives it in another format; -1 if there is none.
-int GltfMaterials::imageOf(const gltf::Texture& texture) const
-{
-    return texture.image >= 0 || model_.limits.pixels == Pixels::all ? texture.image : texture.foreign;
-}
-
-int GltfMaterials::imageSlot(int image)
-{
-    image = firstEqual(image);
-    const auto [slot, isNew] = slots_.emplace(image, static_cast<int>(scene_.images.size()));
-    if (isNew)
-        scene_.images.emplace_back();
-    return slot->second;
-}
+namespace fs = std::filesystem;
 
 Texture GltfMaterials::texture(const gltf::TextureUse& use, const Mesh& mesh, const std::string& field)
 {
     Texture texture;
     if (use.texture < 0)
         return texture;
-    const gltf::Texture& source = model_.structure.textures[static_cast<std::size_t>(use.texture)];
-    const int image = imageOf(source);
+    const gltf::Texture& source = model_.structure.textures[std::size_t(use.texture)];
+    // Its own, or the one that an extension gives it in another format.
+    const int image = source.image >= 0 || model_.limits.pixels == Pixels::all ? source.image : source.foreign;
     if (image < 0) {
         model_.warnings.add(fmt::format("textures[{}]", use.texture), "no PNG or JPEG image, the texture is left out");
         return texture;
     }
     const int set = use.texcoord;
-    if (set < 0 || set > 1 || mesh.texcoords[static_cast<std::size_t>(set)].empty()) {
-        model_.warnings.add(field,
-                            fmt::format("it asks for TEXCOORD_{}, which is missing from a "
-                                        "mesh that uses it; left out there",
-                                        set));
+    if (set < 0 || set > 1 || mesh.texcoords[std::size_t(set)].empty()) {
+        model_.warnings.add(
+            field,
+            fmt::format("it asks for TEXCOORD_{}, which is missing from a mesh that uses it; left out there", set));
         return texture;
     }
     texture.texcoord = set;
     if (source.sampler >= 0)
-        texture.sampler = model_.structure.samplers[static_cast<std::size_t>(source.sampler)];
+        texture.sampler = model_.structure.samplers[std::size_t(source.sampler)];
     texture.uRow = use.uRow;
     texture.vRow = use.vRow;
-    texture.image = imageSlot(image);
+    const auto [slot, isNew] = slots_.emplace(firstEqual(image), int(scene_.images.size()));
+    if (isNew)
+        scene_.images.emplace_back();
+    texture.image = slot->second;
     return texture;
 }
 
@@ -57,7 +47,7 @@ Material GltfMaterials::make(int index, const Mesh& mesh)
 {
     if (index < 0)
         return {};
-    const gltf::MaterialSource& source = model_.structure.materials[static_cast<std::size_t>(index)];
+    const gltf::MaterialSource& source = model_.structure.materials[std::size_t(index)];
     const auto map = [&](const gltf::TextureUse& use, const char* name) {
         return texture(use, mesh, fmt::format("materials[{}].{}", index, name));
     };
@@ -98,14 +88,204 @@ Material GltfMaterials::make(int index, const Mesh& mesh)
 int GltfMaterials::use(int material, const Mesh& mesh)
 {
     const int sets = (mesh.texcoords[0].empty() ? 0 : 1) + (mesh.texcoords[1].empty() ? 0 : 2);
-    const std::pair key(material, material < 0 ? 0 : sets);
-    const auto known = made_.find(key);
-    if (known != made_.end())
-        return known->second;
-    const int slot = static_cast<int>(scene_.materials.size());
-    scene_.materials.push_back(make(material, mesh));
-    made_.emplace(key, slot);
-    return slot;
+    const auto [made, isNew] = made_.try_emplace({material, material < 0 ? 0 : sets}, int(scene_.materials.size()));
+    if (isNew)
+        scene_.materials.push_back(make(material, mesh));
+    return made->second;
+}
+
+// ---- images ---------------------------------------------------------------------------------
+
+namespace {
+
+struct ImageSource {
+    std::string name; // for messages and Image::name
+    GltfResource resource;
+    std::span<const std::byte> bytes; // empty where the image is a file
+};
+
+std::string imageField(int image) { return fmt::format("images[{}]", image); }
+
+ImageSource findImage(const GltfModel& model, int image, bool mayMiss = false)
+{
+    const gltf::Image& entry = model.structure.images[std::size_t(image)];
+    const std::string field = imageField(image);
+    ImageSource source;
+    source.name = oneLine(entry.name);
+    if (entry.uri.has_value() == (entry.view >= 0))
+        failGltf("{}: expected either uri or bufferView", field);
+    if (entry.view >= 0) {
+        source.bytes = model.views[std::size_t(entry.view)].bytes;
+    } else {
+        source.resource = resolveGltfUri(model.file, *entry.uri, field + ".uri", mayMiss);
+        source.bytes = source.resource.bytes;
+        if (!source.resource.file.empty())
+            source.name = source.resource.file.filename().string();
+    }
+    if (source.name.empty())
+        source.name = fmt::format("image {}", image);
+    return source;
+}
+
+// What glTF and its extensions allow; the many other formats that the image library can read are kept
+// away from data that come with a model. foreign: set to the format of an image that stays without pixels.
+Image decode(const GltfFile& model, ImageSource source, const LoadLimits& limits, std::string& foreign)
+{
+    if (!source.resource.file.empty())
+        source.bytes = source.resource.bytes = valueOrFail(readGltfResource(model, source.resource.file, limits));
+    if (limits.pixels == Pixels::whereReadable)
+        foreign = foreignFormat(source.bytes);
+    if (!foreign.empty()) {
+        Image image;
+        image.name = fmt::format("{} ({})", source.name, foreign);
+        return image;
+    }
+    if (pictureFormat(source.bytes).empty())
+        failGltf("expected PNG or JPEG data in {}", source.name);
+    Result<Image> image = decodeImage(source.bytes, source.name, limits);
+    if (!image)
+        throw GltfProblem{image.error()};
+    return std::move(*image);
+}
+
+// The bytes that the images of one model may take together.
+class Budget {
+public:
+    Budget(const LoadLimits& limits, std::uint64_t fileBytes)
+        : limits_(limits), all_(imageBudget(limits, fileBytes)), left_(all_)
+    {
+    }
+
+    // The limits for the next image: no more than what is left. Images that are decoded at the same time see the same
+    // rest, so the total may be overdrawn by one image a thread until `take` notices.
+    LoadLimits next() const
+    {
+        LoadLimits limits = limits_;
+        limits.imageBytes = std::min(limits.imageBytes, left_.load());
+        return limits;
+    }
+
+    void take(std::size_t bytes)
+    {
+        std::size_t left = left_.load();
+        do {
+            if (bytes > left)
+                throw GltfProblem{
+                    memoryError(fmt::format("all images together take more than the limit of {} bytes", all_))};
+        } while (!left_.compare_exchange_weak(left, left - bytes));
+    }
+
+private:
+    const LoadLimits& limits_;
+    std::size_t all_;
+    std::atomic<std::size_t> left_;
+};
+
+} // namespace
+
+// Of the model with its buffers, and of the images beside it.
+std::uint64_t GltfMaterials::bytesOfFiles() const
+{
+    std::uint64_t bytes = model_.file.size;
+    for (const auto& [image, slot] : slots_) {
+        const gltf::Image& entry = model_.structure.images[std::size_t(image)];
+        if (!entry.uri || entry.uri->starts_with("data:") || model_.file.readFile)
+            continue;
+        bool outside = false;
+        std::error_code error;
+        if (const auto file = findInFolder(model_.file.folder, std::string(*entry.uri), outside))
+            if (const std::uintmax_t size = fs::file_size(*file, error); !error)
+                bytes += size;
+    }
+    return bytes;
+}
+
+// The first image of the file that has the same bytes in a view; those with a URI stand for themselves.
+int GltfMaterials::firstEqual(int image)
+{
+    const gltf::Image& entry = model_.structure.images[std::size_t(image)];
+    if (entry.uri || entry.view < 0)
+        return image;
+    const std::span<const std::byte> bytes = model_.views[std::size_t(entry.view)].bytes;
+    const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+    const auto [known, isNew] = imagesAt_.try_emplace({text.data(), text.size()}, image);
+    if (isNew)
+        known->second = imagesLike_.try_emplace({text.size(), text}, image).first->second;
+    return known->second;
+}
+
+void GltfMaterials::decodeImages()
+{
+    if (model_.limits.pixels == Pixels::none)
+        return;
+    const std::vector<std::pair<int, int>> jobs(slots_.begin(), slots_.end());
+    std::vector<GltfProblem> problems(jobs.size());
+    std::vector<std::string> foreign(jobs.size());
+    Budget budget(model_.limits, bytesOfFiles());
+    const auto decodeOne = [&](std::size_t i) {
+        const auto [image, slot] = jobs[i];
+        try {
+            Image decoded = decode(model_.file, findImage(model_, image), budget.next(), foreign[i]);
+            budget.take(decoded.data.size());
+            scene_.images[std::size_t(slot)] = std::move(decoded);
+        } catch (const GltfProblem& problem) {
+            problems[i] = {reworded(problem.error, imageField(image) + ": " + problem.error.message)};
+        }
+    };
+    // What is not ours may not like threads.
+    const bool ours = !model_.limits.decode && !model_.file.readFile;
+    withThreads(ours ? 0 : 1, [&] { parallelFor(std::size_t(0), jobs.size(), decodeOne); });
+    for (const GltfProblem& problem : problems) // the first in the file, whichever came first
+        if (!problem.error.message.empty())
+            throw problem;
+    for (const Material& material : scene_.materials)
+        if (material.normalMap.image >= 0)
+            completeNormals(scene_.images[std::size_t(material.normalMap.image)]);
+    for (std::size_t i = 0; i < jobs.size(); ++i)
+        if (!foreign[i].empty())
+            model_.warnings.add(imageField(jobs[i].first), fmt::format("{} is not read here", foreign[i]));
+}
+
+namespace {
+
+// What is wrong with an image as far as that shows without decoding it. Throws GltfProblem.
+void lookAt(const GltfModel& model, int image, bool used)
+{
+    // Signature, length and type, IHDR's 13 bytes, checksum.
+    constexpr std::size_t kPngHeader = 33;
+    ImageSource source = findImage(model, image, /*mayMiss*/ true);
+    if (!source.resource.file.empty()) {
+        if (model.file.readFile)
+            return; // nothing is fetched only to be looked at
+        std::error_code error;
+        const std::uintmax_t size = fs::file_size(source.resource.file, error);
+        if (error || size == 0 || size >= kPngHeader)
+            return;
+        source.bytes = source.resource.bytes =
+            valueOrFail(readGltfResource(model.file, source.resource.file, model.limits));
+    }
+    if (isPng(source.bytes) && source.bytes.size() < kPngHeader)
+        failGltf("{}: the PNG {} ends in its header", imageField(image), source.name);
+    if (used && !source.bytes.empty() && pictureFormat(source.bytes).empty())
+        failGltf("{}: expected PNG or JPEG data in {}", imageField(image), source.name);
+}
+
+} // namespace
+
+void GltfMaterials::checkUnusedImages() const
+{
+    for (int i = 0; i < int(model_.structure.images.size()); ++i) {
+        const bool used = slots_.contains(i);
+        if (used && model_.limits.pixels != Pixels::none)
+            continue; // it was decoded
+        try {
+            lookAt(model_, i, used);
+        } catch (const GltfProblem& problem) {
+            if (used || scene_.instances.empty()) // or the images are all that there is
+                throw;
+            model_.warnings.add(problem.error.message, "nothing uses this image, it is left out");
+        }
+    }
 }
 
 } // namespace cotan

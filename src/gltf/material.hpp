@@ -33,8 +33,6 @@ public:
 private:
     Texture texture(const gltf::TextureUse& use, const Mesh& mesh, const std::string& field);
     Material make(int material, const Mesh& mesh);
-    int imageOf(const gltf::Texture& texture) const;
-    int imageSlot(int image);
     int firstEqual(int image);
     std::uint64_t bytesOfFiles() const;
 
@@ -46,8 +44,5 @@ private:
     std::map<std::pair<const char*, std::size_t>, int> imagesAt_;
     std::map<std::pair<std::size_t, std::string_view>, int> imagesLike_;
 };
-
-// The uv set that the material's normal map uses; -1 if it has none.
-int gltfNormalMapSet(const GltfModel& model, int material);
 
 } // namespace cotan

@@ -1,12 +1,13 @@
-// Normals and tangents of a primitive, checked and made fit for use.
+// A primitive moved by its skin; its normals and tangents, checked and made fit for use.
 #include "mesh.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include <glm/geometric.hpp>
-#include <glm/matrix.hpp>
 
+#include "cotan/covector.hpp"
 #include "cotan/vector.hpp"
 
 namespace cotan {
@@ -40,20 +41,16 @@ void makeFlat(Mesh& mesh)
     spread(mesh.colors, mesh.indices);
     mesh.normals.assign(mesh.positions.size(), glm::vec3(0));
     for (std::size_t i = 0; i < mesh.indices.size(); i += 3) {
-        const glm::dvec3 a = mesh.positions[i];
-        const glm::dvec3 b = mesh.positions[i + 1];
-        const glm::dvec3 c = mesh.positions[i + 2];
+        const glm::dvec3 a = mesh.positions[i], b = mesh.positions[i + 1], c = mesh.positions[i + 2];
         const glm::vec3 n = unitOrZero(glm::cross(b - a, c - a));
-        std::fill_n(mesh.normals.begin() + static_cast<std::ptrdiff_t>(i), 3, n);
+        std::fill_n(mesh.normals.begin() + std::ptrdiff_t(i), 3, n);
     }
-    for (std::size_t i = 0; i < mesh.indices.size(); ++i)
-        mesh.indices[i] = static_cast<std::uint32_t>(i);
+    std::iota(mesh.indices.begin(), mesh.indices.end(), 0u);
 }
 
 void normalizeNormals(Mesh& mesh, const std::string& field, GltfWarnings& warnings)
 {
-    std::size_t zero = 0;
-    std::size_t odd = 0;
+    std::size_t zero = 0, odd = 0;
     for (glm::vec3& n : mesh.normals) {
         const double length = glm::length(glm::dvec3(n));
         zero += length == 0;
@@ -70,9 +67,7 @@ void normalizeNormals(Mesh& mesh, const std::string& field, GltfWarnings& warnin
 
 void normalizeTangents(Mesh& mesh, const std::string& field, GltfWarnings& warnings)
 {
-    std::size_t zero = 0;
-    std::size_t odd = 0;
-    std::size_t signs = 0;
+    std::size_t zero = 0, odd = 0, signs = 0;
     for (glm::vec4& t : mesh.tangents) {
         const glm::dvec3 direction(t);
         const double length = glm::length(direction);
@@ -123,8 +118,7 @@ void checkHandedness(const Mesh& mesh, const std::string& field, GltfWarnings& w
     const std::vector<glm::vec2>& uv = mesh.texcoords[0];
     if (mesh.tangents.empty() || uv.empty())
         return;
-    std::size_t known = 0;
-    std::size_t against = 0;
+    std::size_t known = 0, against = 0;
     for (std::size_t i = 0; i < mesh.indices.size(); i += 3) {
         const int expected = handednessFromUv(mesh, uv, i);
         float sum = 0;
@@ -139,7 +133,7 @@ void checkHandedness(const Mesh& mesh, const std::string& field, GltfWarnings& w
 
 void checkUvArea(const Mesh& mesh, int set, const std::string& field, GltfWarnings& warnings)
 {
-    const std::vector<glm::vec2>& uv = mesh.texcoords[static_cast<std::size_t>(set)];
+    const std::vector<glm::vec2>& uv = mesh.texcoords[std::size_t(set)];
     if (uv.empty())
         return;
     std::size_t flat = 0;
@@ -147,6 +141,32 @@ void checkUvArea(const Mesh& mesh, int set, const std::string& field, GltfWarnin
         flat += uvArea(mesh, uv, i) == 0;
     if (flat > 0)
         warnings.add(field, "no area in the texture coordinates of the normal map: no frame there", flat, "triangles");
+}
+
+// ---- skins ----------------------------------------------------------------------------------
+
+struct Blend {
+    glm::dmat4 matrix{0};
+    double weight = 0;
+};
+
+Blend blend(const GltfPrimitive& primitive, std::size_t vertex, const std::vector<glm::dmat4>& joints)
+{
+    Blend sum;
+    for (std::size_t set = 0; set < primitive.joints.size(); ++set) {
+        for (int k = 0; k < 4; ++k) {
+            const double weight = primitive.weights[set][vertex][k];
+            if (weight == 0)
+                continue;
+            const std::size_t joint = primitive.joints[set][vertex][k];
+            if (joint >= joints.size())
+                failGltf("{}.JOINTS_{}: vertex {} names joint {}, but the skin has {}", primitive.field, set, vertex,
+                         joint, joints.size());
+            sum.matrix += joints[joint] * weight;
+            sum.weight += weight;
+        }
+    }
+    return sum;
 }
 
 } // namespace
@@ -159,14 +179,7 @@ glm::vec3 unitNormal(const glm::vec3& normal)
 
 Mesh finishGltfMesh(GltfPrimitive&& source, int normalMapSet, GltfWarnings& warnings)
 {
-    Mesh mesh;
-    mesh.name = std::move(source.name);
-    mesh.positions = std::move(source.positions);
-    mesh.normals = std::move(source.normals);
-    mesh.tangents = std::move(source.tangents);
-    mesh.texcoords = std::move(source.texcoords);
-    mesh.colors = std::move(source.colors);
-    mesh.indices = std::move(source.triangles);
+    Mesh mesh = std::move(source.mesh);
     for (const glm::vec3& p : mesh.positions)
         if (!isFinite(p))
             failGltf("{}: a position is beyond the range of float once it is morphed and skinned", source.field);
@@ -177,12 +190,41 @@ Mesh finishGltfMesh(GltfPrimitive&& source, int normalMapSet, GltfWarnings& warn
         normalizeNormals(mesh, source.field, warnings);
     }
     normalizeTangents(mesh, source.field, warnings);
-    const bool usable = normalMapSet == 0 || normalMapSet == 1;
-    if (usable)
+    if (normalMapSet == 0 || normalMapSet == 1)
         checkUvArea(mesh, normalMapSet, source.field, warnings);
     else // where there is a normal map, followStoredTangents judges all that read it together
         checkHandedness(mesh, source.field, warnings);
     return mesh;
+}
+
+void skinGltfPrimitive(GltfPrimitive& primitive, const std::vector<glm::dmat4>& joints, GltfWarnings& warnings)
+{
+    Mesh& mesh = primitive.mesh;
+    std::size_t mirrored = 0, loose = 0;
+    for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
+        const Blend sum = blend(primitive, i, joints);
+        if (!(std::abs(sum.weight) > 1e-6)) { // weights are parts of one: less is nothing
+            ++loose;
+            continue;
+        }
+        const glm::dmat4 matrix = sum.matrix / sum.weight;
+        const glm::dmat3 linear(matrix);
+        const LinearMap<double> map(linear);
+        const bool mirrors = map.determinant() < 0;
+        mirrored += mirrors;
+        mesh.positions[i] = glm::vec3(matrix * glm::dvec4(mesh.positions[i], 1));
+        if (!mesh.normals.empty())
+            mesh.normals[i] = unitOrZero(map.planeMatrix() * glm::dvec3(mesh.normals[i]));
+        if (!mesh.tangents.empty()) {
+            const glm::vec4 t = mesh.tangents[i];
+            mesh.tangents[i] = glm::vec4(unitOrZero(linear * glm::dvec3(t)), mirrors ? -t.w : t.w);
+        }
+    }
+    if (mirrored == mesh.positions.size())
+        for (std::size_t i = 0; i < mesh.indices.size(); i += 3)
+            std::swap(mesh.indices[i + 1], mesh.indices[i + 2]);
+    if (loose > 0)
+        warnings.add(primitive.field, "skinned without weights, left in place", loose, "vertices");
 }
 
 } // namespace cotan

@@ -13,17 +13,12 @@ namespace cotan {
 // A primitive as it stands in the file, triangulated, with the vertices that its triangles use, in
 // the order of the file. Arrays are empty or have one entry a vertex.
 struct GltfPrimitive {
-    std::string name;  // of the mesh, with the primitive's number where there are several
     std::string field; // meshes[i].primitives[j]
-    int material = -1; // index into the file's materials; -1: the default material
-    std::vector<glm::vec3> positions;
-    std::vector<glm::vec3> normals;
-    std::vector<glm::vec4> tangents;
-    std::array<std::vector<glm::vec2>, 2> texcoords;
-    std::vector<glm::vec4> colors;
+    // Named like the mesh of the file, with the primitive's number where there are several. Its material is an index
+    // into the file's; -1: the default material.
+    Mesh mesh;
     std::vector<std::vector<glm::uvec4>> joints; // one for each set JOINTS_n with WEIGHTS_n
     std::vector<std::vector<glm::vec4>> weights;
-    std::vector<std::uint32_t> triangles;
 };
 
 // Reads and checks one primitive and applies its morph targets. morphWeights: as in the file,
@@ -31,10 +26,18 @@ struct GltfPrimitive {
 std::optional<GltfPrimitive> readGltfPrimitive(GltfModel& model, int mesh, std::size_t primitive,
                                                const std::vector<double>& morphWeights);
 
-// Moves the vertices to where the joints put them. joints: for each joint of the skin, its world
-// matrix times its inverse bind matrix. Normals go by the inverse transpose, tangents with the
-// surface; where the joints mirror, TANGENT.w changes sign, and where they mirror everything, so
-// does the winding.
+// Three corners a triangle. order: those of a list, strip or fan (see gltf::Primitive::mode); other modes have no
+// triangles. Strips and fans jump by triangles without area: those that join two equal vertices are left out.
+std::vector<std::uint32_t> gltfTriangles(int mode, std::vector<std::uint32_t> order);
+
+// The vertices that the corners name, rising, each once; the corners are renumbered to places in
+// that list. Many primitives may share one accessor, each with a part of it, so neither time nor
+// memory grows with `count`, the number of vertices that there are. Every corner must be below it.
+std::vector<std::uint32_t> takeUsedVertices(std::vector<std::uint32_t>& corners, std::size_t count);
+
+// Moves the vertices to where the joints put them. joints: for each joint of the skin, its world matrix times its
+// inverse bind matrix. Normals go by the inverse transpose, tangents with the surface; where the joints mirror,
+// TANGENT.w changes sign, and where they mirror everything, so does the winding.
 void skinGltfPrimitive(GltfPrimitive& primitive, const std::vector<glm::dmat4>& joints, GltfWarnings& warnings);
 
 // The unit vector of a normal. One that is unit up to rounding keeps its bits: normalising again would make some equal

@@ -2,8 +2,7 @@
 // about sizes is checked here.
 #include <meshoptimizer.h>
 
-#include "problem.hpp"
-#include "unpack.hpp"
+#include "gltf_file.hpp"
 
 namespace cotan::gltf {
 

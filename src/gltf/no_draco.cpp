@@ -1,6 +1,6 @@
 // KHR_draco_mesh_compression where there is no Draco.
 #include "core/not_built.hpp"
-#include "draco_streams.hpp"
+#include "gltf/draco.hpp"
 
 namespace cotan::gltf {
 

@@ -1,7 +1,6 @@
 // EXT_meshopt_compression where there is no libmeshoptimizer.
 #include "core/not_built.hpp"
-#include "problem.hpp"
-#include "unpack.hpp"
+#include "gltf_file.hpp"
 
 namespace cotan::gltf {
 

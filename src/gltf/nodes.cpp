@@ -1,4 +1,5 @@
-#include "nodes.hpp"
+// The node hierarchy, and what hangs on it besides meshes.
+#include "gltf_model.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -12,10 +13,7 @@ namespace cotan {
 
 namespace {
 
-const gltf::Node& nodeAt(const GltfModel& model, int node)
-{
-    return model.structure.nodes[static_cast<std::size_t>(node)];
-}
+const gltf::Node& nodeAt(const GltfModel& model, int node) { return model.structure.nodes[std::size_t(node)]; }
 
 std::string nodeField(int node) { return fmt::format("nodes[{}]", node); }
 
@@ -43,9 +41,9 @@ glm::dmat4 localOf(GltfModel& model, int node)
 std::vector<int> findParents(const GltfModel& model)
 {
     std::vector<int> parents(model.structure.nodes.size(), -1);
-    for (int i = 0; i < static_cast<int>(parents.size()); ++i) {
+    for (int i = 0; i < int(parents.size()); ++i) {
         for (const int child : nodeAt(model, i).children) {
-            int& parent = parents[static_cast<std::size_t>(child)];
+            int& parent = parents[std::size_t(child)];
             if (parent >= 0)
                 failGltf("nodes[{}]: expected one parent, found nodes[{}] and nodes[{}]", child, parent, i);
             parent = i;
@@ -64,9 +62,9 @@ std::vector<int> withDescendants(const GltfModel& model, const std::vector<int>&
     while (!open.empty()) {
         const int node = open.back();
         open.pop_back();
-        if (seen[static_cast<std::size_t>(node)])
+        if (seen[std::size_t(node)])
             continue;
-        seen[static_cast<std::size_t>(node)] = true;
+        seen[std::size_t(node)] = true;
         found.push_back(node);
         const std::vector<int>& children = nodeAt(model, node).children;
         open.insert(open.end(), children.rbegin(), children.rend());
@@ -77,8 +75,8 @@ std::vector<int> withDescendants(const GltfModel& model, const std::vector<int>&
 std::vector<int> rootsOf(const std::vector<int>& parents)
 {
     std::vector<int> roots;
-    for (int i = 0; i < static_cast<int>(parents.size()); ++i)
-        if (parents[static_cast<std::size_t>(i)] < 0)
+    for (int i = 0; i < int(parents.size()); ++i)
+        if (parents[std::size_t(i)] < 0)
             roots.push_back(i);
     return roots;
 }
@@ -89,9 +87,9 @@ std::vector<glm::dmat4> worldMatrices(GltfModel& model, const std::vector<int>& 
     std::vector<bool> reached(parents.size(), false);
     std::vector<glm::dmat4> world(parents.size(), glm::dmat4(1));
     for (const int node : order) {
-        const auto i = static_cast<std::size_t>(node);
+        const auto i = std::size_t(node);
         const glm::dmat4 local = localOf(model, node);
-        world[i] = parents[i] < 0 ? local : world[static_cast<std::size_t>(parents[i])] * local;
+        world[i] = parents[i] < 0 ? local : world[std::size_t(parents[i])] * local;
         reached[i] = true;
         if (!isFinite(glm::mat4(world[i])))
             failGltf("nodes[{}]: its transform is beyond the range of float", node);
@@ -108,9 +106,9 @@ std::vector<int> shownRoots(GltfModel& model, const std::vector<int>& parents)
     const gltf::Structure& structure = model.structure;
     if (structure.scenes.empty())
         return rootsOf(parents);
-    const auto scene = static_cast<std::size_t>(std::max(structure.defaultScene, 0));
+    const auto scene = std::size_t(std::max(structure.defaultScene, 0));
     for (const int node : structure.scenes[scene])
-        if (parents[static_cast<std::size_t>(node)] >= 0)
+        if (parents[std::size_t(node)] >= 0)
             model.warnings.add(fmt::format("scenes[{}]", scene), "it lists nodes that are not roots");
     return structure.scenes[scene];
 }
@@ -135,18 +133,16 @@ std::vector<glm::dmat4> instanceMatrices(GltfModel& model, const gltf::Attribute
     const int any = std::max({translations, rotations, scales});
     if (any < 0)
         return {glm::dmat4(1)};
-    const std::size_t count = model.accessors[static_cast<std::size_t>(any)].accessor.count;
+    const std::size_t count = model.accessors[std::size_t(any)].accessor.count;
     if (count > model.limits.nodes)
         failGltf("{}: the limit is {} instances, found {}", field, model.limits.nodes, count);
-    std::vector<glm::vec3> t(count, glm::vec3(0));
-    std::vector<glm::vec4> r(count, glm::vec4(0, 0, 0, 1));
-    std::vector<glm::vec3> s(count, glm::vec3(1));
-    if (translations >= 0)
-        t = readGltfVectors<glm::vec3>(model, translations, count, field + ".TRANSLATION");
-    if (rotations >= 0)
-        r = readGltfVectors<glm::vec4>(model, rotations, count, field + ".ROTATION");
-    if (scales >= 0)
-        s = readGltfVectors<glm::vec3>(model, scales, count, field + ".SCALE");
+    const auto read = [&]<class Vector>(int accessor, const char* name, const Vector& otherwise) {
+        return accessor < 0 ? std::vector<Vector>(count, otherwise)
+                            : readGltfVectors<Vector>(model, accessor, count, field + name);
+    };
+    const auto t = read(translations, ".TRANSLATION", glm::vec3(0));
+    const auto r = read(rotations, ".ROTATION", glm::vec4(0, 0, 0, 1));
+    const auto s = read(scales, ".SCALE", glm::vec3(1));
     std::vector<glm::dmat4> matrices;
     matrices.reserve(count);
     for (std::size_t i = 0; i < count; ++i)
@@ -167,7 +163,7 @@ GltfNodes readGltfNodes(GltfModel& model)
 
 std::vector<glm::mat4> gltfPlacements(GltfModel& model, const GltfNodes& nodes, int node)
 {
-    const glm::dmat4& world = nodes.world[static_cast<std::size_t>(node)];
+    const glm::dmat4& world = nodes.world[std::size_t(node)];
     const std::string field = nodeField(node) + ".extensions.EXT_mesh_gpu_instancing";
     const std::vector<glm::dmat4> matrices = instanceMatrices(model, nodeAt(model, node).instances, field);
     std::vector<glm::mat4> placements;
@@ -209,29 +205,19 @@ Camera placed(Camera camera, const glm::dmat4& world)
 
 } // namespace
 
-std::vector<Light> readGltfLights(const GltfModel& model, const GltfNodes& nodes)
+void addGltfLightsAndCameras(const GltfModel& model, const GltfNodes& nodes, Scene& scene)
 {
-    std::vector<Light> lights;
-    for (const int node : nodes.visible)
-        if (const int light = nodeAt(model, node).light; light >= 0)
-            lights.push_back(placed(model.structure.lights[static_cast<std::size_t>(light)],
-                                    nodes.world[static_cast<std::size_t>(node)]));
-    return lights;
-}
-
-std::vector<Camera> readGltfCameras(const GltfModel& model, const GltfNodes& nodes)
-{
-    std::vector<Camera> cameras;
     for (const int node : nodes.visible) {
-        const int camera = nodeAt(model, node).camera;
-        if (camera < 0)
+        const gltf::Node& n = nodeAt(model, node);
+        const glm::dmat4& world = nodes.world[std::size_t(node)];
+        if (n.light >= 0)
+            scene.lights.push_back(placed(model.structure.lights[std::size_t(n.light)], world));
+        if (n.camera < 0)
             continue;
-        cameras.push_back(placed(model.structure.cameras[static_cast<std::size_t>(camera)],
-                                 nodes.world[static_cast<std::size_t>(node)]));
-        if (cameras.back().name.empty())
-            cameras.back().name = nodeAt(model, node).name;
+        scene.cameras.push_back(placed(model.structure.cameras[std::size_t(n.camera)], world));
+        if (scene.cameras.back().name.empty())
+            scene.cameras.back().name = n.name;
     }
-    return cameras;
 }
 
 } // namespace cotan

@@ -1,11 +1,9 @@
-#include "parse_json.hpp"
-
 #include <algorithm>
 #include <map>
 #include <string_view>
 #include <vector>
 
-#include "problem.hpp"
+#include "gltf_file.hpp"
 
 namespace cotan {
 
@@ -112,8 +110,9 @@ private:
 
     bool open(Json&& value)
     {
-        if (levels_.size() >= std::size_t(kGltfDepth))
-            failGltf("JSON: nested deeper than {} levels", kGltfDepth);
+        constexpr std::size_t kDeepest = 128; // what walks through a document recurses once a level
+        if (levels_.size() >= kDeepest)
+            failGltf("JSON: nested deeper than {} levels", kDeepest);
         levels_.push_back({&put(std::move(value))});
         return true;
     }

@@ -1,30 +1,33 @@
 // Reads one primitive: attributes, morph targets, and any topology made into triangles.
+#include <algorithm>
+#include <array>
 #include <numeric>
 
 #include "cotan/vector.hpp"
+#include "gltf/json/lookup.hpp"
 #include "mesh.hpp"
-#include "vertices.hpp"
 
 namespace cotan {
 
 namespace {
 
+void take(std::size_t& taken, std::size_t limit, std::size_t count, const char* what, const std::string& field)
+{
+    if (count > limit - taken)
+        failGltf("{}: the limit is {} {} in all, this one brings {}", field, limit, what, count);
+    taken += count;
+}
+
 // Vertices are counted before memory and time are taken for them; so are morph targets and sets of
 // joints, because a few bytes of JSON can ask for any number of them.
 void takeVertices(GltfModel& model, std::size_t count, const std::string& field)
 {
-    const std::size_t left = model.limits.vertices - model.verticesTaken;
-    if (count > left)
-        failGltf("{}: the limit is {} vertices in all, this one brings {}", field, model.limits.vertices, count);
-    model.verticesTaken += count;
+    take(model.verticesTaken, model.limits.vertices, count, "vertices", field);
 }
 
 void takeTriangles(GltfModel& model, std::size_t count, const std::string& field)
 {
-    const std::size_t left = model.limits.triangles - model.trianglesTaken;
-    if (count > left)
-        failGltf("{}: the limit is {} triangles in all, this one brings {}", field, model.limits.triangles, count);
-    model.trianglesTaken += count;
+    take(model.trianglesTaken, model.limits.triangles, count, "triangles", field);
 }
 
 void replaceUnusable(std::vector<glm::vec2>& texcoords, const std::string& field, GltfWarnings& warnings)
@@ -50,7 +53,7 @@ void readTexcoords(GltfModel& model, const gltf::Primitive& source, const gltf::
             model.warnings.add(out.field, oneLine(name) + " is ignored: two uv sets are read");
             continue;
         }
-        std::vector<glm::vec2>& set = out.texcoords[name == "TEXCOORD_0" ? 0 : 1];
+        std::vector<glm::vec2>& set = out.mesh.texcoords[name == "TEXCOORD_0" ? 0 : 1];
         set = readGltfVectors<glm::vec2>(model, accessor, choice, field);
         replaceUnusable(set, field, model.warnings);
     }
@@ -76,15 +79,15 @@ void readJoints(GltfModel& model, const gltf::Primitive& source, const gltf::Cho
 void readAttributes(GltfModel& model, const gltf::Primitive& source, const gltf::Choice& choice, GltfPrimitive& out)
 {
     if (const int a = gltf::accessorOf(source.attributes, "NORMAL"); a >= 0)
-        out.normals = readGltfVectors<glm::vec3>(model, a, choice, out.field + ".NORMAL");
+        out.mesh.normals = readGltfVectors<glm::vec3>(model, a, choice, out.field + ".NORMAL");
     if (const int a = gltf::accessorOf(source.attributes, "TANGENT"); a >= 0)
-        out.tangents = readGltfVectors<glm::vec4>(model, a, choice, out.field + ".TANGENT");
+        out.mesh.tangents = readGltfVectors<glm::vec4>(model, a, choice, out.field + ".TANGENT");
     if (const int a = gltf::accessorOf(source.attributes, "COLOR_0"); a >= 0)
-        out.colors = readGltfColors(model, a, choice, out.field + ".COLOR_0");
+        out.mesh.colors = readGltfColors(model, a, choice, out.field + ".COLOR_0");
     readTexcoords(model, source, choice, out);
     readJoints(model, source, choice, out);
     if (gltf::accessorOf(source.attributes, "TANGENT") >= 0 && gltf::accessorOf(source.attributes, "NORMAL") < 0) {
-        out.tangents.clear();
+        out.mesh.tangents.clear();
         model.warnings.add(out.field, "TANGENT without NORMAL, ignored");
     }
 }
@@ -110,18 +113,67 @@ void morph(GltfModel& model, const gltf::Primitive& source, const std::vector<do
     for (std::size_t t = 0; t < source.targets.size(); ++t) {
         const std::string field = fmt::format("{}.targets[{}]", out.field, t);
         takeVertices(model, choice.size(), field);
-        const float weight = t < weights.size() ? static_cast<float>(weights[t]) : 0.0f;
-        if (const int a = gltf::accessorOf(source.targets[t], "POSITION"); a >= 0)
-            addScaled(out.positions, readGltfVectors<glm::vec3>(model, a, choice, field + ".POSITION"), weight);
-        if (const int a = gltf::accessorOf(source.targets[t], "NORMAL"); a >= 0)
-            addScaled(out.normals, readGltfVectors<glm::vec3>(model, a, choice, field + ".NORMAL"), weight);
-        if (const int a = gltf::accessorOf(source.targets[t], "TANGENT"); a >= 0)
-            addScaled(out.tangents, readGltfVectors<glm::vec3>(model, a, choice, field + ".TANGENT"), weight);
+        const float weight = t < weights.size() ? float(weights[t]) : 0.0f;
+        const auto add = [&](const std::string& name, auto& to) {
+            if (const int a = gltf::accessorOf(source.targets[t], name); a >= 0)
+                addScaled(to, readGltfVectors<glm::vec3>(model, a, choice, field + "." + name), weight);
+        };
+        add("POSITION", out.mesh.positions);
+        add("NORMAL", out.mesh.normals);
+        add("TANGENT", out.mesh.tangents);
         model.bytesTaken = kept; // the differences are not held
     }
 }
 
 // ---- topology -------------------------------------------------------------------------------
+
+// The corners of triangle i of a strip or fan, with the winding that the specification gives it.
+std::array<std::size_t, 3> cornersOf(int mode, std::size_t i)
+{
+    if (mode == gltf::kTriangleStrip)
+        return {i, i + 1 + i % 2, i + 2 - i % 2};
+    return {i + 1, i + 2, 0};
+}
+
+std::vector<std::uint32_t> unroll(int mode, const std::vector<std::uint32_t>& order)
+{
+    std::vector<std::uint32_t> triangles;
+    triangles.reserve(order.size() * 3);
+    for (std::size_t i = 0; i + 2 < order.size(); ++i) {
+        const auto [a, b, c] = cornersOf(mode, i);
+        if (order[a] == order[b] || order[b] == order[c] || order[c] == order[a])
+            continue;
+        triangles.insert(triangles.end(), {order[a], order[b], order[c]});
+    }
+    return triangles;
+}
+
+// A table of all vertices: for primitives that use a good part of them.
+std::vector<std::uint32_t> byTable(std::vector<std::uint32_t>& corners, std::size_t count)
+{
+    std::vector<std::uint32_t> place(count, 0);
+    for (const std::uint32_t corner : corners)
+        place[corner] = 1;
+    std::vector<std::uint32_t> used;
+    for (std::uint32_t vertex = 0; vertex < count; ++vertex)
+        if (place[vertex]) {
+            place[vertex] = std::uint32_t(used.size());
+            used.push_back(vertex);
+        }
+    for (std::uint32_t& corner : corners)
+        corner = place[corner];
+    return used;
+}
+
+std::vector<std::uint32_t> bySearch(std::vector<std::uint32_t>& corners)
+{
+    std::vector<std::uint32_t> used = corners;
+    std::ranges::sort(used);
+    used.erase(std::unique(used.begin(), used.end()), used.end());
+    for (std::uint32_t& corner : corners)
+        corner = std::uint32_t(std::ranges::lower_bound(used, corner) - used.begin());
+    return used;
+}
 
 // What a corner of a mesh with flat normals holds at most.
 struct Corner {
@@ -144,8 +196,7 @@ std::vector<std::uint32_t> readTriangles(GltfModel& model, const gltf::Primitive
     if (source.mode == gltf::kTriangles) {
         if (order.size() % 3 != 0)
             model.warnings.add(out.field,
-                               "the number of corners is not a multiple of 3; the "
-                               "last triangle is left out");
+                               "the number of corners is not a multiple of 3; the last triangle is left out");
     } else if (source.mode == gltf::kTriangleStrip || source.mode == gltf::kTriangleFan) {
         takeTriangles(model, order.size(), out.field); // before the array grows by three
         model.trianglesTaken -= order.size();
@@ -160,36 +211,50 @@ std::vector<std::uint32_t> readTriangles(GltfModel& model, const gltf::Primitive
 
 } // namespace
 
+std::vector<std::uint32_t> gltfTriangles(int mode, std::vector<std::uint32_t> order)
+{
+    if (mode == gltf::kTriangleStrip || mode == gltf::kTriangleFan)
+        return unroll(mode, order);
+    order.resize(mode == gltf::kTriangles ? order.size() / 3 * 3 : 0);
+    return order;
+}
+
+std::vector<std::uint32_t> takeUsedVertices(std::vector<std::uint32_t>& corners, std::size_t count)
+{
+    constexpr std::size_t kSparse = 8; // vertices a corner: about where the search is as fast
+    return count / kSparse < corners.size() ? byTable(corners, count) : bySearch(corners);
+}
+
 std::optional<GltfPrimitive> readGltfPrimitive(GltfModel& model, int mesh, std::size_t primitive,
                                                const std::vector<double>& morphWeights)
 {
-    const gltf::Mesh& parent = model.structure.meshes[static_cast<std::size_t>(mesh)];
+    const gltf::Mesh& parent = model.structure.meshes[std::size_t(mesh)];
     const gltf::Primitive& source = parent.primitives[primitive];
     GltfPrimitive out;
-    out.field = fmt::format("meshes[{}].primitives[{}]", mesh, primitive);
-    out.name = parent.name.empty() ? fmt::format("mesh {}", mesh) : parent.name;
+    out.field = primitiveField(std::size_t(mesh), primitive);
+    out.mesh.name = parent.name.empty() ? fmt::format("mesh {}", mesh) : parent.name;
     if (parent.primitives.size() > 1)
-        out.name += fmt::format("/{}", primitive);
-    out.material = source.material;
+        out.mesh.name += fmt::format("/{}", primitive);
+    out.mesh.material = source.material;
 
     const int positions = gltf::accessorOf(source.attributes, "POSITION");
     if (positions < 0) {
         model.warnings.add(out.field, "no POSITION, nothing to draw");
         return std::nullopt;
     }
-    const std::size_t count = model.accessors[static_cast<std::size_t>(positions)].accessor.count;
-    out.triangles = readTriangles(model, source, count, out);
-    const std::vector<std::uint32_t> used = takeUsedVertices(out.triangles, count);
+    const std::size_t count = model.accessors[std::size_t(positions)].accessor.count;
+    out.mesh.indices = readTriangles(model, source, count, out);
+    const std::vector<std::uint32_t> used = takeUsedVertices(out.mesh.indices, count);
     const gltf::Choice choice(count, used);
     takeVertices(model, choice.size(), out.field);
-    out.positions = readGltfVectors<glm::vec3>(model, positions, choice, out.field + ".POSITION");
+    out.mesh.positions = readGltfVectors<glm::vec3>(model, positions, choice, out.field + ".POSITION");
     readAttributes(model, source, choice, out);
     morph(model, source, morphWeights, choice, out);
-    if (out.triangles.empty())
+    if (out.mesh.indices.empty())
         return std::nullopt;
-    if (out.normals.empty()) { // flat normals need a vertex a corner
-        takeVertices(model, out.triangles.size(), out.field);
-        takeGltfBytes(model, out.triangles.size() * sizeof(Corner), out.field);
+    if (out.mesh.normals.empty()) { // flat normals need a vertex a corner
+        takeVertices(model, out.mesh.indices.size(), out.field);
+        takeGltfBytes(model, out.mesh.indices.size() * sizeof(Corner), out.field);
     }
     return out;
 }

@@ -43,10 +43,10 @@ std::vector<std::string> GltfWarnings::lines() const
     return lines;
 }
 
-std::string oneLine(const std::string& text)
+std::string oneLine(std::string_view text)
 {
     constexpr std::size_t kLongest = 500;
-    std::string line = text.substr(0, kLongest);
+    std::string line(text.substr(0, kLongest));
     for (char& c : line)
         if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f)
             c = ' ';

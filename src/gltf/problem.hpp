@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <new>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -26,6 +27,14 @@ template<class... Args> [[noreturn]] void failGltf(fmt::format_string<Args...> t
     throw GltfProblem{inputError(fmt::format(text, std::forward<Args>(args)...))};
 }
 
+// The value of a result. Throws GltfProblem with its error, which is then one of the file.
+template<class T> T valueOrFail(Result<T> result)
+{
+    if (!result)
+        throw GltfProblem{inputError(result.error().message)};
+    return *std::move(result);
+}
+
 // For files of glTF 1.0, whose structure is another one. field: where that shows.
 [[noreturn]] void failGltfVersion1(const std::string& field);
 
@@ -41,18 +50,15 @@ public:
 
 private:
     struct Entry {
-        std::string where;
-        std::string what;
-        std::string unit;
-        std::size_t places = 0;
-        std::size_t count = 0;
+        std::string where, what, unit;
+        std::size_t places = 0, count = 0;
     };
     std::vector<Entry> entries_;
     std::size_t leftOut_ = 0;
 };
 
 // Text from a file made fit for a one-line message: control characters replaced, length capped.
-std::string oneLine(const std::string& text);
+std::string oneLine(std::string_view text);
 
 // What load() returns, and what it throws as an error: one line with the file's name in front, once.
 template<class Load> auto caughtGltf(const std::filesystem::path& file, Load load) -> Result<decltype(load())>

@@ -8,7 +8,7 @@
 #include <span>
 #include <string_view>
 
-#include "codes.hpp"
+#include "gltf/json/views.hpp"
 
 namespace cotan::gltf_schema {
 
@@ -17,22 +17,16 @@ enum class Shape {
     integer, // low to high
     number,  // low to high
     text,
-    index,     // into the collection `refers`
-    numbers,   // an array of `length` numbers; 0: any length
-    indices,   // an array of indices into `refers`
-    texts,     // an array of strings
-    object,    // with the fields `inner`
-    objects,   // an array of those
-    indexMap,  // an object whose values are indices into `refers`
-    indexMaps, // an array of those
+    index,    // into the collection `refers`
+    object,   // with the fields `inner`
+    indexMap, // an object whose values are indices into `refers`
 };
 
 struct Field;
 using Fields = std::span<const Field>;
 
 inline constexpr double kMaxInt = 2147483647.0;
-// Offsets, lengths and counts up to here can be added and multiplied by a stride (at most 252)
-// in 64 bits.
+// Offsets, lengths and counts up to here can be added and multiplied by a stride (at most 252) in 64 bits.
 inline constexpr double kMaxSize = 9007199254740992.0; // 2^53
 // No lamp or map is beyond these, and products with them stay finite in float.
 inline constexpr double kBrightest = 1e12;
@@ -42,9 +36,10 @@ struct Field {
     std::string_view name;
     Shape shape;
     bool required = false;
+    bool list = false;      // an array of such values
+    std::size_t length = 0; // of the list; 0: any
     Fields inner = {};
     std::string_view refers = {};
-    std::size_t length = 0;
     double low = -FLT_MAX;
     double high = FLT_MAX;
     std::span<const std::string_view> texts = {}; // allowed values; empty: any
@@ -74,19 +69,20 @@ constexpr Field index(std::string_view n, std::string_view refers)
 {
     return {.name = n, .shape = Shape::index, .refers = refers};
 }
-constexpr Field indices(std::string_view n, std::string_view refers)
+constexpr Field indexMap(std::string_view n, std::string_view refers)
 {
-    return {.name = n, .shape = Shape::indices, .refers = refers};
-}
-constexpr Field numbers(std::string_view n, std::size_t length = 0)
-{
-    return {.name = n, .shape = Shape::numbers, .length = length};
+    return {.name = n, .shape = Shape::indexMap, .refers = refers};
 }
 constexpr Field object(std::string_view n, Fields inner) { return {.name = n, .shape = Shape::object, .inner = inner}; }
-constexpr Field objects(std::string_view n, Fields inner)
+constexpr Field list(Field field, std::size_t length = 0)
 {
-    return {.name = n, .shape = Shape::objects, .inner = inner};
+    field.list = true;
+    field.length = length;
+    return field;
 }
+constexpr Field indices(std::string_view n, std::string_view refers) { return list(index(n, refers)); }
+constexpr Field numbers(std::string_view n, std::size_t length = 0) { return list(number(n), length); }
+constexpr Field objects(std::string_view n, Fields inner) { return list(object(n, inner)); }
 constexpr Field required(Field field)
 {
     field.required = true;
@@ -95,7 +91,6 @@ constexpr Field required(Field field)
 
 // ---- the tables, leaves first ---------------------------------------------------------------
 
-using std::string_view;
 inline constexpr std::array kComponentTypes{gltf::kByte,          gltf::kUnsignedByte, gltf::kShort,
                                             gltf::kUnsignedShort, gltf::kUnsignedInt,  gltf::kFloat};
 inline constexpr std::array kIndexTypes{gltf::kUnsignedByte, gltf::kUnsignedShort, gltf::kUnsignedInt};
@@ -107,19 +102,16 @@ inline constexpr std::array kMinFilters{gltf::kNearest,
                                         gltf::kNearestMipmapLinear,
                                         gltf::kLinearMipmapLinear};
 inline constexpr std::array kWraps{gltf::kRepeat, gltf::kClampToEdge, gltf::kMirroredRepeat};
-inline constexpr std::array kElementTypes{string_view("SCALAR"), string_view("VEC2"), string_view("VEC3"),
-                                          string_view("VEC4"),   string_view("MAT2"), string_view("MAT3"),
-                                          string_view("MAT4")};
-inline constexpr std::array kAlphaModes{string_view("OPAQUE"), string_view("MASK"), string_view("BLEND")};
-inline constexpr std::array kLightTypes{string_view("directional"), string_view("point"), string_view("spot")};
-inline constexpr std::array kCameraTypes{string_view("perspective"), string_view("orthographic")};
+inline constexpr std::string_view kElementTypes[] = {"SCALAR", "VEC2", "VEC3", "VEC4", "MAT2", "MAT3", "MAT4"};
+inline constexpr std::string_view kAlphaModes[] = {"OPAQUE", "MASK", "BLEND"};
+inline constexpr std::string_view kLightTypes[] = {"directional", "point", "spot"};
+inline constexpr std::string_view kCameraTypes[] = {"perspective", "orthographic"};
 
 inline constexpr std::array kAsset{required(text("version")), text("minVersion"), text("generator")};
 inline constexpr std::array kScene{text("name"), indices("nodes", "nodes")};
 
 inline constexpr std::array kNodeLight{required(index("light", "lights"))};
-inline constexpr std::array kNodeInstancing{
-    Field{.name = "attributes", .shape = Shape::indexMap, .required = true, .refers = "accessors"}};
+inline constexpr std::array kNodeInstancing{required(indexMap("attributes", "accessors"))};
 inline constexpr std::array kNodeExtensions{object("KHR_lights_punctual", kNodeLight),
                                             object("EXT_mesh_gpu_instancing", kNodeInstancing)};
 inline constexpr std::array kNode{text("name"),
@@ -136,13 +128,12 @@ inline constexpr std::array kNode{text("name"),
 
 inline constexpr std::array kDraco{required(index("bufferView", "bufferViews")), required(object("attributes", {}))};
 inline constexpr std::array kPrimitiveExtensions{object("KHR_draco_mesh_compression", kDraco)};
-inline constexpr std::array kPrimitive{
-    Field{.name = "attributes", .shape = Shape::indexMap, .required = true, .refers = "accessors"},
-    index("indices", "accessors"),
-    index("material", "materials"),
-    integer("mode", 0, 6),
-    Field{.name = "targets", .shape = Shape::indexMaps, .refers = "accessors"},
-    object("extensions", kPrimitiveExtensions)};
+inline constexpr std::array kPrimitive{required(indexMap("attributes", "accessors")),
+                                       index("indices", "accessors"),
+                                       index("material", "materials"),
+                                       integer("mode", 0, 6),
+                                       list(indexMap("targets", "accessors")),
+                                       object("extensions", kPrimitiveExtensions)};
 inline constexpr std::array kMesh{text("name"), required(objects("primitives", kPrimitive)), numbers("weights")};
 
 inline constexpr std::array kSparseIndices{required(index("bufferView", "bufferViews")), integer("byteOffset"),
@@ -159,9 +150,8 @@ inline constexpr std::array kAccessor{index("bufferView", "bufferViews"),
                                       object("sparse", kSparse),
                                       numbers("min"),
                                       numbers("max")};
-inline constexpr std::array kMeshoptModes{string_view("ATTRIBUTES"), string_view("TRIANGLES"), string_view("INDICES")};
-inline constexpr std::array kMeshoptFilters{string_view("NONE"), string_view("OCTAHEDRAL"), string_view("QUATERNION"),
-                                            string_view("EXPONENTIAL"), string_view("COLOR")};
+inline constexpr std::string_view kMeshoptModes[] = {"ATTRIBUTES", "TRIANGLES", "INDICES"};
+inline constexpr std::string_view kMeshoptFilters[] = {"NONE", "OCTAHEDRAL", "QUATERNION", "EXPONENTIAL", "COLOR"};
 inline constexpr std::array kMeshopt{
     required(index("buffer", "buffers")),    size("byteOffset"),      required(size("byteLength")),
     required(integer("byteStride", 1, 256)), required(size("count")), required(text("mode", kMeshoptModes)),
@@ -237,7 +227,7 @@ inline constexpr std::array kLights{required(objects("lights", kLight))};
 inline constexpr std::array kRootExtensions{object("KHR_lights_punctual", kLights)};
 
 // Animations are looked at where one is asked for.
-inline constexpr std::array kInterpolations{string_view("LINEAR"), string_view("STEP"), string_view("CUBICSPLINE")};
+inline constexpr std::string_view kInterpolations[] = {"LINEAR", "STEP", "CUBICSPLINE"};
 inline constexpr std::array kAnimationSampler{required(index("input", "accessors")),
                                               required(index("output", "accessors")),
                                               text("interpolation", kInterpolations)};
@@ -263,7 +253,7 @@ inline constexpr std::array kRoot{required(object("asset", kAsset)),
                                   objects("cameras", kCamera),
                                   objects("animations", {}),
                                   object("extensions", kRootExtensions),
-                                  Field{.name = "extensionsUsed", .shape = Shape::texts},
-                                  Field{.name = "extensionsRequired", .shape = Shape::texts}};
+                                  list(text("extensionsUsed")),
+                                  list(text("extensionsRequired"))};
 
 } // namespace cotan::gltf_schema

@@ -1,10 +1,10 @@
-#include "structure.hpp"
+// The collections of a glTF file as plain values.
+#include "gltf_model.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
-#include "problem.hpp"
 #include "schema.hpp"
 
 namespace cotan::gltf {
@@ -13,45 +13,18 @@ namespace {
 
 float numberOf(const Json& object, std::string_view name, double otherwise)
 {
-    return static_cast<float>(valueOr(object, name, otherwise));
+    return float(valueOr(object, name, otherwise));
 }
 
-float unitRange(double x) { return static_cast<float>(std::clamp(x, 0.0, 1.0)); }
-
-void readCoat(const Json& coat, MaterialSource& read)
-{
-    Coat& c = read.factors.coat;
-    c.strength = unitRange(valueOr(coat, "clearcoatFactor", 0.0));
-    c.roughness = unitRange(valueOr(coat, "clearcoatRoughnessFactor", 0.0));
-    read.coat = readTextureUse(&coat, "clearcoatTexture");
-    read.coatRoughness = readTextureUse(&coat, "clearcoatRoughnessTexture");
-    read.coatNormal = readTextureUse(&coat, "clearcoatNormalTexture");
-    c.normalScale = static_cast<float>(read.coatNormal.scale);
-}
-
-void readAnisotropy(const Json& anisotropy, MaterialSource& read)
-{
-    read.factors.anisotropy.strength = unitRange(valueOr(anisotropy, "anisotropyStrength", 0.0));
-    read.factors.anisotropy.rotation = numberOf(anisotropy, "anisotropyRotation", 0);
-    read.anisotropy = readTextureUse(&anisotropy, "anisotropyTexture");
-}
+float unitRange(double x) { return float(std::clamp(x, 0.0, 1.0)); }
 
 // Not negative, and no brighter than what lamps and products with it can bear.
-glm::vec3 colorOf(const Json& object, std::string_view name, glm::vec3 otherwise, double most)
+glm::vec3 colorOf(const Json& object, std::string_view name, const glm::vec3& otherwise, double most)
 {
-    const Json* const color = member(object, name);
-    for (int i = 0; color && i < 3; ++i)
-        otherwise[i] = static_cast<float>(std::clamp((*color)[std::size_t(i)].get<double>(), 0.0, most));
-    return otherwise;
-}
-
-void readSpecular(const Json& specular, MaterialSource& read)
-{
-    Specular& s = read.factors.specular;
-    s.strength = unitRange(valueOr(specular, "specularFactor", 1.0));
-    s.color = colorOf(specular, "specularColorFactor", s.color, gltf_schema::kBrightest); // may be over 1
-    read.specular = readTextureUse(&specular, "specularTexture");
-    read.specularColor = readTextureUse(&specular, "specularColorTexture");
+    glm::dvec3 color = vectorOr(object, name, glm::dvec3(otherwise));
+    for (int i = 0; i < 3; ++i)
+        color[i] = std::clamp(color[i], 0.0, most);
+    return glm::vec3(color);
 }
 
 // 0 stands for infinity; between 0 and 1 there is nothing that the extension allows.
@@ -61,63 +34,71 @@ float readIor(const Json& ior)
     return index == 0 ? 0.0f : std::max(index, 1.0f);
 }
 
-void readSheen(const Json& sheen, MaterialSource& read)
+// An object; where it is missing, one without members.
+const Json& orNone(const Json* object)
 {
-    read.factors.sheen.color = colorOf(sheen, "sheenColorFactor", glm::vec3(0), 1);
-    read.factors.sheen.roughness = unitRange(valueOr(sheen, "sheenRoughnessFactor", 0.0));
-    read.sheenColor = readTextureUse(&sheen, "sheenColorTexture");
-    read.sheenRoughness = readTextureUse(&sheen, "sheenRoughnessTexture");
+    static const Json none = Json::object();
+    return object ? *object : none;
 }
 
-void readTransmission(const Json& transmission, MaterialSource& read)
-{
-    read.factors.transmission.strength = unitRange(valueOr(transmission, "transmissionFactor", 0.0));
-    read.transmission = readTextureUse(&transmission, "transmissionTexture");
-}
-
-// What extensions say of light on the surface.
+// What extensions say of light on the surface. One that is missing has the defaults of one without members.
 void readLayers(const Json& source, MaterialSource& read)
 {
-    if (const Json* const coat = extension(source, "KHR_materials_clearcoat"))
-        readCoat(*coat, read);
-    if (const Json* const anisotropy = extension(source, "KHR_materials_anisotropy"))
-        readAnisotropy(*anisotropy, read);
-    if (const Json* const ior = extension(source, "KHR_materials_ior"))
-        read.factors.specular.ior = readIor(*ior);
-    if (const Json* const specular = extension(source, "KHR_materials_specular"))
-        readSpecular(*specular, read);
-    if (const Json* const sheen = extension(source, "KHR_materials_sheen"))
-        readSheen(*sheen, read);
-    if (const Json* const transmission = extension(source, "KHR_materials_transmission"))
-        readTransmission(*transmission, read);
+    Material& m = read.factors;
+    const Json& coat = orNone(extension(source, "KHR_materials_clearcoat"));
+    m.coat.strength = unitRange(valueOr(coat, "clearcoatFactor", 0.0));
+    m.coat.roughness = unitRange(valueOr(coat, "clearcoatRoughnessFactor", 0.0));
+    read.coat = readTextureUse(member(coat, "clearcoatTexture"));
+    read.coatRoughness = readTextureUse(member(coat, "clearcoatRoughnessTexture"));
+    read.coatNormal = readTextureUse(member(coat, "clearcoatNormalTexture"));
+    m.coat.normalScale = float(read.coatNormal.scale);
+
+    const Json& anisotropy = orNone(extension(source, "KHR_materials_anisotropy"));
+    m.anisotropy.strength = unitRange(valueOr(anisotropy, "anisotropyStrength", 0.0));
+    m.anisotropy.rotation = numberOf(anisotropy, "anisotropyRotation", 0);
+    read.anisotropy = readTextureUse(member(anisotropy, "anisotropyTexture"));
+
+    const Json& specular = orNone(extension(source, "KHR_materials_specular"));
+    m.specular.ior = readIor(orNone(extension(source, "KHR_materials_ior")));
+    m.specular.strength = unitRange(valueOr(specular, "specularFactor", 1.0));
+    m.specular.color = // may be over 1
+        colorOf(specular, "specularColorFactor", m.specular.color, gltf_schema::kBrightest);
+    read.specular = readTextureUse(member(specular, "specularTexture"));
+    read.specularColor = readTextureUse(member(specular, "specularColorTexture"));
+
+    const Json& sheen = orNone(extension(source, "KHR_materials_sheen"));
+    m.sheen.color = colorOf(sheen, "sheenColorFactor", glm::vec3(0), 1);
+    m.sheen.roughness = unitRange(valueOr(sheen, "sheenRoughnessFactor", 0.0));
+    read.sheenColor = readTextureUse(member(sheen, "sheenColorTexture"));
+    read.sheenRoughness = readTextureUse(member(sheen, "sheenRoughnessTexture"));
+
+    const Json& transmission = orNone(extension(source, "KHR_materials_transmission"));
+    m.transmission.strength = unitRange(valueOr(transmission, "transmissionFactor", 0.0));
+    read.transmission = readTextureUse(member(transmission, "transmissionTexture"));
 }
 
 MaterialSource readMaterial(const Json& source)
 {
-    const Json none = Json::object();
-    const Json* const found = member(source, "pbrMetallicRoughness");
-    const Json& pbr = found ? *found : none;
+    const Json& pbr = orNone(member(source, "pbrMetallicRoughness"));
     MaterialSource read;
-    read.baseColor = readTextureUse(&pbr, "baseColorTexture");
-    read.metallicRoughness = readTextureUse(&pbr, "metallicRoughnessTexture");
-    read.normal = readTextureUse(&source, "normalTexture");
-    read.occlusion = readTextureUse(&source, "occlusionTexture");
-    read.emissive = readTextureUse(&source, "emissiveTexture");
+    read.baseColor = readTextureUse(member(pbr, "baseColorTexture"));
+    read.metallicRoughness = readTextureUse(member(pbr, "metallicRoughnessTexture"));
+    read.normal = readTextureUse(member(source, "normalTexture"));
+    read.occlusion = readTextureUse(member(source, "occlusionTexture"));
+    read.emissive = readTextureUse(member(source, "emissiveTexture"));
     Material& m = read.factors;
     m.name = valueOr(source, "name", std::string());
     m.tangentsFor = tangentReader(source);
-    if (const Json* const color = member(pbr, "baseColorFactor"))
-        for (int i = 0; i < 4; ++i)
-            m.baseColor[i] = unitRange((*color)[std::size_t(i)].get<double>());
+    const glm::dvec4 baseColor = vectorOr(pbr, "baseColorFactor", glm::dvec4(m.baseColor));
+    for (int i = 0; i < 4; ++i)
+        m.baseColor[i] = unitRange(baseColor[i]);
     m.metallic = unitRange(valueOr(pbr, "metallicFactor", 1.0));
     m.roughness = unitRange(valueOr(pbr, "roughnessFactor", 1.0));
-    const Json* const emissive = extension(source, "KHR_materials_emissive_strength");
-    const float strength = emissive ? numberOf(*emissive, "emissiveStrength", 1) : 1.0f;
-    if (const Json* const color = member(source, "emissiveFactor"))
-        for (int i = 0; i < 3; ++i)
-            m.emissive[i] = unitRange((*color)[std::size_t(i)].get<double>()) * strength;
+    const float strength =
+        numberOf(orNone(extension(source, "KHR_materials_emissive_strength")), "emissiveStrength", 1);
+    m.emissive = colorOf(source, "emissiveFactor", m.emissive, 1) * strength;
     m.occlusionStrength = unitRange(read.occlusion.strength);
-    m.normalScale = static_cast<float>(read.normal.scale);
+    m.normalScale = float(read.normal.scale);
     m.normalFormat.expansion = expansionOf(source);
     const std::string alpha = valueOr(source, "alphaMode", std::string("OPAQUE"));
     m.alphaMode = alpha == "MASK" ? AlphaMode::mask : alpha == "BLEND" ? AlphaMode::blend : AlphaMode::opaque;
@@ -148,9 +129,9 @@ Camera readCamera(const Json& source, const std::string& field)
     camera.orthographic = kind == "orthographic";
     // Sizes that show nothing, or more than half a sphere, are brought to the nearest usable one.
     if (camera.orthographic)
-        camera.verticalExtent = static_cast<float>(std::max(2 * std::abs(description["ymag"].get<double>()), 1e-6));
+        camera.verticalExtent = float(std::max(2 * std::abs(description["ymag"].get<double>()), 1e-6));
     else
-        camera.verticalFieldOfView = static_cast<float>(std::clamp(description["yfov"].get<double>(), 0.001, 3.1));
+        camera.verticalFieldOfView = float(std::clamp(description["yfov"].get<double>(), 0.001, 3.1));
     return camera;
 }
 
@@ -159,9 +140,7 @@ Light readLight(const Json& source, const std::string& field)
     const auto& kind = source["type"].get_ref<const std::string&>();
     Light light;
     light.kind = kind == "directional" ? LightKind::directional : kind == "point" ? LightKind::point : LightKind::spot;
-    if (const Json* const color = member(source, "color"))
-        for (int i = 0; i < 3; ++i)
-            light.color[i] = (*color)[std::size_t(i)].get<float>();
+    light.color = vectorOr(source, "color", light.color);
     light.intensity = numberOf(source, "intensity", 1);
     light.range = numberOf(source, "range", 0);
     double inner = 0, outer = std::numbers::pi / 4;
@@ -171,8 +150,8 @@ Light readLight(const Json& source, const std::string& field)
         outer = valueOr(spot, "outerConeAngle", outer);
     }
     outer = std::clamp(outer, 0.0, std::numbers::pi / 2);
-    light.outerCone = static_cast<float>(outer);
-    light.innerCone = static_cast<float>(std::clamp(inner, 0.0, outer));
+    light.outerCone = float(outer);
+    light.innerCone = float(std::clamp(inner, 0.0, outer));
     return light;
 }
 

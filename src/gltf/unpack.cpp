@@ -1,23 +1,19 @@
-#include "unpack.hpp"
-
+// Compressed geometry of a glTF file, made plain: Draco streams where LoadLimits says in a process of their own.
 #include <algorithm>
-#include <map>
 #include <optional>
 #include <set>
 
-#include "codes.hpp"
 #include "elements.hpp"
+#include "files/sandbox/process.hpp"
 #include "gltf/draco.hpp"
 #include "gltf/json/lookup.hpp"
-#include "gltf/json/views.hpp"
+#include "gltf_file.hpp"
 
 namespace cotan {
 
 using gltf::Json;
 
 namespace {
-
-constexpr const char* kMeshopt[] = {"EXT_meshopt_compression", "KHR_meshopt_compression"};
 
 void takeOut(Json& object, const std::string& name)
 {
@@ -29,13 +25,11 @@ void takeOut(Json& object, const std::string& name)
         object.erase("extensions");
 }
 
-// Attributes of vertices begin at multiples of four bytes.
-std::size_t aligned(std::size_t bytes) { return (bytes + 3) / 4 * 4; }
-
+// Elements of `each` bytes, each at a multiple of four.
 std::vector<std::byte> spaced(const std::vector<std::byte>& packed, std::size_t each)
 {
-    std::vector<std::byte> out(packed.size() / each * aligned(each));
-    for (std::size_t from = 0, to = 0; from < packed.size(); from += each, to += aligned(each))
+    std::vector<std::byte> out(packed.size() / each * gltf::aligned(each));
+    for (std::size_t from = 0, to = 0; from < packed.size(); from += each, to += gltf::aligned(each))
         std::copy_n(packed.begin() + std::ptrdiff_t(from), each, out.begin() + std::ptrdiff_t(to));
     return out;
 }
@@ -46,11 +40,11 @@ public:
 
     void run()
     {
-        for (const char* const name : kMeshopt)
+        for (const char* const name : kMeshoptExtensions)
             unpackViews(name);
         readDracoJobs();
         unpackPrimitives();
-        for (const char* const name : {kMeshopt[0], kMeshopt[1], kDracoExtension}) {
+        for (const char* const name : {kMeshoptExtensions[0], kMeshoptExtensions[1], kDracoExtension}) {
             if (requiresExtension(name))
                 file_.packed.required.emplace_back(name);
             takeOffExtension(file_.json, name);
@@ -200,7 +194,7 @@ private:
                         {m, p, *draco, primitive["indices"].get<int>(), primitive["attributes"]});
                 takeOut(primitive, kDracoExtension);
                 // Primitives may share a stream and its accessors.
-                if (job && made_.emplace(targets_.back(), jobs_.size()).second)
+                if (job && made_.insert(targets_.back()).second)
                     jobs_.push_back(std::move(*job));
                 else
                     targets_.pop_back();
@@ -229,7 +223,7 @@ private:
                 const std::size_t each = k + 1 < arrays.size() ? arrays[k].size() / jobs_[i].vertices : 4;
                 Json view = viewOf(each % 4 == 0 ? std::move(arrays[k]) : spaced(arrays[k], each));
                 if (each % 4 != 0)
-                    view["byteStride"] = aligned(each);
+                    view["byteStride"] = gltf::aligned(each);
                 file_.json["bufferViews"].push_back(std::move(view));
                 // Quantised numbers have other bounds than those that were compressed.
                 const gltf::Accessor a = gltf::readAccessor(target);
@@ -243,11 +237,55 @@ private:
     GltfFile& file_;
     const LoadLimits& limits_;
     std::vector<DracoJob> jobs_;
-    std::vector<std::vector<int>> targets_;        // the accessors of each job: attributes, then indices
-    std::map<std::vector<int>, std::size_t> made_; // jobs by their accessors
+    std::vector<std::vector<int>> targets_; // the accessors of each job: attributes, then indices
+    std::set<std::vector<int>> made_;       // those that have a job
 };
 
+// Whether an answer has the sizes that were asked for.
+bool fits(const std::vector<DracoGeometry>& meshes, const std::vector<DracoJob>& jobs)
+{
+    if (meshes.size() != jobs.size())
+        return false;
+    for (std::size_t i = 0; i < jobs.size(); ++i) {
+        if (meshes[i].indices.size() != jobs[i].indices * gltf::componentSize(jobs[i].indexType)
+            || meshes[i].attributes.size() != jobs[i].attributes.size())
+            return false;
+        for (std::size_t k = 0; k < jobs[i].attributes.size(); ++k) {
+            const DracoAttribute& a = jobs[i].attributes[k];
+            if (meshes[i].attributes[k].size()
+                != jobs[i].vertices * a.components * gltf::componentSize(a.componentType))
+                return false;
+        }
+    }
+    return true;
+}
+
 } // namespace
+
+Result<std::vector<DracoGeometry>> decodeDraco(const std::vector<DracoJob>& jobs, const std::string& name,
+                                               const LoadLimits& limits)
+{
+    if (limits.sandbox.program.empty())
+        return gltf::decodeDracoHere(jobs);
+    std::size_t bytes = 0;
+    for (const DracoJob& job : jobs)
+        bytes += job.bytes.size();
+    auto process =
+        ReaderProcess::start({.kind = ReaderKind::draco, .name = name, .fileBytes = bytes, .limits = limits});
+    if (!process)
+        return process.error();
+    exchangeDracoJobs((*process)->question(), jobs);
+    (*process)->question().flush(); // a failure shows in the answer
+    if (Status found = (*process)->await(); !found)
+        return found.error();
+    std::vector<DracoGeometry> meshes;
+    exchangeDracoGeometry((*process)->answer(), meshes);
+    if ((*process)->answer().good() && !fits(meshes, jobs))
+        (*process)->answer().refuse();
+    if (!(*process)->answer().good())
+        return (*process)->failure();
+    return meshes;
+}
 
 void unpackGltf(GltfFile& file, const LoadLimits& limits) { Unpacker(file, limits).run(); }
 

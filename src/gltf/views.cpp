@@ -2,12 +2,15 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <map>
+#include <utility>
 
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
 
-#include "codes.hpp"
 #include "elements.hpp"
+#include "schema.hpp"
 
 namespace cotan::gltf {
 
@@ -22,12 +25,6 @@ template<class T> std::vector<T> listOf(const Json& object, std::string_view nam
     return valueOr(object, name, std::vector<T>());
 }
 
-glm::dvec3 vectorOr(const Json& object, std::string_view name, const glm::dvec3& otherwise)
-{
-    const Json* const v = member(object, name);
-    return v ? glm::dvec3((*v)[0].get<double>(), (*v)[1].get<double>(), (*v)[2].get<double>()) : otherwise;
-}
-
 Attributes attributesOf(const Json& object)
 {
     Attributes attributes;
@@ -36,11 +33,9 @@ Attributes attributesOf(const Json& object)
     return attributes;
 }
 
-constexpr std::array kElementTypes{"SCALAR", "VEC2", "VEC3", "VEC4", "MAT2", "MAT3", "MAT4"};
-
 ElementType elementTypeOf(std::string_view name)
 {
-    return ElementType(std::find(kElementTypes.begin(), kElementTypes.end(), name) - kElementTypes.begin());
+    return ElementType(std::ranges::find(gltf_schema::kElementTypes, name) - gltf_schema::kElementTypes);
 }
 
 Sparse readSparse(const Json& sparse)
@@ -63,6 +58,42 @@ glm::dquat rotationOf(const glm::dvec4& xyzw)
     return glm::dquat(xyzw.w / length, xyzw.x / length, xyzw.y / length, xyzw.z / length);
 }
 
+// KHR_texture_transform: scale, then turn, then shift. The turn is counter-clockwise as seen in the image, whose v runs
+// down; so its sine stands in the first row, not in the second. (The extension's example, offset (0,1), a quarter turn,
+// scale 1/2, has to select the lower left quadrant.) The extension may name another uv set than the texture itself.
+void applyTransform(const Json& transform, TextureUse& use)
+{
+    const auto offset = vectorOr(transform, "offset", glm::dvec2(0)),
+               scale = vectorOr(transform, "scale", glm::dvec2(1));
+    const double turn = valueOr(transform, "rotation", 0.0), c = std::cos(turn), s = std::sin(turn);
+    use.uRow = {c * scale.x, s * scale.y, offset.x};
+    use.vRow = {-s * scale.x, c * scale.y, offset.y};
+    use.texcoord = valueOr(transform, "texCoord", use.texcoord);
+}
+
+constexpr std::pair<int, Wrap> kWrapCodes[] = {
+    {kRepeat, Wrap::repeat}, {kClampToEdge, Wrap::clamp}, {kMirroredRepeat, Wrap::mirror}};
+
+Wrap wrapOf(const Json& sampler, std::string_view name)
+{
+    const auto found = std::ranges::find(kWrapCodes, valueOr(sampler, name, kRepeat), &std::pair<int, Wrap>::first);
+    return found == std::end(kWrapCodes) ? Wrap::repeat : found->second;
+}
+
+int codeOf(Wrap wrap) { return std::ranges::find(kWrapCodes, wrap, &std::pair<int, Wrap>::second)->first; }
+
+struct MinifyCode {
+    int code;
+    Filter minify;
+    MipFilter mip;
+};
+constexpr MinifyCode kMinifyCodes[] = {{kNearest, Filter::nearest, MipFilter::none},
+                                       {kLinear, Filter::linear, MipFilter::none},
+                                       {kNearestMipmapNearest, Filter::nearest, MipFilter::nearest},
+                                       {kLinearMipmapNearest, Filter::linear, MipFilter::nearest},
+                                       {kNearestMipmapLinear, Filter::nearest, MipFilter::linear},
+                                       {kLinearMipmapLinear, Filter::linear, MipFilter::linear}};
+
 } // namespace
 
 const Json* member(const Json& object, std::string_view name)
@@ -73,15 +104,13 @@ const Json* member(const Json& object, std::string_view name)
 
 Expansion expansionOf(const Json& material)
 {
-    const Json* const extras = member(material, "extras");
-    const Json* const said = extras && extras->is_object() ? member(*extras, kUnsignedKey) : nullptr;
+    const Json* const said = member(member(material, "extras"), kUnsignedKey);
     return said && *said == "biased" ? Expansion::biased : Expansion::exact;
 }
 
 const Json* extension(const Json& object, std::string_view name)
 {
-    const Json* const extensions = member(object, "extensions");
-    const Json* const found = extensions ? member(*extensions, name) : nullptr;
+    const Json* const found = member(member(object, "extensions"), name);
     return found && found->is_object() ? found : nullptr;
 }
 
@@ -104,7 +133,7 @@ std::size_t componentCount(ElementType type)
     return counts[std::size_t(type)];
 }
 
-const char* nameOf(ElementType type) { return kElementTypes[std::size_t(type)]; }
+std::string_view nameOf(ElementType type) { return gltf_schema::kElementTypes[std::size_t(type)]; }
 
 std::size_t elementSize(const Accessor& accessor)
 {
@@ -183,9 +212,7 @@ Node readNode(const Json& node)
     }
     read.translation = vectorOr(node, "translation", read.translation);
     read.scale = vectorOr(node, "scale", read.scale);
-    if (const Json* const q = member(node, "rotation"))
-        for (int i = 0; i < 4; ++i)
-            read.rotation[i] = (*q)[std::size_t(i)].get<double>();
+    read.rotation = vectorOr(node, "rotation", read.rotation);
     if (const Json* const light = extension(node, "KHR_lights_punctual"))
         read.light = indexOf(*light, "light");
     if (const Json* const instancing = extension(node, "EXT_mesh_gpu_instancing"))
@@ -205,6 +232,92 @@ glm::dmat4 composed(const glm::dvec3& translation, const glm::dvec4& rotation, c
 glm::dmat4 localMatrix(const Node& node)
 {
     return node.matrix.value_or(composed(node.translation, node.rotation, node.scale));
+}
+
+// ---- textures -------------------------------------------------------------------------------
+
+TextureUse readTextureUse(const Json* info)
+{
+    TextureUse use;
+    if (!info)
+        return use;
+    use.texture = indexOf(*info, "index");
+    use.texcoord = valueOr(*info, "texCoord", 0);
+    use.scale = valueOr(*info, "scale", 1.0);
+    use.strength = valueOr(*info, "strength", 1.0);
+    if (const Json* const transform = extension(*info, "KHR_texture_transform"))
+        applyTransform(*transform, use);
+    return use;
+}
+
+Texture readTexture(const Json& texture, std::size_t images)
+{
+    Texture read;
+    read.sampler = indexOf(texture, "sampler");
+    read.image = indexOf(texture, "source");
+    const Json* const extensions = member(texture, "extensions");
+    if (!extensions)
+        return read;
+    std::map<std::string_view, int> named;
+    for (const auto& [name, content] : extensions->items())
+        if (const Json* const source = member(content, "source");
+            source && source->is_number_unsigned() && source->get<std::size_t>() < images)
+            named.emplace(name, source->get<int>());
+    if (read.image < 0)
+        for (const std::string_view extension : kReadImageExtensions)
+            if (const auto found = named.find(extension); found != named.end()) {
+                read.image = found->second;
+                return read;
+            }
+    if (!named.empty())
+        read.foreign = named.begin()->second;
+    return read;
+}
+
+Image readImage(const Json& image)
+{
+    Image read{textOf(image, "name"), {}, indexOf(image, "bufferView")};
+    if (const Json* const uri = member(image, "uri"))
+        read.uri = uri->get_ref<const std::string&>();
+    return read;
+}
+
+// What the file leaves open becomes linear with mipmaps.
+Sampler readSampler(const Json& sampler)
+{
+    Sampler read;
+    read.wrapU = wrapOf(sampler, "wrapS");
+    read.wrapV = wrapOf(sampler, "wrapT");
+    if (valueOr(sampler, "magFilter", kLinear) == kNearest)
+        read.magnify = Filter::nearest;
+    const int code = valueOr(sampler, "minFilter", kLinearMipmapLinear);
+    for (const MinifyCode& m : kMinifyCodes)
+        if (m.code == code) {
+            read.minify = m.minify;
+            read.mip = m.mip;
+        }
+    return read;
+}
+
+Json writeSampler(const Sampler& s)
+{
+    Json sampler = {{"wrapS", codeOf(s.wrapU)}, {"wrapT", codeOf(s.wrapV)}};
+    sampler["magFilter"] = s.magnify == Filter::nearest ? kNearest : kLinear;
+    for (const MinifyCode& m : kMinifyCodes)
+        if (m.minify == s.minify && m.mip == s.mip)
+            sampler["minFilter"] = m.code;
+    return sampler;
+}
+
+std::string frameText(const Json& material)
+{
+    const Json* const frame = member(member(material, "extras"), kFrameExtra);
+    return !frame ? "" : frame->is_string() ? frame->get<std::string>() : frame->dump();
+}
+
+std::string tangentReader(const Json& material)
+{
+    return extension(material, "KHR_materials_anisotropy") ? "KHR_materials_anisotropy" : "";
 }
 
 } // namespace cotan::gltf

@@ -9,7 +9,6 @@
 
 #include "cotan/image.hpp"
 #include "gltf/json/lookup.hpp"
-#include "gltf/json/placed.hpp"
 
 namespace cotan {
 

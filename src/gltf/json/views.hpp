@@ -24,10 +24,29 @@ namespace cotan::gltf {
 
 using Json = nlohmann::ordered_json; // members stay in the order of the file
 
+// ---- the numbers that stand for types and modes, from OpenGL --------------------------------
+
+inline constexpr int kByte = 5120, kUnsignedByte = 5121, kShort = 5122, kUnsignedShort = 5123, kUnsignedInt = 5125,
+                     kFloat = 5126;
+
+inline constexpr int kTriangles = 4, kTriangleStrip = 5, kTriangleFan = 6;
+
+// Targets of buffer views.
+inline constexpr int kArrayBuffer = 34962, kElementArrayBuffer = 34963;
+
+inline constexpr int kNearest = 9728, kLinear = 9729, kNearestMipmapNearest = 9984, kLinearMipmapNearest = 9985,
+                     kNearestMipmapLinear = 9986, kLinearMipmapLinear = 9987;
+
+inline constexpr int kRepeat = 10497, kClampToEdge = 33071, kMirroredRepeat = 33648;
+
 // ---- JSON -----------------------------------------------------------------------------------
 
-// A member of an object; null where it is missing, and where `object` is none.
+// A member of an object; null where it is missing, and where `object` is none or null.
 const Json* member(const Json& object, std::string_view name);
+inline const Json* member(const Json* object, std::string_view name)
+{
+    return object ? member(*object, name) : nullptr;
+}
 
 // A key of a material's extras: how its normal map stores signed numbers in unsigned ones. "biased": 2c - 1; any other
 // value, and none, is Cotan's default, whose zero is the middle code (docs/reference/conventions.md). A clear coat's
@@ -42,6 +61,16 @@ template<class T> T valueOr(const Json& object, std::string_view name, T otherwi
 {
     const Json* const found = member(object, name);
     return found ? found->get<T>() : otherwise;
+}
+
+// The numbers of an array as a vector. T: as which they are read.
+template<glm::length_t N, class T>
+glm::vec<N, T> vectorOr(const Json& object, std::string_view name, glm::vec<N, T> otherwise)
+{
+    const Json* const numbers = member(object, name);
+    for (glm::length_t i = 0; numbers && i < N; ++i)
+        otherwise[i] = (*numbers)[std::size_t(i)].get<T>();
+    return otherwise;
 }
 
 // ---- numbers in buffers ---------------------------------------------------------------------
@@ -157,8 +186,8 @@ struct Image {
     int view = -1;
 };
 
-// material: an object with the slot, or null. slot: "normalTexture" and so on.
-TextureUse readTextureUse(const Json* material, std::string_view slot);
+// info: what a material says of a "normalTexture" and so on; null: nothing.
+TextureUse readTextureUse(const Json* info);
 
 // images: how many there are.
 Texture readTexture(const Json& texture, std::size_t images);

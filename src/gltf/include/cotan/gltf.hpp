@@ -44,10 +44,6 @@ Result<Scene> loadGltf(const std::filesystem::path& file, const LoadLimits& limi
 // Changing a glTF file and leaving alone what is not meant: names, extras, extensions that we do not
 // know, attributes of any type, images, animations.
 //
-//     auto document = openGltfDocument("in.gltf");
-//     auto changed = setGltfTangents(*document, tangents);
-//     auto written = writeGltf(*document, "out.glb");
-//
 // Indices of materials, textures, images, meshes and nodes are the file's, and stay as they are while the
 // document is open. Only writing removes what has fallen out of use, and works on a copy.
 
@@ -84,11 +80,10 @@ Result<GltfDocument> openGltfDocument(const std::filesystem::path& file, const L
 // The file that a document was read from, for messages; empty for one that was made from a scene.
 const std::filesystem::path& gltfPath(const GltfDocument& document);
 
-// A scene as a new document: one mesh with one primitive for each of its meshes, materials of
-// metallic-roughness, images as PNG inside. Lights, cameras and derived cotangents are left out. Meshes
-// without vertices are not for glTF: the caller keeps to scenes that were loaded or made with triangles.
-// Errors: ErrorKind::output where there is no memory for a PNG; images of floats cannot be stored
-// (ErrorKind::input).
+// A scene as a new document: one mesh with one primitive for each of its meshes, materials of metallic-roughness,
+// images as PNG inside. Lights, cameras and derived cotangents are left out. Meshes without vertices are not for glTF:
+// the caller keeps to scenes that were loaded or made with triangles. Errors: ErrorKind::output where there is no
+// memory for a PNG; images of floats cannot be stored (ErrorKind::input).
 Result<GltfDocument> gltfDocumentOf(const Scene& scene);
 
 // ---- geometry -------------------------------------------------------------------------------
@@ -125,10 +120,9 @@ struct GltfCornerTangents {
     std::vector<glm::vec4> corners;
 };
 
-// Gives primitives TANGENT, in place of what they had. A vertex is copied, with all its attributes
-// and morph targets, only where corners that share it differ; primitives that share their
-// attributes go on sharing them if all of them are given in one call. Strips and fans become lists.
-// Returns how many vertices were added.
+// Gives primitives TANGENT, in place of what they had. A vertex is copied, with all its attributes and morph targets,
+// only where corners that share it differ; primitives that share their attributes go on sharing them if all of them are
+// given in one call. Strips and fans become lists. Returns how many vertices were added.
 // Errors (ErrorKind::input): no NORMAL; ErrorKind::usage: corners of the wrong
 // number. On error the document is unchanged.
 Result<std::size_t> setGltfTangents(GltfDocument& document, std::span<const GltfCornerTangents> tangents);
@@ -146,12 +140,11 @@ struct GltfProvoked {
 };
 
 // Numbers every primitive anew, so that its vertex k < triangles provokes its triangle k (see provokingMesh). Its
-// indices then say which vertices those of triangle k are, so that a vertex shader that reads them, and the
-// positions, uv and normals, makes U and V of the frame `triangle`. Vertices are copied with all attributes and
-// morph targets, to the bit. Triangles stay in their order; strips, fans and primitives without indices become
-// lists. Vertices that no triangle uses are left out, and primitives that shared vertices get their own. Points and
-// lines stay as they are. Returns what has triangles; primitives that draw the same arrays go on sharing them, and
-// only the first is returned.
+// indices then say which vertices those of triangle k are, so that a vertex shader that reads them, and the positions,
+// uv and normals, makes U and V of the frame `triangle`. Vertices are copied with all attributes and morph targets, to
+// the bit. Triangles stay in their order; strips, fans and primitives without indices become lists. Vertices that no
+// triangle uses are left out, and primitives that shared vertices get their own. Points and lines stay as they are.
+// Returns what has triangles; primitives that draw the same arrays go on sharing them, and only the first is returned.
 // Errors (ErrorKind::input): no memory for the copies; the document is then not to be used.
 Result<std::vector<GltfProvoked>> setGltfProvoking(GltfDocument& document, ProvokingVertex provoking);
 
@@ -161,9 +154,8 @@ Result<std::vector<GltfProvoked>> setGltfProvoking(GltfDocument& document, Provo
 Result<std::vector<std::byte>> gltfImageBytes(const GltfDocument& document, std::size_t image,
                                               const LoadLimits& limits = {});
 
-// New content for an image: all textures that use it follow. mimeType: "image/png" or "image/jpeg".
-// Whatever the image was before, the bytes go into the .glb, or into a file beside the .gltf; its name and extras
-// are kept.
+// New content for an image: all textures that use it follow. mimeType: "image/png" or "image/jpeg". Whatever the image
+// was before, the bytes go into the .glb, or into a file beside the .gltf; its name and extras are kept.
 void replaceGltfImage(GltfDocument& document, std::size_t image, std::vector<std::byte> bytes,
                       const std::string& mimeType);
 
@@ -193,9 +185,8 @@ struct GltfWritten {
 // Accessors, views, images and bytes that the file used and now nothing uses are removed, and all
 // indices follow; where an extension that we do not know might refer to them, they are kept, and a
 // note says so. Whatever fails, nothing is left behind.
-// Errors: ErrorKind::usage for another extension than .glb and .gltf; ErrorKind::output where a file
-// cannot be written or an image to be copied would replace a different file; ErrorKind::input where
-// an image file cannot be read.
+// Errors: ErrorKind::usage for another extension than .glb and .gltf; ErrorKind::output where a file cannot be written
+// or an image to be copied would replace a different file; ErrorKind::input where an image file cannot be read.
 Result<GltfWritten> writeGltf(const GltfDocument& document, const std::filesystem::path& file,
                               const LoadLimits& limits = {});
 
@@ -204,12 +195,6 @@ Result<GltfWritten> writeGltf(const GltfDocument& document, const std::filesyste
 Result<std::vector<std::byte>> glbBytes(GltfDocument document, const LoadLimits& limits = {});
 
 // ---- tangents of a whole file --------------------------------------------------------------
-
-// Tangents for the primitives of a glTF file: generated and written into it, or compared with those that it has.
-//
-//     auto document = openGltfDocument("in.gltf");
-//     auto given = giveTangents(*document, {});
-//     auto written = writeGltf(*document, "out.glb");
 
 // A primitive with what its tangents are made from.
 struct GltfPrimitiveGeometry {
