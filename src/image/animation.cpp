@@ -6,11 +6,11 @@
 
 #include <fmt/format.h>
 
+#include "codecs.hpp"
 #include "files/output.hpp"
 #include "formats.hpp"
 #include "image/component_types.hpp"
 #include "image/format_table.hpp"
-#include "webp.hpp"
 
 namespace cotan {
 

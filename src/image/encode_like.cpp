@@ -2,9 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "codecs.hpp"
 #include "image/format_table.hpp"
-#include "jpeg.hpp"
-#include "webp.hpp"
 
 namespace cotan {
 

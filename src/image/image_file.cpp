@@ -5,17 +5,14 @@
 
 #include <fmt/format.h>
 
+#include "codecs.hpp"
 #include "files/bytes.hpp"
 #include "files/output.hpp"
 #include "formats.hpp"
 #include "image/component_types.hpp"
 #include "image/format_table.hpp"
 #include "image/pending.hpp"
-#include "jpeg.hpp"
 #include "ktx2.hpp"
-#include "png.hpp"
-#include "sandboxed_images.hpp"
-#include "webp.hpp"
 
 namespace cotan {
 

@@ -1,4 +1,4 @@
-#include "jpeg.hpp"
+#include "codecs.hpp"
 
 #include <algorithm>
 #include <cmath>

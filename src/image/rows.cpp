@@ -6,13 +6,11 @@
 
 #include <fmt/format.h>
 
+#include "codecs.hpp"
 #include "files/bytes.hpp"
 #include "files/output.hpp"
 #include "formats.hpp"
 #include "image/format_table.hpp"
-#include "png.hpp"
-#include "png_rows.hpp"
-#include "sandboxed_images.hpp"
 
 namespace cotan {
 

@@ -1,4 +1,4 @@
-#include "sandboxed_images.hpp"
+#include "codecs.hpp"
 
 #include <fmt/format.h>
 
