@@ -15,7 +15,8 @@ namespace cotan {
 
 // How pixels are stored, of the numbers of VkFormat that are read here.
 struct Ktx2Format {
-    std::uint32_t number = 0;      // VkFormat
+    std::uint32_t linear = 0;      // VkFormat
+    std::uint32_t srgb = 0;        // the same in sRGB; linear where there is none
     int channels = 0;              // of what comes out
     int bytes = 0;                 // of one component; 0: blocks of 4 x 4 pixels
     bool floats = false;           // components are floats of 2 or 4 bytes

@@ -14,44 +14,32 @@ namespace cotan {
 namespace {
 
 // VkFormat of Vulkan 1.3, sRGB beside linear: values stay as they are stored.
-constexpr std::array<Ktx2Format, 38> kVulkanFormats = {{{9, 1, 1},
-                                                        {15, 1, 1},
-                                                        {16, 2, 1},
-                                                        {22, 2, 1},
-                                                        {23, 3, 1},
-                                                        {29, 3, 1},
-                                                        {30, 3, 1, false, true},
-                                                        {36, 3, 1, false, true},
-                                                        {37, 4, 1},
-                                                        {43, 4, 1},
-                                                        {44, 4, 1, false, true},
-                                                        {50, 4, 1, false, true},
-                                                        {51, 4, 1},
-                                                        {57, 4, 1},
-                                                        {70, 1, 2},
-                                                        {76, 1, 2, true},
-                                                        {77, 2, 2},
-                                                        {83, 2, 2, true},
-                                                        {84, 3, 2},
-                                                        {90, 3, 2, true},
-                                                        {91, 4, 2},
-                                                        {97, 4, 2, true},
-                                                        {100, 1, 4, true},
-                                                        {103, 2, 4, true},
-                                                        {106, 3, 4, true},
-                                                        {109, 4, 4, true},
-                                                        {131, 4, 0, false, false, "DXT1", 0, 8},
-                                                        {132, 4, 0, false, false, "DXT1", 0, 8},
-                                                        {133, 4, 0, false, false, "DXT1", 0, 8},
-                                                        {134, 4, 0, false, false, "DXT1", 0, 8},
-                                                        {135, 4, 0, false, false, "DXT3", 0, 16},
-                                                        {136, 4, 0, false, false, "DXT3", 0, 16},
-                                                        {137, 4, 0, false, false, "DXT5", 0, 16},
-                                                        {138, 4, 0, false, false, "DXT5", 0, 16},
-                                                        {139, 1, 0, false, false, "DX10", 80, 8},
-                                                        {141, 2, 0, false, false, "DX10", 83, 16},
-                                                        {145, 4, 0, false, false, "DX10", 98, 16},
-                                                        {146, 4, 0, false, false, "DX10", 98, 16}}};
+constexpr Ktx2Format kVulkanFormats[] = {{9, 15, 1, 1},
+                                         {16, 22, 2, 1},
+                                         {23, 29, 3, 1},
+                                         {30, 36, 3, 1, false, true},
+                                         {37, 43, 4, 1},
+                                         {44, 50, 4, 1, false, true},
+                                         {51, 57, 4, 1},
+                                         {70, 70, 1, 2},
+                                         {76, 76, 1, 2, true},
+                                         {77, 77, 2, 2},
+                                         {83, 83, 2, 2, true},
+                                         {84, 84, 3, 2},
+                                         {90, 90, 3, 2, true},
+                                         {91, 91, 4, 2},
+                                         {97, 97, 4, 2, true},
+                                         {100, 100, 1, 4, true},
+                                         {103, 103, 2, 4, true},
+                                         {106, 106, 3, 4, true},
+                                         {109, 109, 4, 4, true},
+                                         {131, 132, 4, 0, false, false, "DXT1", 0, 8},
+                                         {133, 134, 4, 0, false, false, "DXT1", 0, 8},
+                                         {135, 136, 4, 0, false, false, "DXT3", 0, 16},
+                                         {137, 138, 4, 0, false, false, "DXT5", 0, 16},
+                                         {139, 139, 1, 0, false, false, "DX10", 80, 8},
+                                         {141, 141, 2, 0, false, false, "DX10", 83, 16},
+                                         {145, 146, 4, 0, false, false, "DX10", 98, 16}};
 
 constexpr std::uint64_t kHeader = 80, kLevelEntry = 24;
 
@@ -119,8 +107,9 @@ Result<Ktx2Picture> checkKtx2(std::span<const std::byte> bytes)
     const std::uint64_t format = file.at(12, 4), width = file.at(20, 4), height = file.at(24, 4),
                         depth = file.at(28, 4), layers = file.at(32, 4), faces = file.at(36, 4),
                         levels = file.at(40, 4);
-    const auto known = std::ranges::find(kVulkanFormats, format, &Ktx2Format::number);
-    if (known == kVulkanFormats.end())
+    const auto known = std::ranges::find_if(
+        kVulkanFormats, [&](const Ktx2Format& f) { return f.linear == format || f.srgb == format; });
+    if (known == std::end(kVulkanFormats))
         return inputError(fmt::format("its format {} (VkFormat) is not read here", format));
     if (width == 0 || height == 0 || depth > 1 || layers > 1 || faces != 1)
         return inputError(fmt::format("expected one flat picture, found {} x {} x {}, {} layers, {} faces", width,

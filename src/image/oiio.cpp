@@ -11,6 +11,7 @@
 
 #include <fmt/format.h>
 
+#include "core/named_values.hpp"
 #include "formats.hpp"
 #include "image/component_types.hpp"
 #include "image/frame_key.hpp"
@@ -125,17 +126,33 @@ std::string frameOf(const OIIO::ImageSpec& spec, const std::string& format)
     return std::string(frameText(value));
 }
 
-Problem checkFileLayout(File& file, const std::string& format, const LoadLimits& limits)
+namespace {
+
+Error broken(const std::string& name, const std::string& format, const std::string& why)
 {
-    if (format == "tiff")
-        return checkTiff(file, limits);
-    if (format == "openexr")
-        return checkExr(file, limits);
-    if (format == "dds")
-        return checkDds(file);
-    if (format == "bmp")
-        return checkBmp(file, limits);
-    return std::nullopt;
+    return inputError(fmt::format("{}: broken {} image: {}", name, format, oneLine(why)));
+}
+
+} // namespace
+
+Error brokenToOiio(const std::string& name, const std::string& format, const std::string& words)
+{
+    return broken(name, format, "expected data that OpenImageIO can read, it found: " + words);
+}
+
+std::optional<Error> checkFileLayout(File& file, const std::string& name, const std::string& format,
+                                     const LoadLimits& limits)
+{
+    using Check = Problem (*)(File&, const LoadLimits&);
+    constexpr Named<Check> kChecks[] = {
+        {"tiff", checkTiff}, {"openexr", checkExr}, {"dds", checkDds}, {"bmp", checkBmp}};
+    const auto check = valueOf(kChecks, format);
+    const Problem problem = check ? (*check)(file, limits) : Problem();
+    if (!problem)
+        return std::nullopt;
+    Error error = broken(name, format, *problem);
+    error.memory = problem.memory;
+    return error;
 }
 
 // TIFF row by row: of a whole strip OpenImageIO does not notice what libtiff or zlib cannot decode, and hands out what
@@ -225,23 +242,17 @@ private:
 Result<Image> decode(std::span<const std::byte> bytes, const std::string& name, const std::string& format,
                      const LoadLimits& limits)
 {
-    const auto broken = [&](const std::string& why) {
-        return inputError(fmt::format("{}: broken {} image: {}", name, format, oneLine(why)));
-    };
     MemoryFile memory(bytes);
-    if (const auto problem = checkFileLayout(memory, format, limits)) {
-        Error error = broken(*problem);
-        error.memory = problem.memory;
-        return error;
-    }
+    if (auto error = checkFileLayout(memory, name, format, limits))
+        return *error;
     const auto input = OIIO::ImageInput::create(format);
     if (!input)
-        return broken(foundByOiio(OIIO::geterror()));
+        return brokenToOiio(name, format, OIIO::geterror());
     input->threads(1); // callers decode images side by side
     input->set_ioproxy(&memory);
     OIIO::ImageSpec spec;
     if (!input->open("image." + format, spec, readConfig()))
-        return broken(foundByOiio(input->geterror()));
+        return brokenToOiio(name, format, input->geterror());
     if (auto error = checkSpec(spec, name, limits))
         return *error;
 
@@ -251,7 +262,7 @@ Result<Image> decode(std::span<const std::byte> bytes, const std::string& name, 
                                                               image.data.data(), OIIO::stride_t(image.bytesPerPixel()))
                                           : readScanlines(*input, 0, channels, image);
     if (!done)
-        return broken(foundByOiio(input->geterror()));
+        return brokenToOiio(name, format, input->geterror());
     if (format == "dds" && channels == 2)
         spreadTwo(image);
     else
@@ -267,7 +278,7 @@ Result<Image> readWithOiio(std::span<const std::byte> bytes, const std::string& 
     try {
         return decode(bytes, name, format, limits);
     } catch (const std::exception& e) {
-        return inputError(fmt::format("{}: broken {} image: {}", name, format, oneLine(foundByOiio(e.what()))));
+        return brokenToOiio(name, format, e.what());
     }
 }
 

@@ -28,9 +28,9 @@ public:
             const bool done =
                 spec_.tile_height > 0 ? fromTiles(strip) : readScanlines(*input_, next_, channels_, strip);
             if (!done)
-                return broken(foundByOiio(input_->geterror()));
+                return brokenToOiio(name, format_, input_->geterror());
         } catch (const std::exception& e) {
-            return broken(foundByOiio(e.what()));
+            return brokenToOiio(name, format_, e.what());
         }
         next_ += strip.height;
         completeChannels(strip, channels_);
@@ -38,11 +38,6 @@ public:
     }
 
 private:
-    Error broken(const std::string& why) const
-    {
-        return inputError(fmt::format("{}: broken {} image: {}", name, format_, oneLine(why)));
-    }
-
     // Files of tiles: a row of tiles is kept, and rows are taken from it.
     bool fromTiles(Image& strip)
     {
@@ -143,22 +138,16 @@ Result<std::unique_ptr<RowReader>> openRows(const std::filesystem::path& file, s
                                             const LoadLimits& limits)
 {
     const std::string name = file.string(), format = formatOf(head);
-    const auto broken = [&](const std::string& why) {
-        return inputError(fmt::format("{}: broken {} image: {}", name, format, oneLine(why)));
-    };
     try {
         OIIO::Filesystem::IOFile layout(name, OIIO::Filesystem::IOProxy::Read);
-        if (const auto problem = checkFileLayout(layout, format, limits)) {
-            Error error = broken(*problem);
-            error.memory = problem.memory;
-            return error;
-        }
+        if (auto error = checkFileLayout(layout, name, format, limits))
+            return *error;
         Input input = OIIO::ImageInput::create(format);
         if (!input)
-            return broken(foundByOiio(OIIO::geterror()));
+            return brokenToOiio(name, format, OIIO::geterror());
         OIIO::ImageSpec spec;
         if (!input->open(name, spec, readConfig()))
-            return broken(foundByOiio(input->geterror()));
+            return brokenToOiio(name, format, input->geterror());
         if (auto error = checkRows(spec, name, limits))
             return *error;
         auto reader = std::make_unique<Reader>(std::move(input), spec, format);
@@ -171,7 +160,7 @@ Result<std::unique_ptr<RowReader>> openRows(const std::filesystem::path& file, s
         reader->channels = std::min(spec.nchannels, 4);
         return std::unique_ptr<RowReader>(std::move(reader));
     } catch (const std::exception& e) {
-        return broken(foundByOiio(e.what()));
+        return brokenToOiio(name, format, e.what());
     }
 }
 
