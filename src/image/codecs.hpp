@@ -74,6 +74,21 @@ Result<std::unique_ptr<AnimationWriter>> createWebpAnimation(const std::filesyst
 std::optional<Result<std::vector<std::byte>>> writeWebpLike(const Image& image, std::span<const std::byte> old,
                                                             int& quality);
 
+// ---- KTX2 ----------------------------------------------------------------------------------
+
+// Whether this is a KTX2 whose pixels are stored in a way that nothing here decodes, for messages: "BasisU (ETC1S)",
+// "BasisU (UASTC)", "ASTC", "ETC2"; empty otherwise.
+std::string foreignKtx2(std::span<const std::byte> bytes);
+
+// As decodeImage: the largest level. Blocks (BC1 to BC5, BC7) are decoded by `readDds`, which gets them as a DDS.
+Result<Image> readKtx2(std::span<const std::byte> bytes, const std::string& name, const LoadLimits& limits,
+                       Result<Image> (*readDds)(std::span<const std::byte>, const std::string&, const LoadLimits&));
+
+// Fills all of `out`. Errors: ErrorKind::input where the data are damaged or have another length,
+// ErrorKind::unavailable where this build lacks the library.
+Status unpackZstd(std::span<const std::byte> packed, std::span<std::byte> out);
+Status unpackZlib(std::span<const std::byte> packed, std::span<std::byte> out);
+
 // ---- in a child process: limits.sandbox.program ---------------------------------------------
 
 // As decodeImage and openRows.

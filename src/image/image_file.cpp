@@ -12,7 +12,6 @@
 #include "image/component_types.hpp"
 #include "image/format_table.hpp"
 #include "image/pending.hpp"
-#include "ktx2.hpp"
 
 namespace cotan {
 
