@@ -2,11 +2,11 @@
 #pragma once
 
 #include "call.hpp"
-#include "files/report/report_format.hpp"
+#include "files/report/json.hpp"
 
 namespace cotan::c {
 
-// format: of files/report/report_format.hpp.
+// format: of files/report/json.hpp.
 inline void giveText(std::string_view format, const Json& json, cotan_bytes** to)
 {
     if (to)

@@ -4,6 +4,7 @@
 #include <atomic>
 #include <cerrno>
 #include <charconv>
+#include <csignal>
 #include <cstdint>
 #include <string>
 #include <string_view>
@@ -15,7 +16,6 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "ending.hpp"
 #include "files/file_registry.hpp"
 
 namespace cotan {
@@ -199,16 +199,6 @@ Error OutputFile::failed(const Error& error) const
     return told;
 }
 
-Status writeBeside(const fs::path& file, const std::function<Status(const fs::path&)>& write)
-{
-    auto output = OutputFile::begin(file);
-    if (!output)
-        return output.error();
-    if (Status written = write(output->path()); !written)
-        return output->failed(written.error());
-    return output->commit();
-}
-
 Status commitTogether(std::span<OutputFile> files)
 {
     const InterruptsHeld held;
@@ -240,9 +230,12 @@ Status writeBytes(const fs::path& file, std::span<const std::byte> bytes)
 
 Status writeFileWhole(const fs::path& file, std::string_view text)
 {
-    return writeBeside(file, [&](const fs::path& part) {
-        return writeBytes(part, std::as_bytes(std::span(text.data(), text.size())));
-    });
+    auto output = OutputFile::begin(file);
+    if (!output)
+        return output.error();
+    if (Status written = writeBytes(output->path(), std::as_bytes(std::span(text.data(), text.size()))); !written)
+        return output->failed(written.error());
+    return output->commit();
 }
 
 Status checkWritable(const fs::path& file, bool makesFolder)

@@ -5,7 +5,6 @@
 
 #include <cstddef>
 #include <filesystem>
-#include <functional>
 #include <span>
 #include <string_view>
 #include <vector>
@@ -45,9 +44,6 @@ private:
     bool gone_ = false;
     GuardedPart guard_;
 };
-
-// Calls `write` with the name beside and commits. Errors: those of `write`, in the user's words, and of OutputFile.
-Status writeBeside(const std::filesystem::path& file, const std::function<Status(const std::filesystem::path&)>& write);
 
 // All of them or none; the last is put in its place last. Interrupts wait. Where one cannot be renamed, those before it
 // that were new are removed; those that replaced a file stay. Errors: ErrorKind::output.

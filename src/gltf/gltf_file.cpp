@@ -6,7 +6,6 @@
 
 #include "files/bytes.hpp"
 #include "files/extension.hpp"
-#include "files/folder.hpp"
 #include "parse_json.hpp"
 
 namespace cotan {

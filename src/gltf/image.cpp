@@ -5,7 +5,6 @@
 #include "core/loops.hpp"
 #include "cotan/image.hpp"
 #include "files/bytes.hpp"
-#include "files/folder.hpp"
 #include "image/component_types.hpp"
 #include "material.hpp"
 

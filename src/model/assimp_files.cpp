@@ -6,7 +6,6 @@
 #include <assimp/MemoryIOWrapper.h>
 
 #include "files/bytes.hpp"
-#include "files/folder.hpp"
 
 namespace cotan {
 

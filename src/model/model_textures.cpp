@@ -10,7 +10,7 @@
 
 #include "bump_map.hpp"
 #include "cotan/image.hpp"
-#include "files/folder.hpp"
+#include "files/bytes.hpp"
 #include "image/component_types.hpp"
 
 namespace cotan {
