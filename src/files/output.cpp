@@ -6,6 +6,7 @@
 #include <charconv>
 #include <csignal>
 #include <cstdint>
+#include <set>
 #include <string>
 #include <string_view>
 #include <system_error>
@@ -276,6 +277,50 @@ std::vector<fs::path> leftParts(const fs::path& folder)
             parts.push_back(at->path());
     }
     return parts;
+}
+
+std::vector<PlannedOutput> plannedIn(const std::string& option, const fs::path& folder,
+                                     const std::vector<std::string>& names)
+{
+    std::vector<PlannedOutput> files;
+    for (const std::string& name : names)
+        files.push_back({option, folder / name, /*makesFolder*/ true});
+    return files;
+}
+
+Result<std::vector<std::string>> planOutputs(std::vector<PlannedOutput> files)
+{
+    std::erase_if(files, [](const PlannedOutput& output) { return output.file.empty(); });
+    for (const PlannedOutput& output : files)
+        if (Status planned = planOutput(output.option, output.file); !planned)
+            return planned.error();
+    std::set<fs::path> folders, made;
+    for (const PlannedOutput& output : files) {
+        const fs::path folder = folderOf(output.file).lexically_normal();
+        folders.insert(folder);
+        if (output.makesFolder)
+            made.insert(folder);
+        if (Status writable = checkWritable(output.file, made.contains(folder)); !writable)
+            return writable.error();
+    }
+    std::vector<std::string> left;
+    for (const fs::path& folder : folders)
+        if (const auto parts = leftParts(folder); !parts.empty())
+            left.push_back(
+                fmt::format("{}: {} unfinished file{} of a run that was killed, {}{}; delete what is not needed",
+                            folder.string(), parts.size(), parts.size() > 1 ? "s" : "",
+                            parts.front().filename().string(), parts.size() > 1 ? " and others" : ""));
+    return left;
+}
+
+Status makeFolder(const fs::path& folder)
+{
+    std::error_code error;
+    fs::create_directories(folder, error);
+    if (!fs::is_directory(folder))
+        return outputError(fmt::format("{}: cannot make this folder: {}", folder.string(),
+                                       error ? error.message() : "a file is in the way"));
+    return Done{};
 }
 
 } // namespace cotan
