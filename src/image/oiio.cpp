@@ -239,44 +239,39 @@ private:
     std::span<const std::byte> bytes_;
 };
 
-Result<Image> decode(std::span<const std::byte> bytes, const std::string& name, const std::string& format,
-                     const LoadLimits& limits)
-{
-    MemoryFile memory(bytes);
-    if (auto error = checkFileLayout(memory, name, format, limits))
-        return *error;
-    const auto input = OIIO::ImageInput::create(format);
-    if (!input)
-        return brokenToOiio(name, format, OIIO::geterror());
-    input->threads(1); // callers decode images side by side
-    input->set_ioproxy(&memory);
-    OIIO::ImageSpec spec;
-    if (!input->open("image." + format, spec, readConfig()))
-        return brokenToOiio(name, format, input->geterror());
-    if (auto error = checkSpec(spec, name, limits))
-        return *error;
-
-    Image image = makeImage(spec.width, spec.height, pixelType(spec.format), name);
-    const int channels = std::min(spec.nchannels, 4);
-    const bool done = spec.tile_width > 0 ? input->read_image(0, 0, 0, channels, typeDesc(image.type),
-                                                              image.data.data(), OIIO::stride_t(image.bytesPerPixel()))
-                                          : readScanlines(*input, 0, channels, image);
-    if (!done)
-        return brokenToOiio(name, format, input->geterror());
-    if (format == "dds" && channels == 2)
-        spreadTwo(image);
-    else
-        completeChannels(image, channels);
-    image.frame = frameOf(spec, format);
-    image.channels = channels;
-    return image;
-}
-
 Result<Image> readWithOiio(std::span<const std::byte> bytes, const std::string& name, const LoadLimits& limits)
 {
     const std::string format = formatOf(bytes);
     try {
-        return decode(bytes, name, format, limits);
+        MemoryFile memory(bytes);
+        if (auto error = checkFileLayout(memory, name, format, limits))
+            return *error;
+        const auto input = OIIO::ImageInput::create(format);
+        if (!input)
+            return brokenToOiio(name, format, OIIO::geterror());
+        input->threads(1); // callers decode images side by side
+        input->set_ioproxy(&memory);
+        OIIO::ImageSpec spec;
+        if (!input->open("image." + format, spec, readConfig()))
+            return brokenToOiio(name, format, input->geterror());
+        if (auto error = checkSpec(spec, name, limits))
+            return *error;
+
+        Image image = makeImage(spec.width, spec.height, pixelType(spec.format), name);
+        const int channels = std::min(spec.nchannels, 4);
+        const bool done = spec.tile_width > 0
+            ? input->read_image(0, 0, 0, channels, typeDesc(image.type), image.data.data(),
+                                OIIO::stride_t(image.bytesPerPixel()))
+            : readScanlines(*input, 0, channels, image);
+        if (!done)
+            return brokenToOiio(name, format, input->geterror());
+        if (format == "dds" && channels == 2)
+            spreadTwo(image);
+        else
+            completeChannels(image, channels);
+        image.frame = frameOf(spec, format);
+        image.channels = channels;
+        return image;
     } catch (const std::exception& e) {
         return brokenToOiio(name, format, e.what());
     }

@@ -17,23 +17,29 @@ using Input = std::unique_ptr<OIIO::ImageInput>;
 
 class Reader : public RowReader {
 public:
-    Reader(Input input, const OIIO::ImageSpec& spec, std::string format)
-        : input_(std::move(input)), spec_(spec), format_(std::move(format)), channels_(std::min(spec.nchannels, 4))
+    Reader(Input input, const OIIO::ImageSpec& spec, std::string format, const std::string& file)
+        : input_(std::move(input)), spec_(spec), format_(std::move(format))
     {
+        name = file;
+        width = spec.width;
+        height = spec.height;
+        type = pixelType(spec.format);
+        alpha = spec.nchannels == 2 || spec.nchannels >= 4;
+        frame = frameOf(spec, format_);
+        channels = std::min(spec.nchannels, 4);
     }
 
     Status read(Image& strip) override
     {
         try {
-            const bool done =
-                spec_.tile_height > 0 ? fromTiles(strip) : readScanlines(*input_, next_, channels_, strip);
+            const bool done = spec_.tile_height > 0 ? fromTiles(strip) : readScanlines(*input_, next_, channels, strip);
             if (!done)
                 return brokenToOiio(name, format_, input_->geterror());
         } catch (const std::exception& e) {
             return brokenToOiio(name, format_, e.what());
         }
         next_ += strip.height;
-        completeChannels(strip, channels_);
+        completeChannels(strip, channels);
         return Done{};
     }
 
@@ -49,7 +55,7 @@ private:
                 if (tiles_.height != rows)
                     tiles_ = makeImage(width, rows, type);
                 if (!input_->read_tiles(0, 0, spec_.x, spec_.x + width, spec_.y + first, spec_.y + first + rows, 0, 1,
-                                        0, channels_, typeDesc(type), tiles_.data.data(),
+                                        0, channels, typeDesc(type), tiles_.data.data(),
                                         OIIO::stride_t(strip.bytesPerPixel())))
                     return false;
                 tileRow_ = first;
@@ -63,7 +69,6 @@ private:
     Input input_;
     OIIO::ImageSpec spec_;
     std::string format_;
-    int channels_;
     int next_ = 0;
     Image tiles_;
     int tileRow_ = -1;
@@ -150,15 +155,7 @@ Result<std::unique_ptr<RowReader>> openRows(const std::filesystem::path& file, s
             return brokenToOiio(name, format, input->geterror());
         if (auto error = checkRows(spec, name, limits))
             return *error;
-        auto reader = std::make_unique<Reader>(std::move(input), spec, format);
-        reader->name = name;
-        reader->width = spec.width;
-        reader->height = spec.height;
-        reader->type = pixelType(spec.format);
-        reader->alpha = spec.nchannels == 2 || spec.nchannels >= 4;
-        reader->frame = frameOf(spec, format);
-        reader->channels = std::min(spec.nchannels, 4);
-        return std::unique_ptr<RowReader>(std::move(reader));
+        return std::unique_ptr<RowReader>(std::make_unique<Reader>(std::move(input), spec, format, name));
     } catch (const std::exception& e) {
         return brokenToOiio(name, format, e.what());
     }
