@@ -9,9 +9,8 @@
 #include <fmt/format.h>
 #include <glm/detail/type_half.hpp>
 
+#include "image/checks.hpp"
 #include "image/dds.hpp"
-#include "image/frame_key.hpp"
-#include "image/size.hpp"
 #include "numbers.hpp"
 
 namespace cotan {

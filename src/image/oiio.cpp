@@ -13,9 +13,8 @@
 
 #include "core/named_values.hpp"
 #include "formats.hpp"
+#include "image/checks.hpp"
 #include "image/component_types.hpp"
-#include "image/frame_key.hpp"
-#include "image/size.hpp"
 
 namespace cotan {
 

@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "image/size.hpp"
+#include "image/checks.hpp"
 #include "oiio.hpp"
 #include "oiio_file.hpp"
 

@@ -8,7 +8,7 @@
 #include <png.h>
 
 #include "cotan/image.hpp"
-#include "image/frame_key.hpp"
+#include "image/checks.hpp"
 
 namespace cotan {
 

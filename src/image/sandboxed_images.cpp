@@ -4,8 +4,7 @@
 
 #include "files/sandbox/process.hpp"
 #include "files/sandbox/scene_wire.hpp"
-#include "image/frame_key.hpp"
-#include "image/size.hpp"
+#include "image/checks.hpp"
 
 namespace cotan {
 

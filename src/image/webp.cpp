@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 #include <webp/decode.h>
 
-#include "image/size.hpp"
+#include "image/checks.hpp"
 #include "numbers.hpp"
 
 namespace cotan {
