@@ -90,10 +90,6 @@ OIIO::ImageSpec readConfig()
     return config;
 }
 
-const ImageFormat& outputFormat(const std::filesystem::path& name) { return *imageFormatOf(name); }
-
-int channelsOf(const ImageFormat& format) { return format.alpha ? 4 : 3; }
-
 OIIO::TypeDesc typeToWrite(const ImageFormat& format, PixelType type)
 {
     if (!format.bits16 && !format.floats)
@@ -278,7 +274,7 @@ Result<Image> readWithOiio(std::span<const std::byte> bytes, const std::string& 
 
 Status writeWithOiio(const std::filesystem::path& file, const Image& image, const std::string& name)
 {
-    const ImageFormat format = outputFormat(name);
+    const ImageFormat& format = *imageFormatOf(name); // which checkImageName accepted
     const OIIO::TypeDesc type = typeToWrite(format, image.type);
     if (type == OIIO::TypeDesc::UINT8 && image.type != PixelType::unorm8)
         return writeWithOiio(file, toUnorm8(image), name);
@@ -290,7 +286,7 @@ Status writeWithOiio(const std::filesystem::path& file, const Image& image, cons
         CheckedFile checked(file);
         output->set_ioproxy(&checked);
         const OIIO::ImageSpec spec =
-            outputSpec(image.width, image.height, channelsOf(format), type, format, image.frame);
+            outputSpec(image.width, image.height, format.alpha ? 4 : 3, type, format, image.frame);
         const bool done = output->open(file.string(), spec)
             && output->write_image(typeDesc(image.type), image.data.data(), OIIO::stride_t(image.bytesPerPixel()))
             && output->close();

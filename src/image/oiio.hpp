@@ -46,11 +46,7 @@ std::optional<Error> checkLayers(const OIIO::ImageSpec& spec, const std::string&
 // How values are to be read: as they are stored.
 OIIO::ImageSpec readConfig();
 
-// The format that a file of that name is written in: one that checkImageName accepted.
-const ImageFormat& outputFormat(const std::filesystem::path& name);
-
-// The most channels that it holds, and how components of `type` are stored.
-int channelsOf(const ImageFormat& format);
+// How components of `type` are stored.
 OIIO::TypeDesc typeToWrite(const ImageFormat& format, PixelType type);
 
 // channels: no more than the format has. frame: Image::frame, for the formats that hold it.

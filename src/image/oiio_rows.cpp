@@ -164,13 +164,13 @@ Result<std::unique_ptr<RowReader>> openRows(const std::filesystem::path& file, s
 Result<std::unique_ptr<RowWriter>> createRows(const std::filesystem::path& file, const RowFormat& format, int threads,
                                               const std::string& name)
 {
-    const ImageFormat stored = outputFormat(name);
+    const ImageFormat& stored = *imageFormatOf(name); // which checkImageName accepted
     try {
         auto output = OIIO::ImageOutput::create(std::string(stored.openImageIo));
         if (!output)
             return notWritten(name, OIIO::geterror());
         output->threads(threads);
-        const int channels = std::min(format.alpha ? 4 : 3, channelsOf(stored));
+        const int channels = format.alpha && stored.alpha ? 4 : 3;
         const auto type = format.half ? OIIO::TypeDesc(OIIO::TypeDesc::HALF) : typeToWrite(stored, format.type);
         auto checked = std::make_unique<CheckedFile>(file);
         output->set_ioproxy(checked.get());
