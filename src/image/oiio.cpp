@@ -1,4 +1,4 @@
-// The module of image formats: OpenImageIO behind the functions of image_formats.hpp.
+// The module of image formats: OpenImageIO behind the functions of formats.hpp.
 #include "oiio.hpp"
 #include "oiio_file.hpp"
 
