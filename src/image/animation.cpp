@@ -88,9 +88,9 @@ Status checkFormat(const std::filesystem::path& file, const AnimationFormat& for
 
 Result<std::unique_ptr<AnimationWriter>> createGif(const std::filesystem::path& file, const AnimationFormat& format)
 {
-    const auto formats = imageFormats();
+    const auto formats = imageFormats(file.string());
     if (!formats)
-        return reworded(formats.error(), fmt::format("{}: {}", file.string(), formats.error().message));
+        return formats.error();
     auto output = OutputFile::begin(file);
     if (!output)
         return output.error();

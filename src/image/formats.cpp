@@ -41,9 +41,11 @@ Result<const ImageFormats*> loadFormats()
 
 bool readsOtherFormats() { return kBuilt; }
 
-Result<const ImageFormats*> imageFormats()
+Result<const ImageFormats*> imageFormats(const std::string& name)
 {
     static const Result<const ImageFormats*> formats = loadFormats();
+    if (!formats)
+        return reworded(formats.error(), name + ": " + formats.error().message);
     return formats;
 }
 

@@ -44,8 +44,8 @@ struct ImageFormats {
 // Whether this build has the module.
 bool readsOtherFormats();
 
-// The module. Errors: ErrorKind::unavailable where it is missing or does not load.
-Result<const ImageFormats*> imageFormats();
+// The module, for a file of that name. Errors: ErrorKind::unavailable where it is missing or does not load.
+Result<const ImageFormats*> imageFormats(const std::string& name);
 
 // OpenImageIO's name of the format whose files begin in no way of their own: the name of the file says it.
 inline constexpr std::string_view kNoStart = "targa";

@@ -39,10 +39,8 @@ namespace {
 
 Result<Image> readOther(std::span<const std::byte> bytes, const std::string& name, const LoadLimits& limits)
 {
-    const auto formats = imageFormats();
-    if (!formats)
-        return reworded(formats.error(), fmt::format("{}: {}", name, formats.error().message));
-    return (*formats)->read(bytes, name, limits);
+    const auto formats = imageFormats(name);
+    return formats ? (*formats)->read(bytes, name, limits) : formats.error();
 }
 
 Result<Image> decode(std::span<const std::byte> bytes, const std::string& name, const LoadLimits& limits)
@@ -106,10 +104,8 @@ Status write(const std::filesystem::path& file, const Image& image, const std::s
 {
     if (writesItself(file))
         return image.type == PixelType::float32 ? writePng(file, toUnorm8(image), name) : writePng(file, image, name);
-    const auto formats = imageFormats();
-    if (!formats)
-        return reworded(formats.error(), fmt::format("{}: {}", name, formats.error().message));
-    return (*formats)->write(file, image, name);
+    const auto formats = imageFormats(name);
+    return formats ? (*formats)->write(file, image, name) : formats.error();
 }
 
 } // namespace

@@ -110,10 +110,8 @@ Result<std::unique_ptr<RowReader>> openAnyRows(const fs::path& file, const LoadL
     } else if (const ImageFormat* const known = imageFormatOf(head); known && known->readsRows) {
         if (!limits.sandbox.program.empty())
             return openRowsSandboxed(file, limits);
-        const auto formats = imageFormats();
-        if (!formats)
-            return reworded(formats.error(), fmt::format("{}: {}", file.string(), formats.error().message));
-        return (*formats)->openRows(file, head, limits);
+        const auto formats = imageFormats(file.string());
+        return formats ? (*formats)->openRows(file, head, limits) : formats.error();
     }
     return openWhole(file, limits);
 }
@@ -141,9 +139,9 @@ Result<std::unique_ptr<RowWriter>> createRows(const fs::path& file, const RowFor
     if (!output)
         return output.error();
     if (!writesItself(file)) {
-        const auto formats = imageFormats();
+        const auto formats = imageFormats(name);
         if (!formats)
-            return reworded(formats.error(), fmt::format("{}: {}", name, formats.error().message));
+            return formats.error();
         auto writer = (*formats)->createRows(output->path(), format, threads, name);
         if (!writer)
             return output->failed(writer.error());
