@@ -1,6 +1,9 @@
-// Whole files in, with checks before memory is taken, and the only folder that a model may open files from.
+// Files that are read: their kind by their name, their bytes with checks before memory is taken, and the only folder
+// that a model may open files from.
 #pragma once
 
+#include <algorithm>
+#include <cctype>
 #include <cstddef>
 #include <filesystem>
 #include <optional>
@@ -10,6 +13,14 @@
 #include "cotan/result.hpp"
 
 namespace cotan {
+
+// ".png" of "A.PNG".
+inline std::string lowerExtension(const std::filesystem::path& file)
+{
+    std::string text = file.extension().string();
+    std::ranges::transform(text, text.begin(), [](unsigned char c) { return std::tolower(c); });
+    return text;
+}
 
 // The size in bytes of a regular file that may be read.
 // Errors (ErrorKind::input): missing, not a regular file, empty, over `limit` bytes; those of noteInput.

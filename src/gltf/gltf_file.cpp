@@ -5,7 +5,6 @@
 #include <string_view>
 
 #include "files/bytes.hpp"
-#include "files/extension.hpp"
 #include "parse_json.hpp"
 
 namespace cotan {

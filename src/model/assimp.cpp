@@ -18,7 +18,6 @@
 #include "assimp_files.hpp"
 #include "collada_check.hpp"
 #include "files/bytes.hpp"
-#include "files/extension.hpp"
 #include "ply_check.hpp"
 #include "scene/scene_check.hpp"
 #include "source_material.hpp"

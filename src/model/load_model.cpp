@@ -7,7 +7,6 @@
 #include <fmt/format.h>
 
 #include "files/bytes.hpp"
-#include "files/extension.hpp"
 #include "files/file_registry.hpp"
 #include "sandboxed_models.hpp"
 #include "scene/up.hpp"

@@ -11,7 +11,7 @@
 #include "cotan/render.hpp"
 #include "cotan/scene.hpp"
 #include "cotan/view.hpp"
-#include "files/extension.hpp"
+#include "files/bytes.hpp"
 #include "files/file_registry.hpp"
 #include "picture/option_words.hpp"
 #include "scene/geometry.hpp"

@@ -7,7 +7,7 @@
 #include "bake/convert/drop_tangents.hpp"
 #include "cotan/gltf.hpp"
 #include "cotan/image.hpp"
-#include "files/extension.hpp"
+#include "files/bytes.hpp"
 #include "gltf/json/lookup.hpp"
 
 namespace cotan {
