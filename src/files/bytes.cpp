@@ -4,9 +4,11 @@
 #include <cstdio>
 #include <memory>
 #include <system_error>
+#include <utility>
 
 #include <fmt/format.h>
 
+#include "cotan/files.hpp"
 #include "files/file_registry.hpp"
 
 namespace cotan {
@@ -53,6 +55,12 @@ Result<std::vector<std::byte>> readBytes(const fs::path& file, std::size_t limit
     return bytes;
 }
 
+Sandbox& sandboxOfProcess()
+{
+    static Sandbox sandbox;
+    return sandbox;
+}
+
 } // namespace
 
 Result<std::size_t> usableFileSize(const fs::path& file, std::size_t limit) { return usableSize(file, limit, true); }
@@ -88,5 +96,9 @@ std::optional<fs::path> findInFolder(const fs::path& folder, std::string request
         return std::nullopt;
     return wanted;
 }
+
+void sandboxByDefault(Sandbox sandbox) { sandboxOfProcess() = std::move(sandbox); }
+
+Sandbox defaultSandbox() { return sandboxOfProcess(); }
 
 } // namespace cotan

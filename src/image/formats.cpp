@@ -49,14 +49,6 @@ Result<const ImageFormats*> imageFormats(const std::string& name)
     return formats;
 }
 
-bool knownImage(std::span<const std::byte> bytes, const std::string& name)
-{
-    if (const ImageFormat* const format = imageFormatOf(bytes))
-        return !format->openImageIo.empty();
-    const ImageFormat* const named = imageFormatOf(fs::path(name));
-    return named && named->openImageIo == kNoStart && !bytes.empty();
-}
-
 bool writesItself(const fs::path& file)
 {
     const ImageFormat* const format = imageFormatOf(file);

@@ -43,6 +43,16 @@ Result<Image> readOther(std::span<const std::byte> bytes, const std::string& nam
     return formats ? (*formats)->read(bytes, name, limits) : formats.error();
 }
 
+// Whether the bytes, or the extension of `name`, are of a format that the module reads. What is unknown is refused
+// without loading it.
+bool knownImage(std::span<const std::byte> bytes, const std::string& name)
+{
+    if (const ImageFormat* const format = imageFormatOf(bytes))
+        return !format->openImageIo.empty();
+    const ImageFormat* const named = imageFormatOf(std::filesystem::path(name));
+    return named && named->openImageIo == kNoStart && !bytes.empty();
+}
+
 Result<Image> decode(std::span<const std::byte> bytes, const std::string& name, const LoadLimits& limits)
 {
     const std::string format = pictureFormat(bytes);
