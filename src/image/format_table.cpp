@@ -1,7 +1,6 @@
 #include "image/format_table.hpp"
 
 #include <algorithm>
-#include <ranges>
 #include <vector>
 
 #include <fmt/format.h>
@@ -56,8 +55,11 @@ std::string imageEndings(const std::function<bool(const ImageFormat&)>& wanted, 
 
 std::string readableFormatNames()
 {
-    auto names = kImageFormats | std::views::filter(&ImageFormat::reads) | std::views::transform(&ImageFormat::name);
-    return fmt::format("{}", fmt::join(names, ", "));
+    std::string names;
+    for (const ImageFormat& format : kImageFormats)
+        if (format.reads)
+            names.append(names.empty() ? "" : ", ").append(format.name);
+    return names;
 }
 
 } // namespace cotan
