@@ -1,5 +1,6 @@
 # cotan_shader(TARGET SOURCE SYMBOL [DEFINES...]): compiles shaders/SOURCE, or any file by its whole path, to SPIR-V at
-# build time and makes it SYMBOL.h, an array of words named SYMBOL, for the sources of TARGET.
+# build time and makes it SYMBOL.h, an array of words named SYMBOL, for the sources of TARGET. The property COTAN_SHADERS
+# of the target lists these headers.
 # spirv-opt -O makes most of it half as long where that is installed: a driver then takes an eighth of the time for it.
 # Every shader depends on all included text; there is little of it, and lists go stale.
 find_program(COTAN_SPIRV_OPT spirv-opt)
@@ -30,5 +31,6 @@ function(cotan_shader target source symbol)
     COMMENT "Shader ${symbol}"
     VERBATIM)
   target_sources(${target} PRIVATE ${header})
+  set_property(TARGET ${target} APPEND PROPERTY COTAN_SHADERS ${symbol}.h)
   target_include_directories(${target} PRIVATE ${CMAKE_CURRENT_BINARY_DIR})
 endfunction()

@@ -6,7 +6,7 @@
 #include <glm/vec3.hpp>
 #include <gtest/gtest.h>
 
-#include "scene/environment/albedo.hpp"
+#include "scene/environment/prefilter.hpp"
 
 namespace cotan {
 namespace {

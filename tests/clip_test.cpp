@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "render/reference/clip.hpp"
+#include "render/reference/raster.hpp"
 
 namespace cotan::reference {
 namespace {

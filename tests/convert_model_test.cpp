@@ -16,7 +16,7 @@
 #include "cotan/image.hpp"
 #include "cotan/scene.hpp"
 #include "gltf/json/lookup.hpp"
-#include "scene/normal_format.hpp"
+#include "scene/texture_sample.hpp"
 
 namespace cotan {
 namespace {

@@ -13,7 +13,7 @@
 #include "bake/lint/texel.hpp"
 #include "cotan/convention.hpp"
 #include "cotan/scene.hpp"
-#include "scene/normal_format.hpp"
+#include "scene/texture_sample.hpp"
 
 namespace cotan {
 namespace {

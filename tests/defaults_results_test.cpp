@@ -18,7 +18,7 @@
 #include "inspect/probe.hpp"
 #include "map_files/convert.hpp"
 #include "map_files/height.hpp"
-#include "scene/ground_map.hpp"
+#include "scene/environment_map.hpp"
 #include "smooth_report.hpp"
 
 namespace cotan {

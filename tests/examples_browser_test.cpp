@@ -101,7 +101,7 @@ void expectRightWhereTheirsIsAndFlipped(const json& page)
         const json& stock = page["stock"][scene];
         // Their frames have no sign of their own, so they reverse t and b where y runs down; in mirrors Babylon turns
         // its frame round twice. The domes' mean slope is some twenty degrees, and the error twice that. Should they
-        // mend it, the page and this line can go.
+        // fix it, the page and this line can go.
         if (scene.starts_with("flipped"))
             EXPECT_GT(stock["mean"].get<double>(), 20) << scene;
         else

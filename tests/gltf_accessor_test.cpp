@@ -10,7 +10,7 @@
 
 #include "gltf/json/views.hpp"
 #include "gltf_edit_maker.hpp"
-#include "scene/texture_uv.hpp"
+#include "scene/texture_sample.hpp"
 
 using namespace cotan;
 using namespace cotan::test;

@@ -10,7 +10,7 @@
 
 #include "core/loops.hpp"
 #include "ground_scene.hpp"
-#include "scene/ground_map.hpp"
+#include "scene/environment_map.hpp"
 #include "scene/picture_text.hpp"
 
 namespace cotan {

@@ -1,4 +1,4 @@
-// Maps that are broken as files: they are named, and the command that is printed mends them.
+// Maps that are broken as files: they are named, and the command that is printed fixes them.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -128,7 +128,7 @@ TEST(MapFaults, theCommandThatInfoAndDetectPrintMendsTheFile)
             if (broken.kind == "green_down" && command == std::string("info"))
                 continue; // it looks at numbers alone
             const ToolRun told = runTool({"map", command, "a map.png"}, folder.path());
-            const std::size_t at = told.out.find("to mend it: cotan ");
+            const std::size_t at = told.out.find("to fix it: cotan ");
             ASSERT_NE(at, std::string::npos) << broken.kind << "\n" << told.out;
             const std::string line = told.out.substr(at + 18, told.out.find('\n', at) - at - 18);
             EXPECT_NE(line.find("'a map.png'"), std::string::npos) << line;
@@ -136,10 +136,10 @@ TEST(MapFaults, theCommandThatInfoAndDetectPrintMendsTheFile)
             std::istringstream rest(line.substr(line.find("' ") + 2, line.find(" -o ") - line.find("' ") - 2));
             for (std::string word; rest >> word;)
                 words.push_back(word);
-            words.insert(words.end(), {"-o", "mended.png", "--quiet"});
-            const ToolRun mended = runTool(words, folder.path());
-            ASSERT_EQ(mended.code, 0) << mended.err;
-            const auto image = readImage(folder / "mended.png");
+            words.insert(words.end(), {"-o", "fixed.png", "--quiet"});
+            const ToolRun fixed = runTool(words, folder.path());
+            ASSERT_EQ(fixed.code, 0) << fixed.err;
+            const auto image = readImage(folder / "fixed.png");
             ASSERT_TRUE(image);
             // Curves and weaker vectors lose steps: two of 255. Others lose nothing.
             const int most = broken.kind == "bgr" || broken.kind == "green_down" ? 0 : 2;
@@ -173,13 +173,13 @@ TEST(MapFaults, greenOfAMapThatIsMadeFor2cMinus1IsTurnedAbout127AndAHalf)
     EXPECT_NE(told.out.find("convert turned.png --from directx,biased --to gltf,biased"), std::string::npos)
         << told.out;
     ASSERT_EQ(runTool({"map", "convert", "turned.png", "--from", "directx,biased", "--to", "gltf,biased", "-o",
-                       "mended.png", "--quiet"},
+                       "fixed.png", "--quiet"},
                       folder.path())
                   .code,
               0);
-    const auto mended = readImage(folder / "mended.png");
-    ASSERT_TRUE(mended);
-    EXPECT_TRUE(std::equal(sound.bytes8(), sound.bytes8() + 4 * sound.pixelCount(), mended->bytes8()));
+    const auto fixed = readImage(folder / "fixed.png");
+    ASSERT_TRUE(fixed);
+    EXPECT_TRUE(std::equal(sound.bytes8(), sound.bytes8() + 4 * sound.pixelCount(), fixed->bytes8()));
 }
 
 // Each texel by itself, in images that are wider than high and higher than wide.

@@ -1,5 +1,5 @@
 // The frame `auto`: what a scene's normal maps mean.
-#include "scene/meant_frame.hpp"
+#include "scene/normal_maps.hpp"
 
 #include <gtest/gtest.h>
 
@@ -48,18 +48,18 @@ TEST(MeantFrame, ofAnImageThatTheUvRepeatKeepsTheirStretch)
         Scene scene = squares({1, 1});
         for (glm::vec2& uv : scene.meshes[1].texcoords[0])
             uv[axis] *= 1.5f;
-        EXPECT_TRUE(repeatsNormalMaps(scene));
         EXPECT_EQ(autoFrame(scene, MapSource::own), Frame::cotangent);
         EXPECT_EQ(autoFrame(scene, MapSource::model), Frame::orthonormal); // glTF means MikkTSpace all the same
     }
     Scene moved = squares({1}); // one copy, elsewhere
     for (glm::vec2& uv : moved.meshes[0].texcoords[0])
         uv += glm::vec2(3, -2);
-    EXPECT_FALSE(repeatsNormalMaps(moved));
+    EXPECT_EQ(autoFrame(moved, MapSource::own), Frame::orthonormal);
     moved.materials[0].normalMap.uRow = {2, 0, 0};
-    EXPECT_TRUE(repeatsNormalMaps(moved));
+    EXPECT_EQ(autoFrame(moved, MapSource::own), Frame::cotangent);
+    moved.materials[0].coat.normalMap.image = 0; // repeated or not, it does not count here
     moved.materials[0].normalMap.image = -1;
-    EXPECT_FALSE(repeatsNormalMaps(moved));
+    EXPECT_EQ(autoFrame(moved, MapSource::own), Frame::orthonormal);
 }
 
 TEST(MeantFrame, isTheNamedOneOfTheLargestArea)

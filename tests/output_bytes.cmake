@@ -1,5 +1,5 @@
 # The bytes that commands print and write, held by tables; that each option changes them; that both renderers draw the
-# same; and that a fault leaves none.
+# same; that the fields of a file change them; and that a fault leaves none.
 find_package(Python3 COMPONENTS Interpreter)
 if(Python3_FOUND)
   foreach(table lab maps meshes pictures shader_text)
@@ -19,5 +19,10 @@ if(Python3_FOUND)
     add_test(NAME OptionEffects.${command}
       COMMAND ${Python3_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/option_effects_test.py $<TARGET_FILE:cotan> ${command})
     set_tests_properties(OptionEffects.${command} PROPERTIES TIMEOUT 300 SKIP_RETURN_CODE 77)
+  endforeach()
+  foreach(part RANGE 3)
+    add_test(NAME FileFields.${part}
+      COMMAND ${Python3_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/file_fields_test.py $<TARGET_FILE:cotan> ${part})
+    set_tests_properties(FileFields.${part} PROPERTIES TIMEOUT 300)
   endforeach()
 endif()

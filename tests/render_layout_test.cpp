@@ -1,18 +1,22 @@
 // The structs that C++ fills lie in memory as the compiled shaders read them.
+#include <initializer_list>
 #include <map>
+#include <span>
 #include <string>
 
 #include <gtest/gtest.h>
 
+#include "cotan_shaders.h"
 #include "gpu_structs.hpp"
-#include "shaders.hpp"
 
 namespace cotan {
 
 namespace {
 
+using Spirv = std::span<const std::uint32_t>;
+
 // "Struct.member" -> byte offset, from the names and decorations of a SPIR-V module.
-std::map<std::string, std::uint32_t> memberOffsets(std::span<const std::uint32_t> words)
+std::map<std::string, std::uint32_t> memberOffsets(Spirv words)
 {
     constexpr std::uint32_t kName = 5, kMemberName = 6, kMemberDecorate = 72, kOffset = 35;
     std::map<std::uint32_t, std::string> structs;
@@ -47,8 +51,8 @@ std::map<std::string, std::uint32_t> memberOffsets(std::span<const std::uint32_t
 
 TEST(RenderLayout, fragmentStageReadsMaterialLightAndViewWhereTheyAreWritten)
 {
-    for (const Shader shader : {Shader::forwardFrag, Shader::forwardExactFrag}) {
-        const auto offsets = memberOffsets(spirv(shader));
+    for (const Spirv& shader : std::initializer_list<Spirv>{cotanForwardFrag, cotanForwardExactFrag}) {
+        const auto offsets = memberOffsets(shader);
         EXPECT_OFFSET(CotanTextureUse, uRow);
         EXPECT_OFFSET(CotanTextureUse, vRow);
         EXPECT_OFFSET(CotanMaterial, baseColor);
@@ -74,9 +78,10 @@ TEST(RenderLayout, fragmentStageReadsMaterialLightAndViewWhereTheyAreWritten)
 
 TEST(RenderLayout, whatExtensionsAddIsReadWhereItIsWritten)
 {
-    for (const Shader shader : {Shader::forwardExtendedFrag, Shader::forwardExactExtendedFrag,
-                                Shader::forwardExtendedMaskedFrag, Shader::forwardExactExtendedLayersFrag}) {
-        const auto offsets = memberOffsets(spirv(shader));
+    for (const Spirv& shader :
+         std::initializer_list<Spirv>{cotanForwardExtendedFrag, cotanForwardExactExtendedFrag,
+                                      cotanForwardExtendedMaskedFrag, cotanForwardExactExtendedLayersFrag}) {
+        const auto offsets = memberOffsets(shader);
         EXPECT_OFFSET(CotanMaterial, coat);
         EXPECT_OFFSET(CotanMaterial, coatNormalMap);
         EXPECT_OFFSET(CotanMaterial, anisotropy);
@@ -89,7 +94,7 @@ TEST(RenderLayout, whatExtensionsAddIsReadWhereItIsWritten)
 
 TEST(RenderLayout, vertexStageReadsViewAndDrawWhereTheyAreWritten)
 {
-    const auto offsets = memberOffsets(spirv(Shader::forwardVert));
+    const auto offsets = memberOffsets(cotanForwardVert);
     EXPECT_OFFSET(CotanView, clipX);
     EXPECT_OFFSET(CotanView, clipY);
     EXPECT_OFFSET(CotanView, clipZ);
@@ -108,9 +113,9 @@ TEST(RenderLayout, vertexStageReadsViewAndDrawWhereTheyAreWritten)
 
 TEST(RenderLayout, translucentFragmentsAreReadWhereTheyAreWritten)
 {
-    for (const Shader shader : {Shader::forwardLayersFrag, Shader::forwardExactLayersFrag, Shader::composeFrag,
-                                Shader::composeMultisampledFrag}) {
-        const auto offsets = memberOffsets(spirv(shader));
+    for (const Spirv& shader : std::initializer_list<Spirv>{cotanForwardLayersFrag, cotanForwardExactLayersFrag,
+                                                            cotanComposeFrag, cotanComposeMultisampledFrag}) {
+        const auto offsets = memberOffsets(shader);
         EXPECT_OFFSET(CotanLayerLists, count);
         EXPECT_OFFSET(CotanLayerLists, capacity);
         EXPECT_OFFSET(CotanLayerLists, width);
@@ -121,7 +126,7 @@ TEST(RenderLayout, translucentFragmentsAreReadWhereTheyAreWritten)
         EXPECT_OFFSET(CotanLayer, place);
         EXPECT_OFFSET(CotanLayer, before);
     }
-    EXPECT_EQ(memberOffsets(spirv(Shader::composeFrag)).at("ListBlock.newest"), sizeof(gpu::CotanLayerLists));
+    EXPECT_EQ(memberOffsets(cotanComposeFrag).at("ListBlock.newest"), sizeof(gpu::CotanLayerLists));
 }
 
 } // namespace cotan

@@ -49,7 +49,7 @@ json repairPage(const std::string& name, const std::vector<std::string>& package
         applyPatch(folder, kRepairSources + "/examples/" + patch);
     std::string page = readWhole(kRepairSources + "/tests/" + name + ".html.in");
     put(page, "MODULES_URL", "file://" + kModules.string());
-    put(page, "MENDED_URL", "file://" + (folder / "node_modules").string());
+    put(page, "FIXED_URL", "file://" + (folder / "node_modules").string());
     put(page, "SOURCES_URL", "file://" + kRepairSources);
     put(page, "TESTS_URL", "file://" + kRepairSources + "/tests");
     write(folder / (name + ".html"), page);
@@ -58,12 +58,12 @@ json repairPage(const std::string& name, const std::vector<std::string>& package
 }
 
 // stock is wrong in the scenes of `wrong`, by at least so many degrees in the mean (0: not finite), and right in the
-// others; mended is right in all but those of `left`.
-void expectRepair(const std::string& label, const json& stock, const json& mended,
+// others; fixed is right in all but those of `left`.
+void expectRepair(const std::string& label, const json& stock, const json& fixed,
                   const std::map<std::string, double>& wrong, const std::set<std::string>& left = {})
 {
     ASSERT_FALSE(stock.empty()) << label;
-    ASSERT_EQ(stock.size(), mended.size()) << label;
+    ASSERT_EQ(stock.size(), fixed.size()) << label;
     for (const auto& [scene, found] : stock.items()) {
         const std::string what = label + ", " + scene;
         ASSERT_TRUE(found.contains("count")) << what << ": " << found;
@@ -78,10 +78,10 @@ void expectRepair(const std::string& label, const json& stock, const json& mende
             ASSERT_TRUE(finite) << what << ", stock";
             EXPECT_GT(found["mean"].get<double>(), wrong.at(scene)) << what << ", stock";
         }
-        const json& ours = mended[scene];
-        ASSERT_TRUE(ours["worst"].is_number()) << what << ", mended: a normal is not finite";
+        const json& ours = fixed[scene];
+        ASSERT_TRUE(ours["worst"].is_number()) << what << ", fixed: a normal is not finite";
         if (!left.contains(scene)) {
-            EXPECT_LT(ours["worst"].get<double>(), kRepaired) << what << ", mended";
+            EXPECT_LT(ours["worst"].get<double>(), kRepaired) << what << ", fixed";
         }
     }
     for (const auto& [scene, degrees] : wrong)
@@ -94,7 +94,7 @@ TEST(Repairs, playCanvasIsRightInMirroringProjectionsAndOnOneSidedBackFaces)
     if (page.is_string())
         GTEST_SKIP() << page.get<std::string>();
     ASSERT_TRUE(page.contains("webgl2 stock")) << page;
-    const std::string coat = "coat on uv set 1, bumps on set 0"; // one frame for both: not mended
+    const std::string coat = "coat on uv set 1, bumps on set 0"; // one frame for both: not fixed
     for (const std::string device : {"webgl2", "webgpu"})
         if (page.contains(device + " stock")) // else a Chromium without WebGPU
             expectRepair(device, page[device + " stock"], page[device + " cotan"],
@@ -119,7 +119,7 @@ TEST(Repairs, functionsOfCesiumLumaAndPexAreRightAfterTheirPatches)
         {"sheared", 10},       {"seen at 60 degrees", 10}, {"y down", 10}, {"constant texture coordinates", 0}};
     const auto repaired = [&](const std::string& what, const std::map<std::string, double>& wrong) {
         ASSERT_TRUE(page.contains(what + " stock")) << page;
-        expectRepair(what, page[what + " stock"], page[what + " mended"], wrong);
+        expectRepair(what, page[what + " stock"], page[what + " fixed"], wrong);
     };
     for (const char* what : {"cesium", "cesium, anisotropy", "cesium, clear coat", "luma"})
         repaired(what, mirrored);

@@ -12,7 +12,6 @@
 #include "cotan/scene.hpp"
 #include "scene/geometry.hpp"
 #include "scene/scene_check.hpp"
-#include "scene/view_check.hpp"
 
 namespace cotan {
 namespace {

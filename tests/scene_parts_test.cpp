@@ -6,8 +6,8 @@
 
 #include <string>
 
+#include "scene/geometry.hpp"
 #include "scene/parts.hpp"
-#include "scene/up.hpp"
 
 namespace cotan {
 namespace {

@@ -1,9 +1,9 @@
 // Green of normal maps as the stored tangents mean it.
-#include "scene/stored_green.hpp"
+#include "scene/normal_maps.hpp"
 
 #include <gtest/gtest.h>
 
-#include "scene/put_picture.hpp"
+#include "scene/normal_maps.hpp"
 
 namespace cotan {
 namespace {

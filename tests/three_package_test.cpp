@@ -88,7 +88,7 @@ void expectDrawnWrong(const std::string& label, const json& found)
     }
 }
 
-// Where three.js itself is wrong, and why. Should it mend one, the line can go.
+// Where three.js itself is wrong, and why. Should it fix one, the line can go.
 const std::map<std::string, const char*> kWrongInThree = {
     {"y down", "its frame has no sign of its own"},
     {"y down, back", "the same"},

@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include "scene/camera_axes.hpp"
+#include "scene/geometry.hpp"
 
 namespace cotan::test {
 namespace {

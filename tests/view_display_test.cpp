@@ -72,7 +72,7 @@ TEST(ViewDisplay, aWindowIsMinimisedResizedAndQuitByItsKeys)
     EXPECT_TRUE(std::filesystem::exists(folder / "times.json"));
 }
 
-// In a window there is someone to read why, and to mend it: the file is read once it is there.
+// In a window there is someone to read why, and to fix it: the file is read once it is there.
 TEST(ViewDisplay, aWindowStaysWithoutItsFirstModelAndShowsItOnceItIsThere)
 {
     COTAN_NEEDS_DISPLAY();

@@ -22,19 +22,19 @@ export async function showMap(result, name, picture) {
   const command = el('code', {});
   const inThree = el('p', { class: 'small', hidden: true }, 'Without a new file, in three.js: ', el('code', { 'data-paste': '' }, 'material.normalScale.y *= -1;'));
   const known = green.green !== 'unknown', isDown = green.green === 'down';
-  let target = isDown ? 'gltf' : 'unreal', mended;
-  const engine = choice('Your engine reads', kEngines, target, value => { target = value; mend(); });
+  let target = isDown ? 'gltf' : 'unreal', fixed;
+  const engine = choice('Your engine reads', kEngines, target, value => { target = value; fix(); });
   const halves = divider(preview.element, share => preview.show(share), ['as it is', 'fixed']);
 
   const from = `${isDown ? 'directx' : 'opengl'}${info.zero === 127 ? ',biased' : ''}`;
   const newName = () => `${name.replace(/\.[^.]*$/, '')}_${target}.png`;
-  async function mend() {
+  async function fix() {
     const wanted = target, down = kGreenDown.has(target), fits = !known || down === isDown;
     const made = !known ? picture : await library.convertMap(picture, { from, to: wanted });
     if (wanted !== target) return;
-    mended = made;
+    fixed = made;
     preview.greenDown = down;
-    preview.put('after', mended);
+    preview.put('after', fixed);
     preview.show(halves.share());
     verdict.className = `verdict ${!known ? '' : fits ? 'good' : 'bad'}`;
     verdict.textContent = !known ? words
@@ -45,7 +45,7 @@ export async function showMap(result, name, picture) {
     command.textContent = `cotan map convert ${name} --from ${from} --to ${target} -o ${newName()}`;
   }
   async function save() {
-    download(await library.encodePng(mended), newName(), 'image/png');
+    download(await library.encodePng(fixed), newName(), 'image/png');
   }
 
   result.replaceChildren(el('div', { class: 'result' },
@@ -54,7 +54,7 @@ export async function showMap(result, name, picture) {
       !known ? undefined : el('p', { class: 'small' }, 'On the command line: ', command), inThree),
     el('figure', { class: 'view' }, preview.element, halves.element,
       el('figcaption', {}, 'Move the pointer over the image to move the light. Left: the map as your engine reads it now.'))));
-  await Promise.all([mend(), preview.ready]);
+  await Promise.all([fix(), preview.ready]);
 }
 
 function greenWords({ green, confidence, swapped, reason }, info) {

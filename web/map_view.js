@@ -1,4 +1,4 @@
-// A normal map as relief under a light that follows the pointer: as it is on the left of the border, mended on the right.
+// A normal map as relief under a light that follows the pointer: as it is on the left of the border, fixed on the right.
 import { kLit } from './lit.js';
 import { pictureOf } from './picture.js';
 

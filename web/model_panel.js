@@ -72,7 +72,7 @@ export async function showModel(result, files) {
     button.disabled = true;
     saved.textContent = 'Converting …';
     try {
-      const made = await library.convert(files, { to: to.select.value || undefined, mendGreen: wrongGreen(lint).length > 0 });
+      const made = await library.convert(files, { to: to.select.value || undefined, fixGreen: wrongGreen(lint).length > 0 });
       download(made.glb, `${name.replace(/\.[^.]*$/, '')}_${to.select.value || 'free'}.glb`, 'model/gltf-binary');
       saved.textContent = savedWords(made);
     } catch (error) {
@@ -144,8 +144,8 @@ function checkOf(lint, name, library) {
 
 function savedWords({ report, unpacked }) {
   const made = report.maps.filter(map => !map.kept), off = made.map(map => map.degrees_after_rounding?.mean).filter(mean => typeof mean === 'number');
-  const { before, after } = report.bytes, mended = report.green_mended ?? [];
-  return `${mended.length > 0 ? `Green of ${mended.join(', ')} is reversed; ` : ''}${made.length} ${made.length === 1 ? 'map' : 'maps'} made again, ${report.maps.length - made.length} kept, `
+  const { before, after } = report.bytes, fixed = report.green_fixed ?? [];
+  return `${fixed.length > 0 ? `Green of ${fixed.join(', ')} is reversed; ` : ''}${made.length} ${made.length === 1 ? 'map' : 'maps'} made again, ${report.maps.length - made.length} kept, `
     + `${report.mode === 'keep' ? 'tangents kept' : `${size(report.tangents.bytes)} of tangents dropped`}; the file: ${size(before)} before, ${size(after)} after.${unpacked ? ' Its geometry is not compressed any more: glTF-Transform\u2019s untangent keeps that.' : ''}`
     + `${off.length > 0 ? ` With the new maps normals are off by ${degrees(Math.max(...off))}.` : ''}`
     + report.unread_maps.map(({ name, format, advice }) => ` ${name} is in ${format}, which is not read here, and stays with its tangents: ${advice}.`).join('')

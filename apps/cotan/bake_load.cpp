@@ -16,9 +16,8 @@
 #include "likely_turn.hpp"
 #include "parse.hpp"
 #include "scene/bounds.hpp"
-#include "scene/meant_frame.hpp"
-#include "scene/normal_format.hpp"
-#include "scene/stored_green.hpp"
+#include "scene/normal_maps.hpp"
+#include "scene/texture_sample.hpp"
 
 namespace cotan::app {
 

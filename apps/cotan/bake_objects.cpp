@@ -3,7 +3,7 @@
 #include <unordered_set>
 #include <utility>
 
-#include "scene/objects.hpp"
+#include "scene/geometry.hpp"
 
 namespace cotan::app {
 

@@ -11,7 +11,7 @@
 #include "inspect/statistics.hpp"
 #include "parse.hpp"
 #include "picture.hpp"
-#include "scene/meant_frame.hpp"
+#include "scene/normal_maps.hpp"
 #include "scene/parts.hpp"
 
 namespace cotan::app {

@@ -5,7 +5,7 @@
 
 namespace cotan::app {
 
-// The box of what turnZUp (scene/up.hpp) turns.
+// The box of what turnZUp (scene/geometry.hpp) turns.
 Bounds turnedZUp(const Bounds& box);
 
 // What would lay two boxes over one another that are hardly so.

@@ -132,7 +132,7 @@ Result<Looked> detect(const InspectOptions& o, const std::string& file)
     const auto lines = maps::linesOf(*found, file);
     // The verdict, and what is wrong.
     const auto rest = std::ranges::find_if(lines.begin() + 1, lines.end(), [](const std::string& line) {
-        return !line.starts_with("wrong: ") && !line.starts_with("to mend it: ");
+        return !line.starts_with("wrong: ") && !line.starts_with("to fix it: ");
     });
     return Looked{lines, maps::toJson(*found), std::size_t(rest - lines.begin())};
 }

@@ -14,7 +14,7 @@
 #include "parse.hpp"
 #include "picture.hpp"
 #include "scene/geometry.hpp"
-#include "scene/meant_frame.hpp"
+#include "scene/normal_maps.hpp"
 
 namespace cotan::app {
 

@@ -9,7 +9,7 @@
 #include <glm/geometric.hpp>
 
 #include "cotan/vector.hpp"
-#include "scene/camera_axes.hpp"
+#include "scene/geometry.hpp"
 
 namespace cotan::viewer {
 

@@ -1,8 +1,8 @@
-// Mends PlayCanvas's frame without tangents, in every material of a graphics device: the sign of the frame comes from the
+// Fixes PlayCanvas's frame without tangents, in every material of a graphics device: the sign of the frame comes from the
 // triangle that is seen, not from the uniform tbnBasis, so it is right in cameras that mirror, in projections with y down, and
 // on back faces without two-sided lighting. Call it before the first frame: useCotanFrame(pc, app.graphicsDevice).
 export function useCotanFrame(pc, device) {
-  const mends = {
+  const fixes = {
     [pc.SHADERLANGUAGE_GLSL]: [
       [/tbnBasis\s*\/\s*sqrt\(\s*denom\s*\)/, 'cotanSide / sqrt( denom )'],
       [/(float denom\s*=)/, 'float cotanSide = dot( normal, cross( dp1, dp2 ) ) < 0.0 ? -1.0 : 1.0;\n\t\t$1'],
@@ -14,7 +14,7 @@ export function useCotanFrame(pc, device) {
   };
   for (const language of [pc.SHADERLANGUAGE_GLSL, pc.SHADERLANGUAGE_WGSL]) {
     const chunks = pc.ShaderChunks.get(device, language);
-    const mend = (name, changes) => {
+    const fix = (name, changes) => {
       let text = chunks.get(name);
       if (text === undefined) throw new Error(`PlayCanvas has no shader chunk ${name}`);
       for (const [pattern, replacement] of changes) {
@@ -23,8 +23,8 @@ export function useCotanFrame(pc, device) {
       }
       chunks.set(name, text);
     };
-    mend('TBNPS', mends[language]);
+    fix('TBNPS', fixes[language]);
     // Until now t and b came out reversed on back faces, and two-sided lighting turned n only.
-    mend('twoSidedLightingPS', [[/dTBN\[2\]\s*=\s*-dTBN\[2\]/, language === pc.SHADERLANGUAGE_GLSL ? 'dTBN = -dTBN' : 'dTBN = dTBN * -1.0']]);
+    fix('twoSidedLightingPS', [[/dTBN\[2\]\s*=\s*-dTBN\[2\]/, language === pc.SHADERLANGUAGE_GLSL ? 'dTBN = -dTBN' : 'dTBN = dTBN * -1.0']]);
   }
 }

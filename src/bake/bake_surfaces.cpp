@@ -14,7 +14,7 @@
 #include "bake/surface/uv_raster.hpp"
 #include "baker.hpp"
 #include "core/loops.hpp"
-#include "scene/repeated.hpp"
+#include "scene/parts.hpp"
 
 namespace cotan {
 

@@ -8,7 +8,6 @@
 #include <glm/geometric.hpp>
 
 #include "cotan/vector.hpp"
-#include "scene/normal_format.hpp"
 #include "scene/texture_sample.hpp"
 
 namespace cotan {

@@ -11,7 +11,7 @@
 
 #include "cotan/covector.hpp"
 #include "high_state.hpp"
-#include "scene/repeated.hpp"
+#include "scene/parts.hpp"
 
 namespace cotan {
 

@@ -11,7 +11,7 @@
 #include <glm/geometric.hpp>
 
 #include "packets.hpp"
-#include "scene/repeated.hpp"
+#include "scene/parts.hpp"
 
 namespace cotan {
 

@@ -7,11 +7,10 @@
 
 #include "bake/bake_model.hpp"
 #include "cotan/covector.hpp"
-#include "scene/objects.hpp"
+#include "scene/geometry.hpp"
+#include "scene/normal_maps.hpp"
 #include "scene/parts.hpp"
-#include "scene/put_picture.hpp"
 #include "scene/scene_check.hpp"
-#include "scene/stored_green.hpp"
 
 namespace cotan {
 

@@ -6,7 +6,7 @@
 
 #include "baker.hpp"
 #include "core/loops.hpp"
-#include "scene/camera_axes.hpp"
+#include "scene/geometry.hpp"
 
 namespace cotan {
 

@@ -6,7 +6,7 @@
 
 #include "bake/bake_surfaces.hpp"
 #include "core/loops.hpp"
-#include "scene/normal_format.hpp"
+#include "scene/texture_sample.hpp"
 
 namespace cotan {
 

@@ -9,8 +9,8 @@
 #include "cotan/bake.hpp"
 #include "models_api.hpp"
 #include "pictures.hpp"
-#include "scene/normal_format.hpp"
-#include "scene/stored_green.hpp"
+#include "scene/normal_maps.hpp"
+#include "scene/texture_sample.hpp"
 
 using namespace cotan;
 using namespace cotan::c;

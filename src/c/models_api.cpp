@@ -2,7 +2,6 @@
 #include "models_api.hpp"
 
 #include "scene/geometry.hpp"
-#include "scene/up.hpp"
 
 using namespace cotan;
 using namespace cotan::c;

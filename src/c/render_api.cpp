@@ -6,7 +6,7 @@
 #include "json_text.hpp"
 #include "model_files.hpp"
 #include "picture/option_words.hpp"
-#include "scene/meant_frame.hpp"
+#include "scene/normal_maps.hpp"
 
 using namespace cotan;
 using namespace cotan::c;

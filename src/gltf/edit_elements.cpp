@@ -3,7 +3,7 @@
 
 #include "cotan/vector.hpp"
 #include "edit_state.hpp"
-#include "scene/texture_uv.hpp"
+#include "scene/texture_sample.hpp"
 #include "vertices.hpp"
 
 namespace cotan {

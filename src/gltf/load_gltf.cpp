@@ -9,7 +9,7 @@
 #include "mesh.hpp"
 #include "nodes.hpp"
 #include "reach.hpp"
-#include "scene/stored_green.hpp"
+#include "scene/normal_maps.hpp"
 
 namespace cotan {
 

@@ -5,7 +5,7 @@
 #include "cotan/portable.hpp"
 #include "gltf/json/lookup.hpp"
 #include "mesh.hpp"
-#include "scene/placings.hpp"
+#include "scene/geometry.hpp"
 #include "structure.hpp"
 
 namespace cotan {

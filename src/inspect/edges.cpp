@@ -8,7 +8,7 @@
 
 #include <glm/geometric.hpp>
 
-#include "scene/texture_uv.hpp"
+#include "scene/texture_sample.hpp"
 
 namespace cotan {
 

@@ -11,8 +11,8 @@
 #include "bake/lint/triangle_uv.hpp"
 #include "image/component_types.hpp"
 #include "inspect/angles.hpp"
+#include "scene/normal_maps.hpp"
 #include "scene/picture_text.hpp"
-#include "scene/stored_green.hpp"
 
 namespace cotan {
 

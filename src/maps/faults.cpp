@@ -95,7 +95,7 @@ std::string sentenceOf(const std::string& name, const std::vector<Fault>& faults
     std::string text = name + ": ";
     for (const Fault& fault : faults)
         text += fault.text + "; ";
-    return text + "cotan map convert " + fixOptions(faults, statistics) + " mends it.";
+    return text + "cotan map convert " + fixOptions(faults, statistics) + " fixes it.";
 }
 
 } // namespace cotan::maps

@@ -1,12 +1,16 @@
 // Models through Assimp: checked before, watched during, checked after.
 #include <algorithm>
 #include <exception>
+#include <optional>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <system_error>
 
 #include <assimp/BaseImporter.h>
+#include <assimp/IOSystem.hpp>
 #include <assimp/Importer.hpp>
+#include <assimp/MemoryIOWrapper.h>
 #include <assimp/config.h>
 #include <assimp/defs.h>
 #include <assimp/importerdesc.h>
@@ -15,10 +19,7 @@
 #include <fmt/format.h>
 
 #include "assimp_convert.hpp"
-#include "assimp_files.hpp"
-#include "collada_check.hpp"
 #include "files/bytes.hpp"
-#include "ply_check.hpp"
 #include "scene/scene_check.hpp"
 #include "source_material.hpp"
 #include "text_lines.hpp"
@@ -45,16 +46,80 @@ namespace {
 // The model on its way through the reader.
 struct Job {
     fs::path file; // as passed, for messages
-    fs::path canonical;
-    fs::path folder;       // canonical
-    std::string extension; // lower case, with the dot
     const LoadLimits& limits;
-    std::vector<std::byte> bytes;
-    FileRequests requests;
-    Scene scene;
+    fs::path canonical{};
+    fs::path folder{};       // canonical
+    std::string extension{}; // lower case, with the dot
+    std::vector<std::byte> bytes{};
+    std::vector<std::string> outside{};  // files that were asked for and refused: out of the model's folder
+    std::vector<std::string> tooLarge{}; // the same: over the limit
+    Scene scene{};
 
     std::string name() const { return file.string(); }
 };
+
+// ---- files -----------------------------------------------------------------------------------
+
+class BytesStream : public Assimp::MemoryIOStream {
+public:
+    explicit BytesStream(std::vector<std::byte> bytes)
+        : MemoryIOStream(reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()), bytes_(std::move(bytes))
+    {
+    }
+
+private:
+    std::vector<std::byte> bytes_; // moving keeps the address
+};
+
+void addOnce(std::vector<std::string>& list, const std::string& text)
+{
+    if (std::ranges::find(list, text) == list.end())
+        list.push_back(text);
+}
+
+// Serves the model itself from memory (as checked, not as it may have become on disk) and other
+// files from the model's folder only. Read-only.
+class ModelFiles : public Assimp::IOSystem {
+public:
+    explicit ModelFiles(Job& job) : job_(job) {} // the job outlives this
+
+    bool Exists(const char* file) const override { return file == job_.canonical || find(file); }
+    char getOsSeparator() const override { return '/'; }
+    void Close(Assimp::IOStream* stream) override { delete stream; }
+
+    Assimp::IOStream* Open(const char* file, const char* mode) override
+    {
+        if (std::string_view(mode).find_first_of("wa+") != std::string_view::npos)
+            return nullptr;
+        if (file == job_.canonical)
+            return new Assimp::MemoryIOStream(reinterpret_cast<const std::uint8_t*>(job_.bytes.data()),
+                                              job_.bytes.size());
+        const auto found = find(file);
+        if (!found)
+            return nullptr;
+        std::error_code error;
+        if (fs::file_size(*found, error) > job_.limits.fileBytes) {
+            addOnce(job_.tooLarge, file);
+            return nullptr;
+        }
+        auto bytes = readFileBytes(*found, job_.limits.fileBytes);
+        return bytes ? new BytesStream(*std::move(bytes)) : nullptr;
+    }
+
+private:
+    std::optional<fs::path> find(const char* file) const
+    {
+        bool outside = false;
+        auto found = findInFolder(job_.folder, file, outside);
+        if (outside)
+            addOnce(job_.outside, file);
+        return found;
+    }
+
+    Job& job_;
+};
+
+// ---- reading ---------------------------------------------------------------------------------
 
 Status openModel(Job& job)
 {
@@ -111,7 +176,7 @@ bool keepOneReader(Assimp::Importer& importer, const std::string& extension)
 
 const aiScene* import(Job& job, Assimp::Importer& importer)
 {
-    importer.SetIOHandler(new ModelFiles(job.canonical, job.bytes, job.limits, job.requests));
+    importer.SetIOHandler(new ModelFiles(job));
     importer.SetPropertyInteger(AI_CONFIG_PP_SBP_REMOVE, aiPrimitiveType_POINT | aiPrimitiveType_LINE);
     importer.SetPropertyBool(AI_CONFIG_IMPORT_FBX_PRESERVE_PIVOTS, false);
     importer.SetPropertyBool(AI_CONFIG_IMPORT_NO_SKELETON_MESHES, true);
@@ -186,26 +251,24 @@ void convertMaterials(const aiScene& source, Job& job)
 int defaultMaterial(Scene& scene, int& cached)
 {
     if (cached < 0) {
-        Material material;
+        cached = int(scene.materials.size());
+        Material& material = scene.materials.emplace_back();
         material.name = "default";
         material.baseColor = {0.8f, 0.8f, 0.8f, 1};
         material.metallic = 0;
         material.roughness = 0.7f;
         material.doubleSided = true;
-        cached = int(scene.materials.size());
-        scene.materials.push_back(material);
     }
     return cached;
 }
 
 Result<std::vector<int>> convertMeshes(const aiScene& source, Job& job)
 {
-    MeshChoices choices;
-    choices.regenerateNormals = job.extension == ".stl";
+    const bool regenerateNormals = job.extension == ".stl";
     std::vector<int> indexOf(source.mNumMeshes, -1);
     int fallback = -1;
     for (unsigned i = 0; i < source.mNumMeshes; ++i) {
-        auto mesh = convertMesh(*source.mMeshes[i], job.name(), choices, job.scene);
+        auto mesh = convertMesh(*source.mMeshes[i], job.name(), regenerateNormals, job.scene);
         if (!mesh)
             return mesh.error();
         if (mesh->indices.empty())
@@ -222,9 +285,9 @@ Result<std::vector<int>> convertMeshes(const aiScene& source, Job& job)
 void warnAboutSource(const aiScene& source, Job& job)
 {
     auto& warnings = job.scene.warnings;
-    for (const std::string& file : job.requests.outside)
+    for (const std::string& file : job.outside)
         warnings.push_back(fmt::format("{} is outside the model's folder; not opened", file));
-    for (const std::string& file : job.requests.tooLarge)
+    for (const std::string& file : job.tooLarge)
         warnings.push_back(fmt::format("{} is over the limit of {} bytes; not opened", file, job.limits.fileBytes));
     if (source.mNumLights > 0)
         warnings.push_back(fmt::format("{} lights are left out: this format gives them no unit", source.mNumLights));
@@ -273,7 +336,7 @@ Result<Scene> load(Job& job)
 
 Result<Scene> loadWithAssimp(const fs::path& file, const LoadLimits& limits)
 {
-    Job job{file, {}, {}, {}, limits, {}, {}, {}};
+    Job job{.file = file, .limits = limits};
     try {
         return load(job);
     } catch (const std::bad_alloc&) {

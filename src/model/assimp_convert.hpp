@@ -1,12 +1,15 @@
-// From Assimp's structures to ours.
+// From Assimp's structures to ours; and files that Assimp trusts, before they are given to it.
 #pragma once
 
+#include <cstddef>
+#include <span>
 #include <string>
+#include <vector>
 
 #include "cotan/model.hpp"
 #include "cotan/result.hpp"
 #include "cotan/scene.hpp"
-#include "model_textures.hpp"
+#include "source_material.hpp"
 
 struct aiMaterial;
 struct aiMesh;
@@ -14,26 +17,31 @@ struct aiScene;
 
 namespace cotan {
 
-// ---- assimp_material.cpp --------------------------------------------------------------------
+// ---- conversion ------------------------------------------------------------------------------
 
 Material convertMaterial(const aiMaterial& source, TextureReader& textures, Scene& scene);
 
-// ---- assimp_mesh.cpp ------------------------------------------------------------------------
-
-struct MeshChoices {
-    bool regenerateNormals = false; // the format's normals are those of faces only
-    float creaseDegrees = 60;       // where normals are made
-};
-
 // Checks every index, count and position before it is used. A mesh without triangles comes back
-// empty. Errors: what a broken or hostile file can make Assimp deliver.
-Result<Mesh> convertMesh(const aiMesh& source, const std::string& file, const MeshChoices& choices, Scene& scene);
-
-// ---- assimp_nodes.cpp -----------------------------------------------------------------------
+// empty. regenerateNormals: the format's normals are those of faces only.
+// Errors: what a broken or hostile file can make Assimp deliver.
+Result<Mesh> convertMesh(const aiMesh& source, const std::string& file, bool regenerateNormals, Scene& scene);
 
 // Instances and cameras from the tree of nodes. meshes: for every mesh of the source its index in
 // the scene, or -1.
 Status convertNodes(const aiScene& source, const std::string& file, const std::vector<int>& meshes,
                     const LoadLimits& limits, Scene& scene);
+
+// ---- checks ----------------------------------------------------------------------------------
+
+// Checks the header of a PLY file line by line, and walks over what it counts: every row of every
+// element, and every value of every list, has to be there, as memory is taken by those counts.
+// Source: the PLY description of G. Turk (1994), with the sized type names that are common now.
+Status checkPly(std::span<const std::byte> bytes, const std::string& name, const LoadLimits& limits);
+
+// Checks three things of COLLADA that Assimp 5.2 does not: counts, offsets and strides, by which memory is
+// taken, are no larger than the file; lists of indices hold nothing but whole numbers (at anything
+// else the parser repeats the last number until memory ends); and accessors reach no further than
+// the array of numbers that they read.
+Status checkCollada(std::span<const std::byte> bytes, const std::string& name);
 
 } // namespace cotan

@@ -2,14 +2,17 @@
 
 #include <algorithm>
 #include <array>
+#include <new>
 #include <string>
 
 #include <fmt/format.h>
 
 #include "files/bytes.hpp"
 #include "files/file_registry.hpp"
-#include "sandboxed_models.hpp"
-#include "scene/up.hpp"
+#include "files/sandbox/process.hpp"
+#include "files/sandbox/scene_wire.hpp"
+#include "scene/geometry.hpp"
+#include "scene/scene_check.hpp"
 
 namespace cotan {
 
@@ -19,11 +22,51 @@ namespace {
 
 constexpr std::array<std::string_view, 5> kAssimpExtensions = {".ply", ".stl", ".dae", ".fbx", ".3ds"};
 
+// Over a limit that the child should have held.
+Status checkLimits(const Scene& scene, const std::string& file, const LoadLimits& limits)
+{
+    std::size_t vertices = 0, triangles = 0;
+    for (const Mesh& mesh : scene.meshes) {
+        vertices += mesh.vertexCount();
+        triangles += mesh.triangleCount();
+    }
+    if (vertices > limits.vertices)
+        return inputError(fmt::format("{}: over the limit of {} vertices", file, limits.vertices));
+    if (triangles > limits.triangles)
+        return inputError(fmt::format("{}: over the limit of {} triangles", file, limits.triangles));
+    if (scene.instances.size() > limits.vertices)
+        return inputError(fmt::format("{}: over the limit of {} instances", file, limits.vertices));
+    return Done{};
+}
+
+// In a child process: limits.sandbox.program.
+Result<Scene> loadSandboxed(const fs::path& file, std::size_t fileBytes, const LoadLimits& limits)
+try {
+    auto process = ReaderProcess::start(
+        {.kind = ReaderKind::model, .name = file.string(), .fileBytes = fileBytes, .limits = limits});
+    if (!process)
+        return process.error();
+    if (Status found = (*process)->await(); !found)
+        return found.error();
+    Scene scene;
+    exchangeScene((*process)->answer(), scene);
+    if (!(*process)->answer().good())
+        return (*process)->failure();
+    if (Status sound = checkScene(scene, file.string()); !sound)
+        return sound.error();
+    if (Status within = checkLimits(scene, file.string(), limits); !within)
+        return within.error();
+    return scene;
+} catch (const std::bad_alloc&) {
+    return inputError(fmt::format("{}: not enough memory for the model", file.string()));
+}
+
 Result<Scene> loadAny(const fs::path& file, const LoadLimits& limits)
 {
     if (limits.readFile)
         return loadGltf(file, limits);
-    if (const auto size = usableFileSize(file, limits.fileBytes); !size)
+    const auto size = usableFileSize(file, limits.fileBytes);
+    if (!size)
         return size.error();
     const std::string extension = lowerExtension(file);
     if (extension == ".gltf" || extension == ".glb")
@@ -33,7 +76,7 @@ Result<Scene> loadAny(const fs::path& file, const LoadLimits& limits)
     const bool assimp = std::ranges::find(kAssimpExtensions, extension) != kAssimpExtensions.end();
     if (assimp || extension == ".obj") {
         if (!limits.sandbox.program.empty())
-            return loadSandboxed(file, limits);
+            return loadSandboxed(file, *size, limits);
         return assimp ? loadWithAssimp(file, limits) : loadObj(file, limits);
     }
     return inputError(

@@ -1,4 +1,4 @@
-#include "mtl.hpp"
+#include "obj_text.hpp"
 
 #include <algorithm>
 #include <array>
@@ -7,32 +7,23 @@
 
 #include <fmt/format.h>
 
+#include "core/named_values.hpp"
 #include "text_lines.hpp"
 
 namespace cotan {
 
 namespace {
 
-struct MapOption {
-    std::string_view name;
-    std::size_t most; // words behind it
-    bool numbers;     // which are numbers, and of which only the first has to be there
-};
+// How many numbers stand behind an option of a map at most, of which only the first has to be there; 0: one word.
+constexpr Named<std::size_t> kMapOptions[] = {
+    {"-blendu", 0}, {"-blendv", 0}, {"-cc", 0}, {"-clamp", 0}, {"-imfchan", 0}, {"-type", 0}, {"-colorspace", 0},
+    {"-texres", 0}, {"-boost", 1},  {"-bm", 1}, {"-mm", 2},    {"-o", 3},       {"-s", 3},    {"-t", 3}};
 
-constexpr std::array<MapOption, 14> kMapOptions = {{{"-blendu", 1, false},
-                                                    {"-blendv", 1, false},
-                                                    {"-cc", 1, false},
-                                                    {"-clamp", 1, false},
-                                                    {"-imfchan", 1, false},
-                                                    {"-type", 1, false},
-                                                    {"-colorspace", 1, false},
-                                                    {"-texres", 1, false},
-                                                    {"-boost", 1, true},
-                                                    {"-bm", 1, true},
-                                                    {"-mm", 2, true},
-                                                    {"-o", 3, true},
-                                                    {"-s", 3, true},
-                                                    {"-t", 3, true}}};
+constexpr Named<SourceMap SourceMaterial::*> kMaps[] = {
+    {"map_kd", &SourceMaterial::colorMap},          {"map_ke", &SourceMaterial::emissionMap},
+    {"map_emissive", &SourceMaterial::emissionMap}, {"map_d", &SourceMaterial::opacityMap},
+    {"map_pr", &SourceMaterial::roughnessMap},      {"map_pm", &SourceMaterial::metalnessMap},
+    {"norm", &SourceMaterial::normalMap},           {"map_kn", &SourceMaterial::normalMap}};
 
 // u and v of the file, whose v runs up, are scaled and shifted; ours has v down.
 void layOn(Texture& texture, glm::vec2 scale, glm::vec2 offset)
@@ -47,13 +38,13 @@ SourceMap readMap(Words words)
     SourceMap map;
     glm::vec2 scale(1), offset(0);
     for (std::string_view word = words.peek(); word.starts_with('-'); word = words.peek()) {
-        const auto option = std::ranges::find(kMapOptions, word, &MapOption::name);
-        if (option == kMapOptions.end())
+        const auto most = valueOf(kMapOptions, word);
+        if (!most)
             break; // a file name that begins so
         words.next();
         std::array<float, 3> numbers{};
         std::size_t count = 0;
-        while (option->numbers && count < option->most)
+        while (count < *most)
             if (const auto number = finiteNumber(words.peek())) {
                 numbers[count++] = *number;
                 words.next();
@@ -66,7 +57,7 @@ SourceMap readMap(Words words)
             scale = {numbers[0], count > 1 ? numbers[1] : 1.0f};
         if (word == "-o" && count > 0)
             offset = {numbers[0], numbers[1]};
-        if (!option->numbers && words.next() == "on" && word == "-clamp")
+        if (*most == 0 && words.next() == "on" && word == "-clamp")
             map.use.sampler.wrapU = map.use.sampler.wrapV = Wrap::clamp;
     }
     layOn(map.use, scale, offset);
@@ -74,8 +65,8 @@ SourceMap readMap(Words words)
     return map;
 }
 
-// One number, or a colour.
-bool readNumber(Words words, float& value)
+// value: a float, or an optional one.
+template<class Value> bool readNumber(Words words, Value& value)
 {
     while (words.peek().starts_with("-halo"))
         words.next();
@@ -83,15 +74,6 @@ bool readNumber(Words words, float& value)
     if (number)
         value = *number;
     return number.has_value();
-}
-
-bool readNumber(Words words, std::optional<float>& value)
-{
-    float number = 0;
-    const bool good = readNumber(words, number);
-    if (good)
-        value = number;
-    return good;
 }
 
 // A single number is a grey.
@@ -129,18 +111,8 @@ bool readStatement(const std::string& keyword, Words words, SourceMaterial& m)
         return readNumber(words, m.roughness);
     if (keyword == "pm")
         return readNumber(words, m.metallic);
-    if (keyword == "map_kd")
-        m.colorMap = readMap(words);
-    else if (keyword == "map_ke" || keyword == "map_emissive")
-        m.emissionMap = readMap(words);
-    else if (keyword == "map_d")
-        m.opacityMap = readMap(words);
-    else if (keyword == "map_pr")
-        m.roughnessMap = readMap(words);
-    else if (keyword == "map_pm")
-        m.metalnessMap = readMap(words);
-    else if (keyword == "norm" || keyword == "map_kn")
-        m.normalMap = readMap(words);
+    if (const auto map = valueOf(kMaps, keyword))
+        m.** map = readMap(words);
     return true;
 }
 

@@ -11,8 +11,6 @@
 #include "cotan/model.hpp"
 #include "cotan/portable.hpp"
 #include "files/bytes.hpp"
-#include "mesh_weld.hpp"
-#include "mtl.hpp"
 #include "obj_text.hpp"
 #include "scene/geometry.hpp"
 #include "source_material.hpp"
@@ -23,8 +21,6 @@ namespace cotan {
 namespace fs = std::filesystem;
 
 namespace {
-
-constexpr float kCreaseDegrees = 60; // where normals are made
 
 Result<std::string> readText(const fs::path& file, const LoadLimits& limits)
 {

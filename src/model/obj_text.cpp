@@ -9,7 +9,6 @@
 
 #include <fmt/format.h>
 
-#include "polygon_triangles.hpp"
 #include "text_lines.hpp"
 
 namespace cotan {
@@ -50,33 +49,9 @@ struct Parser {
     std::size_t triangles = 0;
 };
 
-Problem readNumbers(Words words, std::array<float, 7>& numbers, std::size_t& count)
-{
-    count = 0;
-    for (std::string_view word = words.next(); !word.empty(); word = words.next(), ++count) {
-        const auto number = finiteNumber(word);
-        if (!number)
-            return fmt::format("expected a finite number, found {}", quotedWord(word));
-        if (count < numbers.size())
-            numbers[count] = *number;
-    }
-    return std::nullopt;
-}
-
-Problem countAttribute(Parser& parser, std::size_t attribute)
-{
-    if (std::size_t(++parser.counts[attribute]) > parser.limits.vertices)
-        return fmt::format("over the limit of {} vertices", parser.limits.vertices);
-    return std::nullopt;
-}
-
 // x y z, with a weight, with a colour, or with a colour and alpha.
-Problem readPosition(Parser& parser, Words words)
+Problem addPosition(ObjText& out, const std::array<float, 7>& n, std::size_t count)
 {
-    std::array<float, 7> n{};
-    std::size_t count = 0;
-    if (Problem problem = readNumbers(words, n, count))
-        return problem;
     if (count != 3 && count != 4 && count != 6 && count != 7)
         return fmt::format("expected 3, 4, 6 or 7 numbers, found {}", count);
     glm::vec3 position(n[0], n[1], n[2]);
@@ -87,37 +62,41 @@ Problem readPosition(Parser& parser, Words words)
         if (!(glm::abs(position.x) + glm::abs(position.y) + glm::abs(position.z) < 1e38f))
             return "expected a position within the range of float";
     }
-    ObjText& out = parser.out;
     if (count >= 6 || !out.colors.empty()) {
         out.colors.resize(out.positions.size(), glm::vec4(1));
         out.colors.push_back(count >= 6 ? glm::vec4(n[3], n[4], n[5], count == 7 ? n[6] : 1.0f) : glm::vec4(1));
     }
     out.positions.push_back(position);
-    return countAttribute(parser, 0);
+    return std::nullopt;
 }
 
-Problem readTexcoord(Parser& parser, Words words)
+// attribute: 0 position, 1 texture coordinate, 2 normal.
+Problem readAttribute(Parser& parser, std::size_t attribute, Words words)
 {
     std::array<float, 7> n{};
     std::size_t count = 0;
-    if (Problem problem = readNumbers(words, n, count))
-        return problem;
-    if (count < 1 || count > 3)
-        return fmt::format("expected 1 to 3 numbers, found {}", count);
-    parser.out.texcoords.emplace_back(n[0], n[1]);
-    return countAttribute(parser, 1);
-}
-
-Problem readNormal(Parser& parser, Words words)
-{
-    std::array<float, 7> n{};
-    std::size_t count = 0;
-    if (Problem problem = readNumbers(words, n, count))
-        return problem;
-    if (count != 3)
-        return fmt::format("expected 3 numbers, found {}", count);
-    parser.out.normals.emplace_back(n[0], n[1], n[2]);
-    return countAttribute(parser, 2);
+    for (std::string_view word = words.next(); !word.empty(); word = words.next(), ++count) {
+        const auto number = finiteNumber(word);
+        if (!number)
+            return fmt::format("expected a finite number, found {}", quotedWord(word));
+        if (count < n.size())
+            n[count] = *number;
+    }
+    if (attribute == 0) {
+        if (Problem problem = addPosition(parser.out, n, count))
+            return problem;
+    } else if (attribute == 1) {
+        if (count < 1 || count > 3)
+            return fmt::format("expected 1 to 3 numbers, found {}", count);
+        parser.out.texcoords.emplace_back(n[0], n[1]);
+    } else {
+        if (count != 3)
+            return fmt::format("expected 3 numbers, found {}", count);
+        parser.out.normals.emplace_back(n[0], n[1], n[2]);
+    }
+    if (std::size_t(++parser.counts[attribute]) > parser.limits.vertices)
+        return fmt::format("over the limit of {} vertices", parser.limits.vertices);
+    return std::nullopt;
 }
 
 // The place in the array. What is above the totals is refused at the end, before it is used.
@@ -213,11 +192,11 @@ Problem readLine(Parser& parser, std::string_view line, std::size_t offset)
     const std::string_view keyword = words.next();
     const Words data{words.rest.substr(0, words.rest.find('#'))};
     if (keyword == "v")
-        return readPosition(parser, data);
+        return readAttribute(parser, 0, data);
     if (keyword == "vt")
-        return readTexcoord(parser, data);
+        return readAttribute(parser, 1, data);
     if (keyword == "vn")
-        return readNormal(parser, data);
+        return readAttribute(parser, 2, data);
     if (keyword == "f" || keyword == "fo") // the older name
         return readFace(parser, data, offset);
     if (keyword == "mtllib" && !words.all().empty())

@@ -1,8 +1,9 @@
-// Wavefront OBJ: its text to arrays and triangles.
+// Wavefront OBJ and its material libraries: their text to arrays, triangles and materials.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -12,6 +13,7 @@
 
 #include "cotan/model.hpp"
 #include "cotan/result.hpp"
+#include "source_material.hpp"
 
 namespace cotan {
 
@@ -41,7 +43,7 @@ struct ObjText {
 };
 
 // Reads v vt vn f g o usemtl mtllib; smoothing groups, lines, points, curves and statements that
-// nobody knows are passed over. Polygons become triangles (polygon_triangles.hpp).
+// nobody knows are passed over. Polygons become triangles (cutPolygon).
 // Errors (ErrorKind::input, with the line number): a number that is malformed or not finite, index
 // 0, an index out of range (a negative one counts back from the latest and is fine; a face may stand
 // before what it names), a face without corners, corners of one face with and without texture
@@ -49,5 +51,27 @@ struct ObjText {
 // Source: the OBJ specification, appendix B1 of the Advanced Visualizer manual; colours behind
 // positions as ZBrush and MeshLab write them.
 Result<ObjText> parseObj(std::string text, const std::string& name, const LoadLimits& limits);
+
+// Cuts a polygon of three corners or more into corners - 2 triangles by clipping ears, as seen
+// along its mean normal; holes that a bridge of two edges joins to the rim are fine. Appends three
+// places in `corners` a triangle; their winding is the polygon's. Of a planar polygon that does not
+// cross itself the triangles cover the polygon, once; of others, something near. A polygon without
+// area becomes a fan.
+// stepsLeft: comparisons of a corner with a triangle that may still be made, one budget for a
+// model: many corners that turn inwards take the square of their number. False: it is used up.
+bool cutPolygon(std::span<const glm::vec3> corners, std::vector<std::uint32_t>& triangles, std::size_t& stepsLeft);
+
+struct MtlText {
+    std::vector<SourceMaterial> materials; // in the order of the file
+    std::vector<std::string> warnings;     // without the file's name
+};
+
+// Reads newmtl, Kd, Ke, Ns, d, Tr, Pr, Pm and the maps map_Kd, map_Ke, map_d, map_Pr, map_Pm,
+// bump (map_Bump) and norm (map_Kn), upper or lower case, with the options -bm, -clamp, -o and -s.
+// All other statements are passed over; those before the first newmtl, and those whose numbers
+// cannot be read, are left out with a warning. Nothing in a library is an error.
+// Source: the MTL specification of the Advanced Visualizer manual; Pr, Pm, norm as in the PBR
+// extension of exocortex.com.
+MtlText parseMtl(std::string text);
 
 } // namespace cotan

@@ -1,4 +1,4 @@
-#include "polygon_triangles.hpp"
+#include "obj_text.hpp"
 
 #include <algorithm>
 

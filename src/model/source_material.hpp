@@ -1,15 +1,64 @@
-// Materials of formats other than glTF: what such files say, and one reading of it.
+// Materials of formats other than glTF, with their images: what such files say, and one reading of it; and what their
+// meshes share.
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <map>
 #include <optional>
 #include <string>
 
 #include <glm/vec3.hpp>
 
+#include "cotan/model.hpp"
+#include "cotan/result.hpp"
 #include "cotan/scene.hpp"
-#include "model_textures.hpp"
+
+struct aiScene;
+struct aiTexture;
 
 namespace cotan {
+
+// Finds the images of a model, decodes each once, converts those that must be, and fills Scene::images. Whatever cannot
+// be used becomes a warning and no image (-1).
+class TextureReader {
+public:
+    // source: where embedded textures are; null: there are none. folder: canonical. Everything passed
+    // must outlive this.
+    TextureReader(Scene& scene, const aiScene* source, const std::filesystem::path& folder, const LoadLimits& limits)
+        : scene_(scene), source_(source), folder_(folder), limits_(limits)
+    {
+    }
+
+    // The image that `path` names: a file in the folder, or "*N", the Nth texture of the file.
+    // A path from another machine is looked up by its last part. material: for messages.
+    int image(const std::string& path, const std::string& material);
+
+    // As image(); a grey picture is taken as heights and becomes a normal map, `strength` times as
+    // deep, and `converted` is set.
+    int normalMap(const std::string& path, const std::string& material, float strength, bool& converted);
+
+    // One image with the roughness in green and the metalness in blue, from the red of two.
+    // Either may be -1: it counts as white. Both -1: -1. The larger one gives the size.
+    int metallicRoughness(int roughness, int metallic);
+
+private:
+    int load(const std::string& path, const std::string& material);
+    Result<Image> embedded(const aiTexture& texture, const std::string& name);
+    int leaveOut(const std::string& path, const std::string& material, const std::string& why); // with a warning: -1
+    LoadLimits withinBudget(std::uint64_t bytes);
+    std::string overBudget() const; // why an image is left out
+    int add(Image image);
+
+    Scene& scene_;
+    const aiScene* source_;
+    const std::filesystem::path& folder_;
+    const LoadLimits& limits_;
+    std::size_t bytes_ = 0;            // of all images
+    std::uint64_t fileBytes_ = 0;      // of their files
+    std::map<std::string, int> known_; // what a path, or a conversion, gave
+};
 
 // A texture as a file names it, and how it is laid on.
 struct SourceMap {
@@ -32,6 +81,8 @@ struct SourceMaterial {
 // becomes a warning of the scene. Doubtful cases: black with a map means the map alone; opacity 0
 // means opaque; a grey normal map is a height map; a normal map named for DirectX has green down.
 Material makeMaterial(const SourceMaterial& source, TextureReader& textures, Scene& scene);
+
+inline constexpr float kCreaseDegrees = 60; // where the normals of a mesh are made
 
 // Says, once, where a mesh lacks the texture coordinates that a map of its material needs.
 void warnAboutTexcoords(const Mesh& mesh, Scene& scene);

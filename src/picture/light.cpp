@@ -1,15 +1,12 @@
 #include "cotan/picture.hpp"
 
 #include <cmath>
-#include <filesystem>
-#include <map>
 #include <numbers>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include "cotan/image.hpp"
-#include "cotan/view.hpp"
 #include "picture/option_words.hpp"
 #include "scene/geometry.hpp"
 
@@ -63,17 +60,15 @@ std::vector<Light> lampsOf(const PictureOptions& o)
         float intensity;
         glm::vec3 color, direction;
     };
-    static const std::map<std::string, Lamp> kLamps = {
-        {"studio", {3.2f, {1, 0.985f, 0.96f}, {0.62f, -0.9f, -0.7f}}},
-        {"evening", {4.5f, {1, 0.58f, 0.24f}, {-0.8f, -0.28f, -0.6f}}},
-    };
-    const auto lamp = kLamps.find(o.environment);
-    if (lamp == kLamps.end())
+    constexpr Named<Lamp> kLamps[] = {{"studio", {3.2f, {1, 0.985f, 0.96f}, {0.62f, -0.9f, -0.7f}}},
+                                      {"evening", {4.5f, {1, 0.58f, 0.24f}, {-0.8f, -0.28f, -0.6f}}}};
+    const auto lamp = valueOf(kLamps, o.environment);
+    if (!lamp)
         return {};
     Light light;
-    light.intensity = lamp->second.intensity * o.environmentIntensity;
-    light.color = lamp->second.color;
-    const glm::vec3 d = glm::normalize(lamp->second.direction);
+    light.intensity = lamp->intensity * o.environmentIntensity;
+    light.color = lamp->color;
+    const glm::vec3 d = glm::normalize(lamp->direction);
     const float c = float(std::cos(o.environmentRotation * kRadians)),
                 s = float(std::sin(o.environmentRotation * kRadians));
     light.direction = {c * d.x + s * d.z, d.y, c * d.z - s * d.x};

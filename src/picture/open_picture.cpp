@@ -1,23 +1,17 @@
 #include "cotan/picture.hpp"
 
 #include <algorithm>
-#include <future>
-#include <utility>
 
 #include <fmt/format.h>
 
-#include "cotan/inspect.hpp"
 #include "cotan/model.hpp"
-#include "cotan/render.hpp"
-#include "cotan/scene.hpp"
-#include "cotan/view.hpp"
 #include "files/bytes.hpp"
 #include "files/file_registry.hpp"
 #include "picture/option_words.hpp"
+#include "scene/bounds.hpp"
 #include "scene/geometry.hpp"
-#include "scene/meant_frame.hpp"
+#include "scene/normal_maps.hpp"
 #include "scene/parts.hpp"
-#include "scene/up.hpp"
 
 namespace cotan {
 
@@ -42,6 +36,61 @@ Status checkSize(const PictureSize& size)
     if (size.fits())
         return Done{};
     return usageError(fmt::format("--size: expected WxH, each from 1 to 16384; found '{}'", sizeWord(size)));
+}
+
+Status checkModelOptions(const PictureOptions& options)
+{
+    const bool none = options.model.empty();
+    if (!none && !options.shape.empty())
+        return usageError("--shape: expected no model with it; found " + options.model);
+    if (!options.variant.empty() && none)
+        return usageError("--variant: expected a model; found the built-in scene");
+    if (options.up != Up::y && none)
+        return usageError("--up: expected a model; found the built-in scene");
+    if (options.animation.empty() ? options.time > 0 : none)
+        return usageError(options.animation.empty() ? "--time: expected --animation with it; found none"
+                                                    : "--animation: expected a model; found the built-in scene");
+    return Done{};
+}
+
+LoadLimits limitsOf(const PictureOptions& options)
+{
+    LoadLimits limits = limitsFor(options.memory);
+    limits.pose = {options.animation, options.time};
+    limits.variant = options.variant;
+    limits.up = options.up;
+    limits.readFile = options.readFile;
+    limits.decode = options.decode;
+    return limits;
+}
+
+// What loadScene does besides, for a scene that was read without it.
+Status complete(AnimatedGltf& model, const PictureOptions& options, Scene& scene)
+{
+    if (!options.animation.empty()) {
+        auto points = model.reach(options.animation);
+        if (!points)
+            return points.error();
+        scene.reach = std::move(*points);
+    }
+    if (options.up == Up::z)
+        turnZUp(scene);
+    return Done{};
+}
+
+Result<Scene> checkedScene(Result<Scene> scene)
+{
+    if (scene)
+        if (const Status ok = checkTrianglesDrawn(*scene); !ok) // before anything is said of the rest
+            return ok.error();
+    return scene;
+}
+
+Result<Scene> sceneOf(Result<MovingModel> model)
+{
+    if (!model)
+        return model.error();
+    return std::move(model->scene);
 }
 
 } // namespace
@@ -76,64 +125,6 @@ Result<View> viewOf(const PictureOptions& options, const Scene& scene)
 
 bool meters(const PictureOptions& options) { return !options.exposure && options.use == PictureUse::shown; }
 
-namespace {
-
-Status checkModelOptions(const PictureOptions& options)
-{
-    const bool none = options.model.empty();
-    if (!none && !options.shape.empty())
-        return usageError("--shape: expected no model with it; found " + options.model);
-    if (!options.variant.empty() && none)
-        return usageError("--variant: expected a model; found the built-in scene");
-    if (options.up != Up::y && none)
-        return usageError("--up: expected a model; found the built-in scene");
-    if (options.animation.empty() ? options.time > 0 : none)
-        return usageError(options.animation.empty() ? "--time: expected --animation with it; found none"
-                                                    : "--animation: expected a model; found the built-in scene");
-    return Done{};
-}
-
-LoadLimits limitsOf(const PictureOptions& options)
-{
-    LoadLimits limits = limitsFor(options.memory);
-    limits.pose = {options.animation, options.time};
-    limits.variant = options.variant;
-    limits.up = options.up;
-    limits.readFile = options.readFile;
-    limits.decode = options.decode;
-    return limits;
-}
-
-Status addReach(AnimatedGltf& model, const PictureOptions& options, Scene& scene)
-{
-    if (options.animation.empty())
-        return Done{};
-    auto points = model.reach(options.animation);
-    if (!points)
-        return points.error();
-    scene.reach = std::move(*points);
-    return Done{};
-}
-
-// What loadScene does besides, for a scene that was read without it.
-Status complete(AnimatedGltf& model, const PictureOptions& options, Scene& scene)
-{
-    Status moved = addReach(model, options, scene);
-    if (moved && options.up == Up::z)
-        turnZUp(scene);
-    return moved;
-}
-
-Result<Scene> checkedScene(Result<Scene> scene)
-{
-    if (scene)
-        if (const Status ok = checkTrianglesDrawn(*scene); !ok) // before anything is said of the rest
-            return ok.error();
-    return scene;
-}
-
-} // namespace
-
 Result<Scene> openModel(const PictureOptions& options)
 {
     if (const Status usage = checkModelOptions(options); !usage)
@@ -145,15 +136,13 @@ Result<Scene> openModel(const PictureOptions& options)
 
 Result<MovingModel> openMovingModel(const PictureOptions& options)
 {
-    MovingModel model;
     const std::string ending = lowerExtension(options.model);
     const bool gltf = options.readFile || ending == ".gltf" || ending == ".glb";
     if (!gltf || !checkModelOptions(options)) {
         auto scene = openModel(options);
         if (!scene)
             return scene.error();
-        model.scene = std::move(*scene);
-        return model;
+        return MovingModel{std::move(*scene), nullptr};
     }
     const LoadLimits limits = limitsOf(options);
     auto opened = AnimatedGltf::open(options.model, limits);
@@ -162,14 +151,13 @@ Result<MovingModel> openMovingModel(const PictureOptions& options)
     auto scene = checkedScene((*opened)->at(limits.pose));
     if (!scene)
         return scene.error();
-    model.scene = std::move(*scene);
-    if (Status whole = complete(**opened, options, model.scene); !whole)
+    if (Status whole = complete(**opened, options, *scene); !whole)
         return whole.error();
     if (const auto refused = refusal())
         return *refused;
-    if (!(*opened)->animations().empty())
-        model.animated = std::move(*opened);
-    return model;
+    if ((*opened)->animations().empty())
+        opened->reset();
+    return MovingModel{std::move(*scene), std::move(*opened)};
 }
 
 Result<Scene> poseModel(AnimatedGltf& model, const PictureOptions& options, const std::vector<Image>& images)
@@ -205,17 +193,6 @@ Result<std::vector<Frame>> prepareScene(const PictureOptions& options, const std
         deriveVertexFrames(scene, frame, options.tangents);
     return frames;
 }
-
-namespace {
-
-Result<Scene> sceneOf(Result<MovingModel> model)
-{
-    if (!model)
-        return model.error();
-    return std::move(model->scene);
-}
-
-} // namespace
 
 Result<Picture> openPicture(const PictureOptions& options, int threads, std::initializer_list<FrameChoice> frames,
                             const View* like)

@@ -9,14 +9,12 @@
 #include "cotan/maps.hpp"
 #include "image/component_types.hpp"
 #include "maps/texels.hpp"
-#include "scene/normal_format.hpp"
-#include "scene/put_picture.hpp"
+#include "scene/normal_maps.hpp"
+#include "scene/texture_sample.hpp"
 
 namespace cotan {
 
 namespace {
-
-const OwnMaps kDefaults;
 
 // Whether a mesh with one of the chosen materials has the uv set that the picture is read with.
 bool anyMeshShows(const Scene& scene, Texture Material::*slot, int material)
@@ -93,8 +91,8 @@ Status applyOwnMaps(const OwnMaps& maps, int memory, Scene& scene)
 {
     const bool any =
         !(maps.normal.empty() && maps.baseColor.empty() && maps.metallicRoughness.empty() && maps.occlusion.empty());
-    const bool otherwise = maps.normal.empty() && maps.convention != kDefaults.convention;
-    if (!any && !otherwise && maps.material != kDefaults.material)
+    const bool otherwise = maps.normal.empty() && !maps.convention.empty();
+    if (!any && !otherwise && maps.material != -1)
         return usageError("--material: expected --normal-map FILE or another map with it; found none");
     if ((any || otherwise) && maps.material >= int(scene.materials.size()))
         return usageError(
@@ -105,23 +103,24 @@ Status applyOwnMaps(const OwnMaps& maps, int memory, Scene& scene)
     if (!maps.normal.empty())
         if (Status applied = applyNormalMap(maps, memory, scene); !applied)
             return applied;
-    const auto put = [&](const std::string& file, Texture Material::*slot, const auto& change) -> Status {
+    struct OwnMap {
+        const std::string& file;
+        Texture Material::*slot;
+        void (*change)(Material&);
+    };
+    const OwnMap others[] = {
+        {maps.baseColor, &Material::baseColorMap, [](Material& m) { m.baseColor = glm::vec4(1); }},
+        {maps.metallicRoughness, &Material::metallicRoughnessMap, [](Material& m) { m.metallic = m.roughness = 1; }},
+        {maps.occlusion, &Material::occlusionMap, [](Material& m) { m.occlusionStrength = 1; }}};
+    for (const auto& [file, slot, change] : others) {
         if (file.empty())
-            return Done{};
+            continue;
         auto image = readFor(maps, file, slot, memory, scene);
         if (!image)
             return image.error();
         putPicture(scene, std::move(*image), slot, maps.material, change);
-        return Done{};
-    };
-    if (Status done = put(maps.baseColor, &Material::baseColorMap, [](Material& m) { m.baseColor = glm::vec4(1); });
-        !done)
-        return done;
-    if (Status done = put(maps.metallicRoughness, &Material::metallicRoughnessMap,
-                          [](Material& m) { m.metallic = m.roughness = 1; });
-        !done)
-        return done;
-    return put(maps.occlusion, &Material::occlusionMap, [](Material& m) { m.occlusionStrength = 1; });
+    }
+    return Done{};
 }
 
 } // namespace cotan

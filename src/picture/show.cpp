@@ -1,6 +1,5 @@
 // What of a model a picture shows: light, a vector, an inspection, an error.
-#include "bake/report_words.hpp"
-#include "cotan/inspect.hpp"
+#include "core/named_values.hpp"
 #include "cotan/picture.hpp"
 #include "inspect/angles.hpp"
 
@@ -8,33 +7,24 @@ namespace cotan {
 
 namespace {
 
-const std::vector<std::pair<std::string, Output>> kShows = {
-    {"shaded", Output::shaded},       {"normal", Output::normal}, {"tangent", Output::tangent},
-    {"bitangent", Output::bitangent}, {"uv", Output::uv},         {"depth", Output::depth},
-    {"error", Output::normal},
-};
+constexpr Named<Output> kShows[] = {{"shaded", Output::shaded},   {"normal", Output::normal},
+                                    {"tangent", Output::tangent}, {"bitangent", Output::bitangent},
+                                    {"uv", Output::uv},           {"depth", Output::depth},
+                                    {"error", Output::normal}};
 
 } // namespace
 
 const std::vector<std::string>& showNames()
 {
     static const std::vector<std::string> names = [] {
-        std::vector<std::string> all;
-        for (const auto& [name, output] : kShows)
-            all.push_back(name);
+        std::vector<std::string> all = wordsOf(kShows);
         all.insert(all.end(), inspectionNames().begin(), inspectionNames().end());
         return all;
     }();
     return names;
 }
 
-Output outputOf(const std::string& show)
-{
-    for (const auto& [name, output] : kShows)
-        if (name == show)
-            return output;
-    return Output::shaded;
-}
+Output outputOf(const std::string& show) { return valueOf(kShows, show).value_or(Output::shaded); }
 
 Result<Image> drawShow(Renderer& renderer, const Scene& scene, View view, const std::string& show, bool floats,
                        const std::function<void(const AngleStatistics&)>& error)

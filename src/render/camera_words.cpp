@@ -5,12 +5,10 @@
 #include <cmath>
 #include <numbers>
 #include <string_view>
-#include <vector>
 
 #include <glm/geometric.hpp>
 
 #include "core/parse_number.hpp"
-#include "cotan/view.hpp"
 #include "scene/geometry.hpp"
 
 namespace cotan {

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <vector>
 
 #include "scene/picture_text.hpp"
 #include "scene/sample_places.hpp"

@@ -2,8 +2,6 @@
 
 #include "core/not_built.hpp"
 #include "scene/scene_check.hpp"
-#ifdef COTAN_WITH_VULKAN
-#endif
 
 namespace cotan {
 
@@ -45,10 +43,7 @@ private:
 
 Result<std::unique_ptr<Renderer>> openVulkan(const std::string& device, bool validation)
 {
-    VulkanRendererOptions options;
-    options.validation = validation;
-    options.device = device == "auto" ? "" : device;
-    auto renderer = VulkanRenderer::create(options);
+    auto renderer = VulkanRenderer::create({device == "auto" ? "" : device, validation});
     if (!renderer)
         return renderer.error();
     return std::unique_ptr<Renderer>(std::make_unique<VulkanBackend>(std::move(*renderer)));
@@ -92,6 +87,20 @@ Result<std::unique_ptr<Renderer>> openRenderer(const std::string& device, int th
     auto renderer = std::make_unique<ReferenceBackend>(threads);
     renderer->note = std::move(note);
     return std::unique_ptr<Renderer>(std::move(renderer));
+}
+
+Result<Image> drawView(Scene scene, const View& view, const std::string& device, int threads)
+{
+    const auto renderer = openRenderer(device, threads);
+    if (!renderer)
+        return renderer.error();
+    if (const Status sound = checkScene(scene, "scene", {.finite = false, .pixels = false}); !sound)
+        return sound.error();
+    if (isFrame(int(view.frame))) // others are for the renderer to refuse
+        deriveVertexFrames(scene, view.frame, TangentOrigin::stored);
+    if (const Status loaded = (*renderer)->load(scene); !loaded)
+        return loaded.error();
+    return (*renderer)->draw(view);
 }
 
 } // namespace cotan

@@ -12,7 +12,7 @@
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 
-#include "scene/camera_axes.hpp"
+#include "scene/geometry.hpp"
 #include "scene/parts.hpp"
 
 namespace cotan {
@@ -32,25 +32,22 @@ constexpr double kLongEdge = 16;     // pixels: shorter ones are what many small
 constexpr double kFewPoints =
     30'000; // models of n times as many vertices, each in its own place, may take n times as long
 
-// A camera's axes and scales.
+// A camera's axes and scale.
 struct Seeing {
-    glm::dvec3 eye, forward, right, up;
-    double scale, width, height;
+    CameraAxes axes;
+    double scale;
     bool orthographic;
 
-    explicit Seeing(const View& view) : width(view.width), height(view.height)
+    explicit Seeing(const Camera& camera) : axes(cameraAxes(camera)), orthographic(camera.orthographic)
     {
-        const Camera& camera = view.camera;
-        const CameraAxes axes = cameraAxes(camera);
-        eye = axes.eye, forward = axes.forward, right = axes.right, up = axes.up;
-        orthographic = camera.orthographic;
         scale = orthographic ? 2 / double(camera.verticalExtent) : 1 / std::tan(double(camera.verticalFieldOfView) / 2);
     }
     // Beside the middle and above it, in halves of the picture's height times the distance; and the distance.
     glm::dvec3 operator()(const glm::dvec3& p) const
     {
-        const double before = glm::dot(p - eye, forward);
-        return {glm::dot(p - eye, right) * scale, glm::dot(p - eye, up) * scale,
+        const glm::dvec3 from = p - axes.eye;
+        const double before = glm::dot(from, axes.forward);
+        return {glm::dot(from, axes.right) * scale, glm::dot(from, axes.up) * scale,
                 orthographic ? (before > 0 ? 1 : 0) : before};
     }
 };
@@ -93,7 +90,7 @@ double weightOfLayer(const Material& material)
 
 Covered coveredBy(const Scene& scene, const View& view)
 {
-    const Seeing see(view);
+    const Seeing see(view.camera);
     Covered all;
     for (const Instance& instance : scene.instances) {
         const Mesh& mesh = scene.meshes[std::size_t(instance.mesh)];
@@ -114,12 +111,6 @@ Covered coveredBy(const Scene& scene, const View& view)
         }
     }
     return all;
-}
-
-bool isTooMuch(const Covered& covered, double picture)
-{
-    return covered.opaque > kMaxCovered * picture || covered.translucent > kMaxLayers * picture
-        || covered.edges > kMaxEdges * picture;
 }
 
 // The number of different positions among the vertices of all meshes. Not how many vertices there are: a loader may
@@ -163,17 +154,19 @@ Status settleCovered(Scene& scene, const View& view, std::size_t pictures)
         dropRepeated(scene);
         covered = coveredBy(scene, view);
     }
-    if (isTooMuch(covered, picture)) // only then: it takes time
+    const struct {
+        const char* what;
+        double pixels, most;
+    } limits[] = {{"its triangles cover the picture", covered.opaque, kMaxCovered},
+                  {"its translucent triangles cover the picture", covered.translucent, kMaxLayers},
+                  {"the long edges of its triangles fill the picture", covered.edges, kMaxEdges}};
+    const auto isOver = [&](const auto& limit) { return limit.pixels > limit.most * picture; };
+    if (std::ranges::any_of(limits, isOver)) // only then: it takes time
         picture *= std::max(1.0, double(distinctPositions(scene)) / kFewPoints);
-    const char* const further = "look from further away, or leave some out";
-    if (covered.opaque > kMaxCovered * picture)
-        return tooMuch(scene, "its triangles cover the picture", covered.opaque / picture, kMaxCovered, further);
-    if (covered.translucent > kMaxLayers * picture)
-        return tooMuch(scene, "its translucent triangles cover the picture", covered.translucent / picture, kMaxLayers,
-                       further);
-    if (covered.edges > kMaxEdges * picture)
-        return tooMuch(scene, "the long edges of its triangles fill the picture", covered.edges / picture, kMaxEdges,
-                       further);
+    for (const auto& limit : limits)
+        if (isOver(limit))
+            return tooMuch(scene, limit.what, limit.pixels / picture, limit.most,
+                           "look from further away, or leave some out");
     const double lit = double(view.lights.size()) * std::min(1.0, (covered.opaque + covered.translucent) / picture);
     if (view.output == Output::shaded && lit > kMaxLights)
         return tooMuch(scene, "its lights shine on the picture", lit, kMaxLights, "leave some out");

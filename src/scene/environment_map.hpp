@@ -1,4 +1,5 @@
-// An environment as a renderer reads it: the atlas that shaders/cotan/environment.h describes.
+// An environment as a renderer reads it, the atlas that shaders/cotan/environment.h describes, and the shadow on the
+// ground.
 #pragma once
 
 #include <algorithm>
@@ -73,6 +74,15 @@ inline glm::vec3 reflectedOfCoat(const EnvironmentMap& map, const f32::cotan_coa
 {
     return f32::cotan_reflect_coat_image(c, radianceAlong(map, f32::cotan_mirrored(c.n, v), c.roughness),
                                          albedoOf(map, c.n, v, c.roughness));
+}
+
+// The share of light at a place of the ground, x and z in the world; 1 beyond the map.
+inline float groundShareAt(const GroundMap& map, glm::vec2 place)
+{
+    const glm::vec2 uv = (place - map.low) / map.extent;
+    if (!(uv.x > 0 && uv.y > 0 && uv.x < 1 && uv.y < 1))
+        return 1;
+    return readBilinear(map.shares, uv * glm::vec2(float(map.shares.width), float(map.shares.height))).x;
 }
 
 } // namespace cotan

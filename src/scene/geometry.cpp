@@ -3,83 +3,29 @@
 #include <algorithm>
 #include <cmath>
 
-#include <glm/common.hpp>
-#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
 
-#include "cotan/vector.hpp"
-#include "scene/camera_axes.hpp"
-#include "scene/texture_uv.hpp"
+#include "scene/texture_sample.hpp"
 
 namespace cotan {
 
 namespace {
 
-constexpr float kVerticalFieldOfView = 0.785398f; // 45 degrees
-constexpr float kMargin = 0.94f;                  // of the half picture that the box may fill
-constexpr float kFlatness = 0.05f;                // depth over width or height below which a box is a picture
-const glm::vec3 kFrontRightAbove{0.40f, 0.35f, 1.0f};
-
-// The smallest distance along `back` from the centre at which every corner of the box is inside
-// the picture with the margin.
-float distanceToSee(glm::vec3 halfSize, glm::vec3 back, float tanX, float tanY)
+// Whether two linear maps differ by what all frames go along with, so that one surface stands for both.
+bool alikeForFrames(const glm::dmat3& a, const glm::dmat3& b)
 {
-    const CameraAxes axes = axesAlong(-glm::dvec3(back), glm::dvec3(0, 1, 0));
-    const glm::vec3 right(axes.right), up(axes.up);
-    float distance = 0;
-    for (int corner = 0; corner < 8; ++corner) {
-        const glm::vec3 p = halfSize * glm::vec3(corner & 1 ? 1 : -1, corner & 2 ? 1 : -1, corner & 4 ? 1 : -1);
-        const float beside = std::max(std::abs(glm::dot(p, right)) / tanX, std::abs(glm::dot(p, up)) / tanY);
-        distance = std::max(distance, glm::dot(p, back) + beside / kMargin);
-    }
-    return distance;
+    const glm::dmat3 ga = glm::transpose(a) * a, gb = glm::transpose(b) * b;
+    const double ta = ga[0][0] + ga[1][1] + ga[2][2], tb = gb[0][0] + gb[1][1] + gb[2][2];
+    for (int i = 0; i < 3; ++i)
+        for (int j = 0; j < 3; ++j)
+            if (!(std::abs(ga[i][j] * tb - gb[i][j] * ta) <= 1e-5 * ta * tb))
+                return false;
+    return true;
 }
+
+glm::vec3 turned(const glm::vec3& v) { return {v.x, v.z, -v.y}; }
 
 } // namespace
-
-Camera fitCamera(const Bounds& box, int width, int height)
-{
-    Camera camera;
-    camera.name = "fit";
-    camera.verticalFieldOfView = kVerticalFieldOfView;
-    if (box.empty() || !isFinite(box.low) || !isFinite(box.high))
-        return camera;
-
-    // Halved before they are subtracted, so that the largest floats do not overflow.
-    const glm::vec3 centre = box.low * 0.5f + box.high * 0.5f;
-    const glm::vec3 halfSize = box.high * 0.5f - box.low * 0.5f;
-    const bool flat = halfSize.z < kFlatness * std::max(halfSize.x, halfSize.y);
-    const glm::vec3 back = flat ? glm::vec3(0, 0, 1) : glm::normalize(kFrontRightAbove);
-
-    const float aspect = width > 0 && height > 0 ? float(width) / float(height) : 1.0f;
-    const float tanY = std::tan(kVerticalFieldOfView / 2);
-    float distance = distanceToSee(halfSize, back, tanY * aspect, tanY);
-    if (!(distance > 0)) { // a single point: any distance that rounding does not swallow shows it
-        const glm::vec3 size = glm::abs(centre);
-        distance = std::max(1.0f, std::max({size.x, size.y, size.z}) * 1e-3f);
-    }
-    const glm::vec3 eye = centre + back * distance;
-    if (!isFinite(eye)) // a box of nearly the largest floats
-        return camera;
-    camera.target = centre;
-    camera.eye = eye;
-    return camera;
-}
-
-Camera turnedAbout(Camera camera, double angle)
-{
-    const glm::vec3 d = camera.eye - camera.target;
-    const float c = float(std::cos(angle)), s = float(std::sin(angle));
-    camera.eye = camera.target + glm::vec3(c * d.x + s * d.z, d.y, c * d.z - s * d.x);
-    return camera;
-}
-
-std::vector<Light> defaultLights()
-{
-    Light key;
-    key.kind = LightKind::directional;
-    key.direction = glm::normalize(glm::vec3(0.5f, -0.9f, -0.75f));
-    return {key};
-}
 
 Status checkVertexAttributes(const Scene& scene, Frame frame)
 {
@@ -106,13 +52,44 @@ Status checkVertexAttributes(const Scene& scene, Frame frame)
 
 bool drawsNormalMaps(const Scene& scene)
 {
-    return std::any_of(scene.instances.begin(), scene.instances.end(), [&](const Instance& i) {
+    return std::ranges::any_of(scene.instances, [&](const Instance& i) {
         const Mesh* mesh = meshPlacedBy(scene, i);
         if (!mesh || mesh->triangleCount() == 0)
             return false;
         const Texture& map = scene.materials[std::size_t(mesh->material)].normalMap;
         return map.present() && !mesh->texcoords[map.texcoord == 1 ? 1 : 0].empty();
     });
+}
+
+void addPlacing(std::vector<glm::dmat3>& known, const glm::dmat3& linear)
+{
+    if (std::ranges::none_of(known, [&](const glm::dmat3& k) { return alikeForFrames(k, linear); }))
+        known.push_back(linear);
+}
+
+void placeUnshown(std::vector<std::vector<glm::dmat3>>& placings)
+{
+    for (auto& known : placings)
+        if (known.empty())
+            known.push_back(glm::dmat3(1));
+}
+
+void turnZUp(Scene& scene)
+{
+    const glm::mat4 kTurn(1, 0, 0, 0, 0, 0, -1, 0, 0, 1, 0, 0, 0, 0, 0, 1);
+    for (Instance& instance : scene.instances)
+        instance.toWorld = kTurn * instance.toWorld;
+    for (Light& light : scene.lights) {
+        light.position = turned(light.position);
+        light.direction = turned(light.direction);
+    }
+    for (Camera& camera : scene.cameras) {
+        camera.eye = turned(camera.eye);
+        camera.target = turned(camera.target);
+        camera.up = turned(camera.up);
+    }
+    for (glm::vec3& point : scene.reach)
+        point = turned(point);
 }
 
 } // namespace cotan

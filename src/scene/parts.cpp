@@ -1,7 +1,7 @@
 #include "scene/parts.hpp"
 
 #include <algorithm>
-#include <functional>
+#include <bit>
 #include <map>
 #include <string_view>
 #include <tuple>
@@ -9,12 +9,9 @@
 #include <unordered_set>
 #include <utility>
 
-#include <glm/geometric.hpp>
-#include <glm/matrix.hpp>
-
 #include "cotan/covector.hpp"
 #include "cotan/vector.hpp"
-#include "scene/repeated.hpp"
+#include "scene/geometry.hpp"
 
 namespace cotan {
 
@@ -22,6 +19,12 @@ namespace {
 
 constexpr std::size_t kSmall = 256;         // triangles of a mesh that is put together with others
 constexpr std::size_t kMaxJoined = 4 << 20; // triangles
+
+bool isOpaque(const Scene& scene, const Mesh& mesh)
+{
+    const Material& m = scene.materials[std::size_t(mesh.material)];
+    return m.alphaMode == AlphaMode::opaque && !m.translucent();
+}
 
 // ---- parts ----------------------------------------------------------------------------------
 
@@ -55,11 +58,7 @@ void append(Mesh& whole, const Mesh& part, const glm::mat4& toWorld)
 }
 
 // All that says how a mesh looks, but for its material.
-auto arraysOf(const Mesh& m)
-{
-    return std::tie(m.positions, m.indices, m.normals, m.tangents, m.texcoords[0], m.texcoords[1], m.colors,
-                    m.cotangentsU, m.cotangentsV);
-}
+auto arraysOf(const Mesh& m) { return std::tuple_cat(std::tie(m.indices), attributesOf(m)); }
 
 template<class T> std::size_t hashOf(const std::vector<T>& array)
 {
@@ -120,8 +119,7 @@ void joinSmall(Scene& scene)
             kept.push_back(std::move(instance));
             continue;
         }
-        if (const Material& m = scene.materials[std::size_t(mesh.material)]; m.alphaMode == AlphaMode::opaque
-            && !m.translucent() && !placed.insert({instance.toWorld, first[std::size_t(instance.mesh)]}).second)
+        if (isOpaque(scene, mesh) && !placed.insert({instance.toWorld, first[std::size_t(instance.mesh)]}).second)
             continue;
         triangles += count;
         Mesh& whole = joined[keyOf(mesh)];
@@ -148,6 +146,55 @@ void joinSmall(Scene& scene)
 }
 
 // ---- triangles ------------------------------------------------------------------------------
+
+constexpr std::size_t kAsked = 4096; // triangles of the sample
+constexpr std::size_t kMany = 40;    // of these that repeat others of them
+
+std::size_t hashOf(const CornersOfTriangle& triangle)
+{
+    std::uint64_t hash = (std::uint64_t(triangle.key) + 1) * 0x9e3779b97f4a7c15u;
+    for (const glm::vec3& p : triangle.at)
+        for (const float c : {p.x, p.y, p.z}) {
+            hash = (hash ^ std::bit_cast<std::uint32_t>(c + 0.0f)) * 0xff51afd7ed558ccdu; // -0 is 0
+            hash ^= hash >> 32;
+        }
+    return std::size_t(hash);
+}
+
+// The triangles that were seen, by their hash; at most `most`.
+class KnownTriangles {
+public:
+    explicit KnownTriangles(std::size_t most) : table_(std::bit_ceil(2 * most + 1), 0) {}
+
+    // How often it was seen before, at most 2.
+    std::uint8_t see(const CornersOfTriangle& triangle)
+    {
+        const std::size_t last = table_.size() - 1;
+        std::size_t at = hashOf(triangle) & last;
+        for (; table_[at] != 0; at = (at + 1) & last)
+            if (const CornersOfTriangle& k = known_[table_[at] - 1]; k.key == triangle.key && k.at == triangle.at)
+                return std::exchange(times_[table_[at] - 1], std::uint8_t(2));
+        known_.push_back(triangle);
+        times_.push_back(1);
+        table_[at] = std::uint32_t(known_.size());
+        return 0;
+    }
+
+private:
+    std::vector<CornersOfTriangle> known_;
+    std::vector<std::uint8_t> times_;  // how often each was seen, at most 2
+    std::vector<std::uint32_t> table_; // numbers of known_ from 1 on; 0 where none is
+};
+
+bool manyRepeat(std::size_t count, const std::function<CornersOfTriangle(std::size_t)>& triangle)
+{
+    const std::size_t asked = std::min(count, kAsked);
+    KnownTriangles known(asked);
+    std::size_t repeated = 0;
+    for (std::size_t k = 0; k < asked; ++k)
+        repeated += known.see(triangle(std::size_t(double(k) * double(count) / double(asked)))) > 0 ? 1 : 0;
+    return repeated >= kMany;
+}
 
 // The corners of a triangle from the least on, in their order round.
 CornersOfTriangle cornersOf(const Mesh& mesh, std::size_t first)
@@ -185,9 +232,20 @@ void joinParts(Scene& scene, std::size_t maxParts)
 void dropRepeated(Scene& scene)
 {
     for (Mesh& mesh : scene.meshes)
-        if (const Material& m = scene.materials[std::size_t(mesh.material)];
-            m.alphaMode == AlphaMode::opaque && !m.translucent())
+        if (isOpaque(scene, mesh))
             dropRepeated(mesh);
+}
+
+std::vector<std::uint8_t> repeatedTriangles(std::size_t count,
+                                            const std::function<CornersOfTriangle(std::size_t)>& triangle)
+{
+    if (!manyRepeat(count, triangle))
+        return {};
+    KnownTriangles known(count);
+    std::vector<std::uint8_t> repeated(count);
+    for (std::size_t i = 0; i < count; ++i)
+        repeated[i] = known.see(triangle(i));
+    return repeated;
 }
 
 } // namespace cotan

@@ -1,5 +1,13 @@
-// Scenes of very many small parts, and of triangles that lie on one another, made cheaper to draw.
+// Scenes of very many small parts, and of triangles that lie exactly on one another, made cheaper to draw.
 #pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+#include <glm/vec3.hpp>
 
 #include "cotan/result.hpp"
 #include "cotan/scene.hpp"
@@ -26,5 +34,18 @@ double pixelsCovered(const Scene& scene, const View& view);
 // translucent ones 16 times; the edges of long triangles fill them twice, in a scene of few places; or 200 lights
 // shine on all of them.
 Status settleCovered(Scene& scene, const View& view, std::size_t pictures = 1);
+
+// ---- triangles that lie on others ------------------------------------------------------------
+
+struct CornersOfTriangle {
+    std::array<glm::vec3, 3> at{};
+    std::int64_t key = 0; // what else has to be equal
+};
+
+// How many earlier ones have the corners of each of so many triangles, in the same order: 0, 1, or 2 for more. Empty
+// where few repeat, by a sample of them: then nobody waits for an answer about all. Whatever looks at all triangles of
+// a place takes a thousand times as long where a thousand lie on one another.
+std::vector<std::uint8_t> repeatedTriangles(std::size_t count,
+                                            const std::function<CornersOfTriangle(std::size_t)>& triangle);
 
 } // namespace cotan

@@ -4,10 +4,15 @@
 #include <cmath>
 #include <optional>
 #include <span>
+#include <string>
 #include <string_view>
 #include <type_traits>
 
+#include <glm/geometric.hpp>
+
 #include "cotan/portable.hpp"
+#include "cotan/vector.hpp"
+#include "cotan/view.hpp"
 
 namespace cotan {
 
@@ -44,26 +49,24 @@ public:
 
     Problem run() const
     {
-        Problem problem = first(scene_.images, "image", [&](const Image& i) { return checkImage(i); });
-        if (!problem)
-            problem = first(scene_.materials, "material", [&](const Material& m) { return checkMaterial(m); });
-        if (!problem)
-            problem = first(scene_.meshes, "mesh", [&](const Mesh& m) { return checkMesh(m); });
-        if (!problem)
-            problem = first(scene_.instances, "instance", [&](const Instance& i) { return checkInstance(i); });
-        if (!problem)
-            problem = first(scene_.lights, "light", [&](const Light& l) { return checkLight(l); });
-        if (!problem)
-            problem = first(scene_.cameras, "camera", [&](const Camera& c) { return checkCamera(c); });
-        return problem;
+        for (Problem problem : {first(scene_.images, "image", &Checker::checkImage),
+                                first(scene_.materials, "material", &Checker::checkMaterial),
+                                first(scene_.meshes, "mesh", &Checker::checkMesh),
+                                first(scene_.instances, "instance", &Checker::checkInstance),
+                                first(scene_.lights, "light", &Checker::checkLight),
+                                first(scene_.cameras, "camera", &Checker::checkCamera)})
+            if (problem)
+                return problem;
+        return std::nullopt;
     }
 
 private:
     // "mesh 3: ..." for the first of the list with a problem.
-    template<class T, class F> static Problem first(const std::vector<T>& list, std::string_view what, F check)
+    template<class T>
+    Problem first(const std::vector<T>& list, std::string_view what, Problem (Checker::*check)(const T&) const) const
     {
         for (std::size_t i = 0; i < list.size(); ++i)
-            if (const Problem problem = check(list[i]))
+            if (const Problem problem = (this->*check)(list[i]))
                 return joined(what, " ", i, ": ", *problem);
         return std::nullopt;
     }
@@ -193,12 +196,58 @@ private:
     const SceneRules& rules_;
 };
 
+// ---- views -----------------------------------------------------------------------------------
+
+constexpr float kHalfTurn = 3.14159274f; // radians
+
+Problem cameraProblem(const Camera& c)
+{
+    if (!isFinite(c.eye) || !isFinite(c.target) || !isFinite(c.up))
+        return "view.camera: expected finite numbers";
+    const glm::dvec3 along = glm::dvec3(c.target) - glm::dvec3(c.eye), up(c.up);
+    if (along == glm::dvec3(0))
+        return "view.camera: the eye and the target are the same point";
+    if (glm::cross(along, up) == glm::dvec3(0))
+        return "view.camera: expected a direction up across the line of sight; found one along it, or zero";
+    const float lens = c.orthographic ? c.verticalExtent : c.verticalFieldOfView;
+    if (!(lens > 0) || !std::isfinite(lens) || (!c.orthographic && lens >= kHalfTurn))
+        return std::string("view.camera: expected a ")
+            + (c.orthographic ? "verticalExtent over 0; found " : "verticalFieldOfView over 0 and below pi; found ")
+            + std::to_string(lens);
+    return std::nullopt;
+}
+
+Problem numberProblem(const View& view)
+{
+    if (view.width < 1 || view.height < 1)
+        return "view: expected a width and a height from 1 on; found " + std::to_string(view.width) + "x"
+            + std::to_string(view.height);
+    if (!isFrame(int(view.frame)))
+        return "view.frame: expected 0 to " + std::to_string(kFrameCount - 1) + "; found "
+            + std::to_string(int(view.frame));
+    if (view.samples != 1 && view.samples != 4 && view.samples != 16)
+        return "view.samples: expected 1, 4 or 16; found " + std::to_string(view.samples);
+    if (!std::isfinite(view.exposure))
+        return "view.exposure: expected a finite number; found " + std::to_string(view.exposure);
+    if (!(view.shadowSoftness >= 0) || !std::isfinite(view.shadowSoftness))
+        return "view.shadowSoftness: expected a number from 0 on; found " + std::to_string(view.shadowSoftness);
+    return std::nullopt;
+}
+
 } // namespace
 
 Status checkScene(const Scene& scene, const std::string& name, const SceneRules& rules)
 {
     if (const Problem problem = Checker(scene, rules).run())
         return about(name, inputError(*problem));
+    return Done{};
+}
+
+Status checkView(const View& view)
+{
+    for (const Problem& problem : {numberProblem(view), cameraProblem(view.camera)})
+        if (problem)
+            return usageError(*problem);
     return Done{};
 }
 

@@ -1,4 +1,5 @@
-// Whether a scene holds together: for scenes that were filled by hand, or came from somewhere that is not trusted.
+// Whether a scene holds together, for scenes that were filled by hand or came from somewhere that is not trusted, and
+// whether a view can be drawn.
 #pragma once
 
 #include <string>
@@ -7,6 +8,8 @@
 #include "cotan/scene.hpp"
 
 namespace cotan {
+
+struct View;
 
 // What may be asked for beyond sizes and indices.
 struct SceneRules {
@@ -20,5 +23,11 @@ struct SceneRules {
 // painters ask for as much as they need by themselves and return the same error.
 // name: begins the message. Errors: ErrorKind::input, one line: what, where, expected, found.
 Status checkScene(const Scene& scene, const std::string& name = "scene", const SceneRules& rules = {});
+
+// Checks what both renderers ask of a view: a size from 1 pixel a side; a frame that there is; 1, 4 or 16 samples;
+// finite numbers; a camera whose eye is not its target, whose up is not along that line, and whose lens opens by more
+// than nothing and less than half a turn. Both renderers call it. Errors: ErrorKind::usage, one line that begins with
+// the field: "view.camera: ".
+Status checkView(const View& view);
 
 } // namespace cotan

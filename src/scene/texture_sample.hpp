@@ -1,17 +1,48 @@
-// How a texture is read: which texels a coordinate meets, and what they give together.
+// How a texture is read: with which uv, which texels it meets, what they give together, and how they store a normal.
 #pragma once
 
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <vector>
 
 #include <glm/common.hpp>
 #include <glm/vec2.hpp>
 #include <glm/vec4.hpp>
 
+#include "cotan/convention.hpp"
 #include "cotan/scene.hpp"
 
 namespace cotan {
+
+// ---- uv --------------------------------------------------------------------------------------
+
+// uv moved by the rows of an affine map, reckoned in the type of the rows.
+template<class T> glm::vec2 moveUv(const glm::vec<3, T>& uRow, const glm::vec<3, T>& vRow, const glm::vec2& uv)
+{
+    const glm::vec<2, T> p(uv);
+    return glm::vec2(uRow.x * p.x + uRow.y * p.y + uRow.z, vRow.x * p.x + vRow.y * p.y + vRow.z);
+}
+
+// uv of the mesh, moved as the texture says (KHR_texture_transform). A texture without an image moves nothing.
+inline glm::vec2 textureUv(const Texture& texture, glm::vec2 uv)
+{
+    return texture.present() ? moveUv(texture.uRow, texture.vRow, uv) : uv;
+}
+
+// The uv set that a texture asks for; 0 for one without an image.
+inline std::size_t uvSetOf(const Texture& texture) { return texture.present() && texture.texcoord == 1 ? 1 : 0; }
+
+// The uv that a mesh's texture is read with, a vertex each. Empty if the mesh has none.
+inline std::vector<glm::vec2> textureUv(const Texture& texture, const Mesh& mesh)
+{
+    std::vector<glm::vec2> uv = mesh.texcoords[uvSetOf(texture)];
+    for (glm::vec2& c : uv)
+        c = textureUv(texture, c);
+    return uv;
+}
+
+// ---- texels ----------------------------------------------------------------------------------
 
 // Coordinates further out have no fraction left in float, and as numbers of texels would overflow.
 inline constexpr float kFarthestUv = 1e8f;
@@ -65,6 +96,22 @@ template<class Texel> glm::vec4 bilinearTexel(int width, int height, const Sampl
     const glm::vec4 top = glm::mix(texel(x0, y0), texel(x1, y0), kx);
     const glm::vec4 bottom = glm::mix(texel(x0, y1), texel(x1, y1), kx);
     return glm::mix(top, bottom, ky);
+}
+
+// ---- normals ---------------------------------------------------------------------------------
+
+// Format: f32:: or f64::cotan_normal_format. type: of the components that are read or written; zero lies at
+// the middle of its range. strength: factor on the slopes.
+template<class Format> Format toFormat(const Convention& c, PixelType type, double strength = 1)
+{
+    return toFormat<Format>(c, strength, bitsPerComponent(type));
+}
+
+// The convention of a map that is used in a scene, where v runs down: green up and down are those of the picture.
+constexpr Convention inScene(Convention c)
+{
+    c.v = VDirection::down;
+    return c;
 }
 
 } // namespace cotan

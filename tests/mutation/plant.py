@@ -96,6 +96,8 @@ def command_of(program):
         return ["/usr/bin/python3", HOME / "tests/output_bytes.py", BUILD / "bin/cotan", HOME / f"tests/output_bytes/{chosen}.txt", "--first"]
     if name == "option_effects":
         return ["/usr/bin/python3", HOME / "tests/option_effects_test.py", BUILD / "bin/cotan", chosen]
+    if name == "file_fields":
+        return ["/usr/bin/python3", HOME / "tests/file_fields_test.py", BUILD / "bin/cotan", chosen]
     if name == "two_renderers":
         return ["/usr/bin/python3", HOME / "tests/two_renderers_test.py", BUILD / "bin/cotan", HOME / "tests/output_bytes/pictures.txt"]
     if name == "json_fields":
@@ -110,7 +112,7 @@ def library():
     return next(iter(sorted(BUILD.glob("**/libcotan.so*"))), BUILD / "libcotan.so")
 
 
-SCRIPTS = {"python": {"cotan_c", "cotan"}, "c_api": {"cotan_c"}, "output_bytes": {"cotan", "cotan_lab"}, "option_effects": {"cotan", "cotan_lab"}, "two_renderers": {"cotan"}, "json_fields": {"cotan"},
+SCRIPTS = {"python": {"cotan_c", "cotan"}, "c_api": {"cotan_c"}, "output_bytes": {"cotan", "cotan_lab"}, "option_effects": {"cotan", "cotan_lab"}, "two_renderers": {"cotan"}, "file_fields": {"cotan"}, "json_fields": {"cotan"},
            "command_line": {"cotan"}}
 
 

@@ -136,8 +136,8 @@ const cases = {
     needsData();
     const place = path.join(data, 'models/SketchfabCat'), model = fs.readFileSync(path.join(place, 'scene.gltf')), files = {};
     for (const { uri } of [...JSON.parse(model).buffers, ...JSON.parse(model).images]) files[decodeURIComponent(uri)] = fs.readFileSync(path.join(place, decodeURIComponent(uri)));
-    const { report } = await cotan.convert(model, { files, mendGreen: true, mode: 'drop' });
-    assert.deepEqual([report.green_mended, report.mode], [undefined, 'drop']);
+    const { report } = await cotan.convert(model, { files, fixGreen: true, mode: 'drop' });
+    assert.deepEqual([report.green_fixed, report.mode], [undefined, 'drop']);
   },
 
   async modesOfConversionAreChosenAndRefused() {

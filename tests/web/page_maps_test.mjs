@@ -1,4 +1,4 @@
-// What the page says of normal maps, how it mends and draws them, its shader and its patch: in headless Chromium, as a visitor
+// What the page says of normal maps, how it fixes and draws them, its shader and its patch: in headless Chromium, as a visitor
 // would try it (page_visit.mjs says how this is called).
 import { readFileSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';

@@ -1,4 +1,4 @@
-// What the page says of models, how it draws, checks and mends them: in headless Chromium, as a visitor would try it
+// What the page says of models, how it draws, checks and fixes them: in headless Chromium, as a visitor would try it
 // (page_visit.mjs says how this is called).
 import { existsSync, readFileSync, readdirSync, statSync, writeFileSync } from 'node:fs';
 import { basename, join } from 'node:path';

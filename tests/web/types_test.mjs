@@ -21,7 +21,7 @@ function compiled(name, text) {
   } }));
   const { stdout, stderr, error } = spawnSync(process.execPath, [compiler, '--pretty', 'false'], { cwd: folder, encoding: 'utf8' });
   if (error || stderr) throw error ?? new Error(stderr);
-  // Those of other packages are not ours to mend; theirs are checked because ours have to be.
+  // Those of other packages are not ours to fix; theirs are checked because ours have to be.
   return stdout.split('\n').filter((line) => /error TS/.test(line) && !/^node_modules\/(?!cotan\/)|^\.\.\//.test(line));
 }
 const program = (name) => fs.readFileSync(path.join(here, 'types', name), 'utf8');

@@ -34,7 +34,7 @@ std::string centreText(const NormalStatistics& s)
 std::string fixCommand(const std::vector<Fault>& faults, const NormalStatistics& s, const std::filesystem::path& file)
 {
     return fmt::format("cotan map convert {} {} -o {}", quoted(file.string()), fixOptions(faults, s),
-                       quoted(file.stem().string() + "-mended.png"));
+                       quoted(file.stem().string() + "-fixed.png"));
 }
 
 Json faultsJson(const std::vector<Fault>& faults)
@@ -91,7 +91,7 @@ std::vector<std::string> linesOf(const SurveyedFile& image, const std::string& f
     for (const Fault& fault : faults)
         line("wrong: " + fault.text);
     if (!faults.empty())
-        line("to mend it: " + fixCommand(faults, s, file));
+        line("to fix it: " + fixCommand(faults, s, file));
     if (s.content == Content::grey)
         return lines;
     line(fmt::format(
@@ -137,7 +137,7 @@ Json toJson(const SurveyedFile& image)
               {"tilt_by_10_degrees", s.tilt}};
     const std::vector<Fault> faults = faultsOf(s);
     j["faults"] = faultsJson(faults);
-    j["mend"] = faults.empty() ? Json(nullptr) : Json(fixOptions(faults, s));
+    j["fix"] = faults.empty() ? Json(nullptr) : Json(fixOptions(faults, s));
     if (!image.frame.empty())
         j["frame"] = image.frame;
     if (!measured(s)) // figures of nothing
@@ -156,7 +156,7 @@ std::vector<std::string> linesOf(const GreenOfFile& found, const std::string& fi
     for (const Fault& fault : faults)
         lines.push_back("wrong: " + fault.text);
     if (!faults.empty())
-        lines.push_back("to mend it: " + fixCommand(faults, v.statistics, file));
+        lines.push_back("to fix it: " + fixCommand(faults, v.statistics, file));
     if (v.sampled < 1)
         lines.push_back(fmt::format("judged by {} patches of 128 x 128 texels, spread evenly: {:.2g} % of the picture",
                                     found.patches, 100 * v.sampled));
@@ -177,7 +177,7 @@ Json toJson(const GreenOfFile& found)
     const std::vector<Fault> faults = faultsOf(v.statistics, &v);
     return {{"green", name(v.green)},
             {"faults", faultsJson(faults)},
-            {"mend", faults.empty() ? Json(nullptr) : Json(fixOptions(faults, v.statistics))},
+            {"fix", faults.empty() ? Json(nullptr) : Json(fixOptions(faults, v.statistics))},
             {"confidence", name(v.confidence)},
             {"exchanged", name(v.swapped)},
             {"reason", v.reason},

@@ -14,7 +14,7 @@ const same = (a, b) => a.length === b.length && a.every((byte, i) => byte === b[
 const kUnread = { width: 1, height: 1, bits: 8, data: Uint8Array.of(255, 255, 255, 255) };
 const kCommon = { files: {}, decode: decodePicture, progress: undefined };
 const kConvert = {
-  ...kCommon, mode: undefined, from: undefined, to: undefined, bits: 0, keepTangents: false, generateTangents: false, encode: encodePng, unsigned: 'biased', mendGreen: false,
+  ...kCommon, mode: undefined, from: undefined, to: undefined, bits: 0, keepTangents: false, generateTangents: false, encode: encodePng, unsigned: 'biased', fixGreen: false,
 };
 
 // The library's advice is for those who build it.
@@ -32,7 +32,7 @@ function modelOptions(given, known) {
   if (o.files === null || typeof o.files !== 'object') refuse('files', 'an object of bytes by URI');
   for (const name of ['decode', 'encode', 'progress'])
     if (o[name] !== undefined && typeof o[name] !== 'function') refuse(name, 'a function');
-  for (const name of ['keepTangents', 'generateTangents', 'mendGreen'])
+  for (const name of ['keepTangents', 'generateTangents', 'fixGreen'])
     if (o[name] !== undefined && typeof o[name] !== 'boolean') refuse(name, 'true or false');
   if (o.bits !== undefined && ![0, 8, 16].includes(o.bits)) refuse('bits', '0, 8 or 16');
   if (o.distance !== undefined && !Number.isFinite(o.distance)) refuse('distance', 'a number');
@@ -109,7 +109,7 @@ export function modelFunctions(library, host, turnGreen) {
   async function convert(given, more) {
     const model = bytesOf(given, 'model'), o = modelOptions(more, kConvert), mode = modeOf(more), parsed = parsedModel(model);
     if (!parsed) return madeAnew(model, o); // which says what is wrong
-    if (o.mendGreen) return mended(model, parsed, o, { ...more, mendGreen: undefined });
+    if (o.fixGreen) return withFixedGreen(model, parsed, o, { ...more, fixGreen: undefined });
     const before = sizeOf(model, parsed.json, o.files), anew = (to) => madeAnew(model, { ...o, to }).then((made) => inOldFormats(parsed, o.files, made));
     const plain = (keepTangents) => dropped(parsed, o.files, (bytes, more) => madeAnew(bytes, { ...o, ...more }), keepTangents);
     const found = mode === 'convert' ? await anew(o.to ?? 'cotangent') : mode === 'drop' ? await plain() : await asAdvised(model, o, before, anew, plain);
@@ -117,7 +117,7 @@ export function modelFunctions(library, host, turnGreen) {
   }
 
   // With the maps turned whose green points the other way than the model says, by the maps themselves; then as without this option.
-  async function mended(model, parsed, o, more) {
+  async function withFixedGreen(model, parsed, o, more) {
     const report = await lint(model, { files: o.files, decode: o.decode }), meant = reversedImages(report); // with their tangents those are right
     const wrong = report.maps.filter((map) => map.decided && !map.as_declared && !meant.includes(map.image));
     if (wrong.length === 0) return convert(model, more);
@@ -128,7 +128,7 @@ export function modelFunctions(library, host, turnGreen) {
       turned.set(image, lossy ? { bytes: lossy, mimeType: format.mimeType } : { bytes: bytesOf(await o.encode(right), 'options.encode'), mimeType: 'image/png' });
     }
     const made = await convert(withImages(inside, turned), { ...more, files: undefined }), { glb } = made;
-    return { glb, report: { ...made.report, bytes: { before: sizeOf(model, parsed.json, o.files), after: glb.length }, green_mended: wrong.map(({ name }) => name),
+    return { glb, report: { ...made.report, bytes: { before: sizeOf(model, parsed.json, o.files), after: glb.length }, green_fixed: wrong.map(({ name }) => name),
       notes: [...wrong.map(({ name }) => `${name}: its green pointed the other way than the model says, and is turned`), ...made.report.notes] } };
   }
 

@@ -200,8 +200,8 @@ export interface ConvertReport {
   mode: 'drop' | 'convert' | 'keep';
   /** Of the model with the files that it names. */
   bytes: { before: number; after: number };
-  /** Names of the maps whose green `mendGreen` has reversed. */
-  green_mended?: string[];
+  /** Names of the maps whose green `fixGreen` has reversed. */
+  green_fixed?: string[];
   tangents: { kept?: true; given_primitives?: number; dropped_primitives?: number; vertices?: number; bytes?: number; [more: string]: any };
   /** What the user should know, one line each; unread maps are among it. */
   notes: string[];
@@ -225,7 +225,7 @@ export function convert(model: Bytes, options?: ModelOptions & {
   keepTangents?: boolean;
   generateTangents?: boolean;
   /** First reverses green of maps in which it points the other way than the model says, by the map itself (`lint`). */
-  mendGreen?: boolean;
+  fixGreen?: boolean;
   /** How engines take the numbers of the maps: "biased" (2c - 1, as stock engines do; the default) or "exact". */
   unsigned?: 'biased' | 'exact';
   /** The PNG file of an image; default: encodePng. */

@@ -56,9 +56,9 @@ def check_low(low, settings):
         raise Refused(f"'{low.name}' is being edited: go back to Object Mode first")
     if settings.assign:
         if not low.material_slots and low.data.library is not None:
-            raise Refused(f"'{low.name}' has no material, and its mesh comes from a library file: {nodes.MEND}")
+            raise Refused(f"'{low.name}' has no material, and its mesh comes from a library file: {nodes.FIX}")
         if low.library is not None and any(slot.material is None for slot in low.material_slots):
-            raise Refused(f"'{low.name}' has an empty material slot and comes from a library file: {nodes.MEND}")
+            raise Refused(f"'{low.name}' has an empty material slot and comes from a library file: {nodes.FIX}")
         for slot in low.material_slots:
             nodes.writable(slot.material)
 

@@ -3,7 +3,7 @@
 from .refused import Refused
 
 
-MEND = "make it local first, or do not assign the map"
+FIX = "make it local first, or do not assign the map"
 
 
 def _principled(material):
@@ -37,7 +37,7 @@ def map_of(material):
 def writable(material):
     """Raises Refused where the material cannot be changed."""
     if material is not None and material.library is not None:
-        raise Refused(f"The material '{material.name}' comes from a library file: {MEND}")
+        raise Refused(f"The material '{material.name}' comes from a library file: {FIX}")
 
 
 def assign(material, image, uv_map):

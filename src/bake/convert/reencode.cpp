@@ -13,7 +13,6 @@
 #include "bake/surface/nearest_texels.hpp"
 #include "core/loops.hpp"
 #include "place_finder.hpp"
-#include "scene/normal_format.hpp"
 #include "scene/texture_sample.hpp"
 
 namespace cotan {

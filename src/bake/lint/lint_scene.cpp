@@ -14,8 +14,8 @@
 #include "bake/lint/texel.hpp"
 #include "lint_parts.hpp"
 #include "scene/bounds.hpp"
-#include "scene/meant_frame.hpp"
-#include "scene/placings.hpp"
+#include "scene/geometry.hpp"
+#include "scene/normal_maps.hpp"
 #include "scene/scene_check.hpp"
 
 namespace cotan {

@@ -6,7 +6,7 @@
 #include "bake/lint/texel.hpp"
 #include "bake/lint/value_summary.hpp"
 #include "lint_parts.hpp"
-#include "scene/normal_format.hpp"
+#include "scene/texture_sample.hpp"
 
 namespace cotan {
 

@@ -136,7 +136,7 @@ std::string turningOptions(const LintReport& report)
     return biased ? "--from directx,biased --to gltf,biased" : "--from directx --to gltf";
 }
 
-// What is wrong with the maps as files, and how each is mended; empty if nothing.
+// What is wrong with the maps as files, and how each is fixed; empty if nothing.
 std::string brokenMaps(const LintReport& report)
 {
     std::string text;
@@ -285,7 +285,7 @@ std::string advised(const LintReport& report, const Whole& steps)
     if (report.mapsConverted == 0 && report.dropsTangents)
         return fmt::format("Read the maps with the frame {} as they are; the command drops the tangents.", frame);
     if (report.mapsConverted == 0 && (!brokenMaps(report).empty() || !otherGreen(report).empty()))
-        return fmt::format("Mend the maps; then they can be read with the frame {}.", frame);
+        return fmt::format("Fix the maps; then they can be read with the frame {}.", frame);
     if (report.mapsConverted == 0)
         return fmt::format("Nothing has to be changed: read the maps with the frame {} as they are.", frame);
     if (report.mapsKept == 0)

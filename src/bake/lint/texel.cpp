@@ -2,7 +2,6 @@
 
 #include <cmath>
 
-#include "scene/normal_format.hpp"
 #include "scene/texture_sample.hpp"
 
 namespace cotan {

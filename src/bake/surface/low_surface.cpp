@@ -9,7 +9,7 @@
 
 #include "cotan/covector.hpp"
 #include "cotan/tangents.hpp"
-#include "scene/texture_uv.hpp"
+#include "scene/texture_sample.hpp"
 
 namespace cotan {
 

@@ -11,7 +11,7 @@
 #include "inspect/angles.hpp"
 #include "inspect/verify/verify_bake.hpp"
 #include "scene/geometry.hpp"
-#include "scene/put_picture.hpp"
+#include "scene/normal_maps.hpp"
 
 namespace cotan {
 

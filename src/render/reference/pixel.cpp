@@ -6,8 +6,6 @@
 #include <glm/geometric.hpp>
 
 #include "scene/environment_map.hpp"
-#include "scene/ground_map.hpp"
-#include "tangent_space.hpp"
 
 namespace cotan::reference {
 
@@ -34,21 +32,13 @@ glm::vec3 displayed(const View& view, glm::vec3 radiance)
     return view.linearOutput ? c : f32::cotan_tone_of(int(view.toneMapping), c);
 }
 
-glm::vec4 mapTexel(const SurfaceInputs& in, const MipChain* chain, const Texture& texture, const QuadPoints& quad,
-                   int lane)
-{
-    if (!chain)
-        return glm::vec4(1);
-    return sample(*chain, texture.sampler, uvOf(texture, quad, lane, in.view->derivatives), in.view->pointSampled);
-}
-
-f32::cotan_surface surfaceOf(const PixelInputs& all, const SurfaceInputs& in, glm::vec3 baseColor,
-                             const QuadPoints& quad, int lane, glm::vec3 n)
+f32::cotan_surface surfaceOf(const PixelInputs& all, const SurfaceInputs& in, glm::vec3 baseColor, int lane,
+                             glm::vec3 n)
 {
     const Material& m = *in.material;
-    glm::vec4 mr = mapTexel(in, in.maps->metallicRoughness, m.metallicRoughnessMap, quad, lane);
-    glm::vec4 occlusion = mapTexel(in, in.maps->occlusion, m.occlusionMap, quad, lane);
-    glm::vec4 emissive = mapTexel(in, in.maps->emissive, m.emissiveMap, quad, lane);
+    glm::vec4 mr = mapTexel(in, in.maps->metallicRoughness, m.metallicRoughnessMap, lane);
+    glm::vec4 occlusion = mapTexel(in, in.maps->occlusion, m.occlusionMap, lane);
+    glm::vec4 emissive = mapTexel(in, in.maps->emissive, m.emissiveMap, lane);
     glm::vec3 backwards = -glm::vec3(all.projection.forward);
     f32::cotan_surface s;
     s.base_color = baseColor;
@@ -57,20 +47,19 @@ f32::cotan_surface surfaceOf(const PixelInputs& all, const SurfaceInputs& in, gl
     s.occlusion = 1 + m.occlusionStrength * (occlusion.x - 1);
     s.emissive = m.emissive * glm::vec3(emissive);
     s.n = n;
-    s.v =
-        all.projection.orthographic ? backwards : f32::cotan_normalize_or(-quad.position[std::size_t(lane)], backwards);
+    s.v = all.projection.orthographic ? backwards
+                                      : f32::cotan_normalize_or(-in.points->position[std::size_t(lane)], backwards);
     return s;
 }
 
 // The direction that a highlight is stretched in and how much, from the factors and the map.
-void stretch(f32::cotan_gloss& gloss, const SurfaceInputs& in, const QuadPoints& quad, int lane,
-             const SurfaceNormal& normal)
+void stretch(f32::cotan_gloss& gloss, const SurfaceInputs& in, int lane, const SurfaceNormal& normal)
 {
     const Anisotropy& a = in.material->anisotropy;
     glm::vec2 direction(std::cos(a.rotation), -std::sin(a.rotation)); // along +u and +v
     gloss.anisotropy = a.strength;
     if (in.maps->anisotropy) {
-        const glm::vec4 texel = mapTexel(in, in.maps->anisotropy, a.map, quad, lane);
+        const glm::vec4 texel = mapTexel(in, in.maps->anisotropy, a.map, lane);
         const glm::vec2 turned = glm::vec2(texel.x, -texel.y) * 2.0f + glm::vec2(-1, 1);
         direction = {turned.x * direction.x - turned.y * direction.y, turned.x * direction.y + turned.y * direction.x};
         gloss.anisotropy *= texel.z;
@@ -81,35 +70,34 @@ void stretch(f32::cotan_gloss& gloss, const SurfaceInputs& in, const QuadPoints&
         gloss.anisotropy = 0;
 }
 
-Layers layersOf(const PixelInputs& all, const SurfaceInputs& in, const QuadPoints& quad, int lane,
-                const SurfaceNormal& normal)
+Layers layersOf(const PixelInputs& all, const SurfaceInputs& in, int lane, const SurfaceNormal& normal)
 {
     Layers layers;
     const Material& m = *in.material;
     if (all.view.shading == Shading::blinnPhong)
         return layers;
     if (m.glossy()) {
-        const glm::vec4 strength = mapTexel(in, in.maps->specular, m.specular.map, quad, lane);
-        const glm::vec4 color = mapTexel(in, in.maps->specularColor, m.specular.colorMap, quad, lane);
+        const glm::vec4 strength = mapTexel(in, in.maps->specular, m.specular.map, lane);
+        const glm::vec4 color = mapTexel(in, in.maps->specularColor, m.specular.colorMap, lane);
         layers.gloss = f32::cotan_gloss_of(m.specular.ior, f32::cotan_saturate(m.specular.strength * strength.w),
                                            m.specular.color * glm::vec3(color));
         layers.gloss->transmission = f32::cotan_saturate(
-            m.transmission.strength * mapTexel(in, in.maps->transmission, m.transmission.map, quad, lane).x);
+            m.transmission.strength * mapTexel(in, in.maps->transmission, m.transmission.map, lane).x);
         if (m.anisotropy.strength > 0)
-            stretch(*layers.gloss, in, quad, lane, normal);
+            stretch(*layers.gloss, in, lane, normal);
     }
     if (m.sheen.present()) {
-        const glm::vec4 color = mapTexel(in, in.maps->sheenColor, m.sheen.colorMap, quad, lane);
-        const glm::vec4 roughness = mapTexel(in, in.maps->sheenRoughness, m.sheen.roughnessMap, quad, lane);
+        const glm::vec4 color = mapTexel(in, in.maps->sheenColor, m.sheen.colorMap, lane);
+        const glm::vec4 roughness = mapTexel(in, in.maps->sheenRoughness, m.sheen.roughnessMap, lane);
         layers.sheen =
             f32::cotan_sheen{m.sheen.color * glm::vec3(color), f32::cotan_saturate(m.sheen.roughness * roughness.w)};
     }
     if (m.coat.strength > 0) {
         f32::cotan_coat coat;
-        coat.strength = f32::cotan_saturate(m.coat.strength * mapTexel(in, in.maps->coat, m.coat.map, quad, lane).x);
-        coat.roughness = f32::cotan_saturate(m.coat.roughness
-                                             * mapTexel(in, in.maps->coatRoughness, m.coat.roughnessMap, quad, lane).y);
-        const CoatNormal own = coatNormalOf(in, quad, lane, normal);
+        coat.strength = f32::cotan_saturate(m.coat.strength * mapTexel(in, in.maps->coat, m.coat.map, lane).x);
+        coat.roughness =
+            f32::cotan_saturate(m.coat.roughness * mapTexel(in, in.maps->coatRoughness, m.coat.roughnessMap, lane).y);
+        const CoatNormal own = coatNormalOf(in, lane, normal);
         coat.n = own.n;
         if (all.view.specularAntialiasing)
             coat.roughness = f32::cotan_roughness_of_spread(coat.roughness, own.spread);
@@ -124,35 +112,34 @@ struct Lit {
     glm::vec3 through{0};
 };
 
-Lit shadedColor(const PixelInputs& all, const SurfaceInputs& in, glm::vec3 baseColor, const QuadPoints& quad, int lane)
+Lit shadedColor(const PixelInputs& all, const SurfaceInputs& in, glm::vec3 baseColor, int lane)
 {
     if (in.material->unlit)
         return {baseColor, glm::vec3(0)};
-    SurfaceNormal normal = normalOf(in, quad, lane);
-    f32::cotan_surface surface = surfaceOf(all, in, baseColor, quad, lane, normal.finished);
+    SurfaceNormal normal = normalOf(in, lane);
+    f32::cotan_surface surface = surfaceOf(all, in, baseColor, lane, normal.finished);
     LitPoint point{
-        quad.position[std::size_t(lane)], in.triangle->front ? normal.interpolated : -normal.interpolated, {}};
+        in.points->position[std::size_t(lane)], in.triangle->front ? normal.interpolated : -normal.interpolated, {}};
     std::vector<LitTap> taps;
     if (all.view.specularAntialiasing) {
         if (normal.mapped)
-            taps = tapsOf(in, quad, lane, normal, surface.roughness);
+            taps = tapsOf(in, lane, normal, surface.roughness);
         point.taps = taps;
         surface.roughness = f32::cotan_roughness_of_spread(surface.roughness, normal.spread);
     }
-    const auto tangent =
-        tangentSpaceOf(in, normal, surface, quad.weights[std::size_t(lane)], all.projection.orthographic);
-    const Layers layers = layersOf(all, in, quad, lane, normal);
-    return {radianceOf(surface, layers, point, all.view, all.lights, all.shadow, tangent ? &*tangent : nullptr),
+    const auto tangent = tangentSpaceOf(in, lane, normal, surface, all.projection.orthographic);
+    const Layers layers = layersOf(all, in, lane, normal);
+    return {radianceOf(surface, layers, point, all.view, all.lights, all.shadow, tangent),
             transmittanceOf(surface, layers)};
 }
 
-glm::vec3 dataOutput(const PixelInputs& all, const SurfaceInputs& in, const QuadPoints& quad, int lane)
+glm::vec3 dataOutput(const PixelInputs& all, const SurfaceInputs& in, int lane)
 {
     if (all.view.output == Output::depth) {
-        glm::dvec3 p = quad.position[std::size_t(lane)];
+        glm::dvec3 p = in.points->position[std::size_t(lane)];
         return {float(glm::dot(p, all.projection.forward)), 0, 0};
     }
-    SurfaceNormal normal = normalOf(in, quad, lane);
+    SurfaceNormal normal = normalOf(in, lane);
     switch (all.view.output) {
     case Output::tangent: return normal.t;
     case Output::bitangent: return normal.b;
@@ -172,19 +159,19 @@ glm::vec3 backdropAlong(const View& view, glm::vec3 ray)
 
 } // namespace
 
-Fragment shade(const PixelInputs& all, const SurfaceInputs& in, const QuadPoints& quad, int lane)
+Fragment shade(const PixelInputs& all, const SurfaceInputs& in, int lane)
 {
     Fragment fragment;
-    const glm::vec4 base = baseColorOf(in, quad, lane);
+    const glm::vec4 base = baseColorOf(in, lane);
     const bool blend = in.material->alphaMode == AlphaMode::blend, shaded = all.view.output == Output::shaded;
     fragment.discarded = blend && (shaded ? !(base.w > 0) : base.w < 1.0f / 255.0f);
     if (fragment.discarded)
         return fragment;
     if (!shaded) {
-        fragment.value = glm::vec4(finite(dataOutput(all, in, quad, lane)), 1);
+        fragment.value = glm::vec4(finite(dataOutput(all, in, lane)), 1);
         return fragment;
     }
-    const Lit lit = shadedColor(all, in, glm::vec3(base), quad, lane);
+    const Lit lit = shadedColor(all, in, glm::vec3(base), lane);
     const float alpha = blend ? f32::cotan_saturate(base.w) : 1;
     fragment.value = glm::vec4(displayed(all.view, lit.radiance), alpha);
     fragment.through = (1 - alpha) + finite(lit.through) * alpha;
@@ -200,10 +187,9 @@ glm::vec4 background(const PixelInputs& all, int x, int y)
     float share = 1;
     if (view.ground) {
         const glm::dvec3 start = rayOrigin(all.projection, x + 0.5, y + 0.5); // relative to the eye, as all there is
-        const double height = view.ground->height - all.projection.origin.y;
+        const double height = view.ground->height - all.projection.eye.y;
         const glm::dvec2 place = f64::cotan_ground_place(start, glm::dvec3(ray), height);
-        share = groundShareAt(*view.ground,
-                              glm::vec2(place + glm::dvec2(all.projection.origin.x, all.projection.origin.z)));
+        share = groundShareAt(*view.ground, glm::vec2(place + glm::dvec2(all.projection.eye.x, all.projection.eye.z)));
     }
     return view.background ? glm::vec4(displayed(view, backdropAlong(view, ray) * share), 1)
                            : glm::vec4(0, 0, 0, 1 - share);

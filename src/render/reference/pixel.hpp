@@ -20,13 +20,13 @@ struct Fragment {
 // What all pixels of a picture share.
 struct PixelInputs {
     const View& view;
-    const Projection& projection;
-    const std::vector<PreparedLight>& lights;
-    const ShadowMap& shadow;
+    Projection projection;
+    std::vector<PreparedLight> lights;
+    ShadowMap shadow;
 };
 
 // Always finite. Shaded colours are exposed and, unless the view wants them linear, tone mapped.
-Fragment shade(const PixelInputs& all, const SurfaceInputs& in, const QuadPoints& quad, int lane);
+Fragment shade(const PixelInputs& all, const SurfaceInputs& in, int lane);
 
 // The background in a pixel of the raster: the environment where the view wants it, otherwise 0.
 glm::vec4 background(const PixelInputs& all, int x, int y);

@@ -8,7 +8,6 @@
 
 #include "cotan/vector.hpp"
 #include "scene/bounds.hpp"
-#include "scene/camera_axes.hpp"
 
 namespace cotan::reference {
 
@@ -16,22 +15,21 @@ namespace {
 
 constexpr double kShortest = 1e-30; // a vector that has a direction
 
-void lookAlong(Projection& p, const CameraAxes& axes)
-{
-    p.forward = axes.forward;
-    p.right = axes.right;
-    p.up = axes.up;
-}
-
-// A row of a matrix: what is dotted with (x, y, z, 1).
-glm::dvec4 row(glm::dvec3 direction, double constant) { return {direction, constant}; }
-
+// A row is dotted with (x, y, z, 1).
 glm::dmat4 fromRows(glm::dvec4 x, glm::dvec4 y, glm::dvec4 z, glm::dvec4 w)
 {
     return glm::transpose(glm::dmat4(x, y, z, w));
 }
 
-double usableOr(float value, double otherwise) { return std::isfinite(value) && value > 0 ? double(value) : otherwise; }
+// From the middle of the raster, at distance 1 or in a plane across the view.
+glm::dvec3 sideways(const Projection& p, double x, double y)
+{
+    // The first two rows are (axis * pixels + forward * half), so their parts along the axes give the slopes back.
+    glm::dmat4 rows = glm::transpose(p.toRaster);
+    double pixelsX = glm::dot(glm::dvec3(rows[0]), p.right);
+    double pixelsY = glm::dot(glm::dvec3(rows[1]), p.up);
+    return p.right * ((x + p.moved.x - 0.5 * p.width) / pixelsX) + p.up * ((y + p.moved.y - 0.5 * p.height) / pixelsY);
+}
 
 } // namespace
 
@@ -47,32 +45,29 @@ Ball boundingBall(const Scene& scene)
 Projection cameraProjection(const View& view, const Ball& ball)
 {
     const Camera& camera = view.camera;
-    Projection p;
-    const CameraAxes axes = cameraAxes(camera);
-    p.origin = axes.eye;
+    Projection p{cameraAxes(camera)};
     p.width = view.width;
     p.height = view.height;
     p.orthographic = camera.orthographic;
     p.rowsUpward = view.rowsUpward;
-    lookAlong(p, axes);
 
-    double reach = glm::length(ball.centre - p.origin) + ball.radius;
+    double reach = glm::length(ball.centre - p.eye) + ball.radius;
     double halfWidth = 0.5 * view.width, halfHeight = 0.5 * view.height;
     double pixels; // per unit of slope, or of length
     glm::dvec4 z, w;
     if (camera.orthographic) {
-        pixels = view.height / usableOr(camera.verticalExtent, 2);
-        z = row(-p.forward / (reach * 1.01), 1);
+        pixels = view.height / double(camera.verticalExtent);
+        z = glm::dvec4(-p.forward / (reach * 1.01), 1);
         w = {0, 0, 0, 1};
     } else {
-        double angle = std::min(usableOr(camera.verticalFieldOfView, 0.785398), 3.1);
+        double angle = std::min(double(camera.verticalFieldOfView), 3.1);
         pixels = halfHeight / std::tan(0.5 * angle);
         z = {0, 0, 0, 1e-4 * reach};
-        w = row(p.forward, 0);
+        w = glm::dvec4(p.forward, 0);
     }
     double down = view.rowsUpward ? 1.0 : -1.0;
-    p.toRaster =
-        fromRows(row(p.right * pixels, 0) + w * halfWidth, row(p.up * (pixels * down), 0) + w * halfHeight, z, w);
+    p.toRaster = fromRows(glm::dvec4(p.right * pixels, 0) + w * halfWidth,
+                          glm::dvec4(p.up * (pixels * down), 0) + w * halfHeight, z, w);
     return p;
 }
 
@@ -86,38 +81,22 @@ Projection movedBy(Projection p, glm::dvec2 place)
     return p;
 }
 
-Projection shadowProjection(glm::dvec3 direction, const Ball& ball, glm::dvec3 origin, int texels)
+Projection shadowProjection(glm::dvec3 direction, const Ball& ball, glm::dvec3 eye, int texels)
 {
-    Projection p;
-    p.origin = origin;
+    Projection p{axesAlong(unitOr(direction, {0, -1, 0}, kShortest), {0, 1, 0})};
+    p.eye = eye;
     p.width = p.height = texels;
     p.orthographic = true;
-    lookAlong(p, axesAlong(unitOr(direction, {0, -1, 0}, kShortest), {0, 1, 0}));
     // One texel of margin, so that the filter finds no edge at the border of the map.
     double pixels = 0.5 * (texels - 2) / ball.radius;
     double depth = 0.5 / (ball.radius * 1.01);
-    glm::dvec3 c = ball.centre - origin;
+    glm::dvec3 c = ball.centre - eye;
     double half = 0.5 * texels;
-    p.toRaster = fromRows(row(p.right * pixels, half - glm::dot(p.right, c) * pixels),
-                          row(p.up * -pixels, half + glm::dot(p.up, c) * pixels),
-                          row(-p.forward * depth, 0.5 + glm::dot(p.forward, c) * depth), {0, 0, 0, 1});
+    p.toRaster = fromRows(glm::dvec4(p.right * pixels, half - glm::dot(p.right, c) * pixels),
+                          glm::dvec4(p.up * -pixels, half + glm::dot(p.up, c) * pixels),
+                          glm::dvec4(-p.forward * depth, 0.5 + glm::dot(p.forward, c) * depth), {0, 0, 0, 1});
     return p;
 }
-
-namespace {
-
-// From the middle of the raster, at distance 1 or in a plane across the view.
-glm::dvec3 sideways(const Projection& p, double x, double y)
-{
-    // The first two rows are (axis * pixels + forward * half), so their parts along the axes give
-    // the slopes back.
-    glm::dmat4 rows = glm::transpose(p.toRaster);
-    double pixelsX = glm::dot(glm::dvec3(rows[0]), p.right);
-    double pixelsY = glm::dot(glm::dvec3(rows[1]), p.up);
-    return p.right * ((x + p.moved.x - 0.5 * p.width) / pixelsX) + p.up * ((y + p.moved.y - 0.5 * p.height) / pixelsY);
-}
-
-} // namespace
 
 glm::vec3 rayDirection(const Projection& p, double x, double y)
 {

@@ -5,20 +5,17 @@
 #include <glm/vec3.hpp>
 
 #include "cotan/view.hpp"
+#include "scene/geometry.hpp"
 
 namespace cotan::reference {
 
-// toRaster takes a position relative to the origin (world axes) to (x*w, y*w, z*w, w), where x and
+// toRaster takes a position relative to the eye (world axes) to (x*w, y*w, z*w, w), where x and
 // y are pixels from the first raster row's first corner and z is reversed depth: 1 at the near plane,
 // falling with distance, linear over the picture.
 //   perspective   w is the distance along the view axis, z = near/w
 //   orthographic  w = 1, z = 1 - distance/far
-struct Projection {
+struct Projection : CameraAxes {
     glm::dmat4 toRaster{1};
-    glm::dvec3 origin{0}; // world; what positions are relative to
-    glm::dvec3 right{1, 0, 0};
-    glm::dvec3 up{0, 1, 0};
-    glm::dvec3 forward{0, 0, -1};
     int width = 0; // pixels
     int height = 0;
     bool orthographic = false;
@@ -35,22 +32,20 @@ struct Ball {
 // The sphere around the box of all finite vertex positions; the default one if there are none.
 Ball boundingBall(const Scene& scene);
 
-// The view's camera. The near plane lies at 1e-4 of the distance to the far side of the ball, so
-// that models seen from inside are cut as late as possible. Degenerate cameras (no direction, up
-// along it, no field of view) are replaced by the nearest usable ones.
+// The view's camera; checkView has passed the view. The near plane lies at 1e-4 of the distance to the far side of the
+// ball, so that models seen from inside are cut as late as possible.
 Projection cameraProjection(const View& view, const Ball& ball);
 
 // The same with the middle of each pixel seeing what lies `place` pixels from it in the raster.
 Projection movedBy(Projection projection, glm::dvec2 place);
 
-// A square map of that many texels that looks along `direction` at the whole ball. Positions
-// stay relative to `origin`.
-Projection shadowProjection(glm::dvec3 direction, const Ball& ball, glm::dvec3 origin, int texels);
+// A square map of that many texels that looks along `direction` at the whole ball. Positions stay relative to `eye`.
+Projection shadowProjection(glm::dvec3 direction, const Ball& ball, glm::dvec3 eye, int texels);
 
 // The unit direction, in the world, of the view ray through a raster position.
 glm::vec3 rayDirection(const Projection& projection, double x, double y);
 
-// Where that ray starts, relative to the origin.
+// Where that ray starts, relative to the eye.
 glm::dvec3 rayOrigin(const Projection& projection, double x, double y);
 
 } // namespace cotan::reference

@@ -2,7 +2,67 @@
 
 #include <algorithm>
 
+#include <glm/geometric.hpp>
+
+#include "cotan/vector.hpp"
+
 namespace cotan::reference {
+
+namespace {
+
+// The corner on the edge, computed from the inside to the outside whichever way round the edge is
+// walked: so neighbours agree.
+glm::dvec4 crossing(glm::dvec4 inside, double insideDistance, glm::dvec4 outside, double outsideDistance)
+{
+    double k = insideDistance / (insideDistance - outsideDistance);
+    return inside + (outside - inside) * k;
+}
+
+Polygon cut(const Polygon& polygon, glm::dvec4 plane)
+{
+    Polygon result;
+    const auto add = [&](glm::dvec4 corner) {
+        if (result.count < int(result.corner.size())) // else rounding made it concave: the sliver is below a sub-pixel
+            result.corner[std::size_t(result.count++)] = corner;
+    };
+    for (int i = 0; i < polygon.count; ++i) {
+        glm::dvec4 a = polygon.corner[std::size_t(i)];
+        glm::dvec4 b = polygon.corner[std::size_t((i + 1) % polygon.count)];
+        double da = glm::dot(plane, a), db = glm::dot(plane, b);
+        if (da >= 0)
+            add(a);
+        if (da >= 0 && db < 0)
+            add(crossing(a, da, b, db));
+        if (da < 0 && db >= 0)
+            add(crossing(b, db, a, da));
+    }
+    return result;
+}
+
+} // namespace
+
+Polygon clip(const std::array<glm::dvec4, 3>& triangle, int width, int height)
+{
+    Polygon polygon;
+    for (const glm::dvec4& v : triangle) {
+        if (!isFinite(v))
+            return {};
+        polygon.corner[std::size_t(polygon.count++)] = v;
+    }
+    const std::array<glm::dvec4, 5> planes = {{
+        {0, 0, -1, 1},
+        {1, 0, 0, kGuardBand},
+        {-1, 0, 0, width + kGuardBand},
+        {0, 1, 0, kGuardBand},
+        {0, -1, 0, height + kGuardBand},
+    }};
+    for (const glm::dvec4& plane : planes) {
+        const auto inside = [&](const glm::dvec4& corner) { return glm::dot(plane, corner) >= 0; };
+        if (!std::all_of(polygon.corner.begin(), polygon.corner.begin() + polygon.count, inside))
+            polygon = cut(polygon, plane);
+    }
+    return polygon;
+}
 
 std::array<Edge, 3> edgesOf(const RasterTriangle& triangle)
 {

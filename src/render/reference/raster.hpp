@@ -1,17 +1,31 @@
-// Triangles to pixels: coverage in exact integers, interpolation from the triangle's own planes.
+// Triangles to pixels: clipping in homogeneous raster coordinates, coverage in exact integers, interpolation from the
+// triangle's own planes.
 #pragma once
 
 #include <array>
 #include <cstdint>
 
 #include <glm/vec2.hpp>
-#include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
 
 namespace cotan::reference {
 
-// Corners are snapped to 1/256 pixel, as GPUs do, so that both decide alike which pixels a
-// triangle covers.
+// A convex polygon; a triangle cut by five planes has at most eight corners.
+struct Polygon {
+    std::array<glm::dvec4, 8> corner;
+    int count = 0;
+};
+
+// How far beyond the picture coordinates may reach, in pixels. Keeps the integers of the rasteriser
+// small; what lies further out is cut.
+inline constexpr double kGuardBand = 16384;
+
+// The part of the triangle in front of the near plane (z <= w) and inside the guard band around
+// a picture of width x height pixels. Two triangles that share an edge get the same corners on
+// it, bit for bit. Nothing is left (count 0) of a triangle with a non-finite corner.
+Polygon clip(const std::array<glm::dvec4, 3>& triangle, int width, int height);
+
+// Corners are snapped to 1/256 pixel, as GPUs do, so that both decide alike which pixels a triangle covers.
 inline constexpr int kSubPixels = 256;
 
 // A linear function over the raster, in pixels.
@@ -57,9 +71,8 @@ struct Quad {
     std::array<unsigned, 4> covered{}; // a bit per sample, per pixel; 0: helper lane
 };
 
-// An edge as a function of a raster position in 1/256 pixel: at least zero for what it keeps. A
-// position exactly on an edge belongs to the triangle whose top or left edge it is, which is
-// worked into the constant.
+// An edge as a function of a raster position in 1/256 pixel: at least zero for what it keeps. A position exactly on an
+// edge belongs to the triangle whose top or left edge it is, which is worked into the constant.
 struct Edge {
     std::int64_t x = 0, y = 0, constant = 0;
     std::int64_t at(std::int64_t px, std::int64_t py) const { return x * px + y * py + constant; }

@@ -4,16 +4,14 @@
 #include <new>
 #include <optional>
 #include <span>
-#include <string>
 #include <utility>
 
 #include "core/loops.hpp"
-#include "cotan/frame.hpp"
 #include "pixel.hpp"
 #include "scene/bounds.hpp"
 #include "scene/geometry.hpp"
 #include "scene/sample_places.hpp"
-#include "scene/view_check.hpp"
+#include "scene/scene_check.hpp"
 #include "setup.hpp"
 #include "tile.hpp"
 
@@ -26,12 +24,10 @@ using namespace reference;
 constexpr int kLargestSide = 16384;
 
 // Everything that is known before the first pixel is drawn.
-struct Frozen {
-    Projection projection;
+struct Frozen : PixelInputs {
+    const Scene& scene;
     TextureLibrary textures;
     std::vector<Draw> draws;
-    std::vector<PreparedLight> lights;
-    ShadowMap shadow;
     TiledTriangles tiled;
 };
 
@@ -48,14 +44,14 @@ std::optional<glm::vec3> shadowDirection(const View& view, const std::vector<Pre
 
 Frozen prepare(const Scene& scene, const View& view)
 {
-    Frozen f;
+    Frozen f{{view, {}, {}, {}}, scene, {}, {}, {}};
     Ball ball = boundingBall(scene);
     f.projection = cameraProjection(view, ball);
     f.textures = makeTextures(scene, view);
-    f.draws = makeDraws(scene, f.projection.origin, view.frame, view.output == Output::shaded);
-    f.lights = prepareLights(view, f.projection.origin);
+    f.draws = makeDraws(scene, f.projection.eye, view.frame, view.output == Output::shaded);
+    f.lights = prepareLights(view, f.projection.eye);
     if (std::optional<glm::vec3> direction = shadowDirection(view, f.lights))
-        f.shadow = makeShadowMap(scene, view, f.draws, f.textures, *direction, ball, f.projection.origin);
+        f.shadow = makeShadowMap(scene, view, f.draws, f.textures, *direction, ball, f.projection.eye);
     f.tiled = setUpTriangles(scene, f.draws, f.projection, Cull::backFaces);
     return f;
 }
@@ -64,54 +60,53 @@ Frozen prepare(const Scene& scene, const View& view)
 constexpr std::size_t kOftenWritten = 4;
 
 // Draws one quad of one triangle into the tile.
-void drawQuad(const Scene& scene, const PixelInputs& all, const Frozen& f, const RasterTriangle& triangle,
-              const Quad& quad, const SamplePattern& pattern, Tile& tile)
+void drawQuad(const Frozen& f, const RasterTriangle& triangle, const Quad& quad, const SamplePattern& pattern,
+              Tile& tile)
 {
     const Draw& draw = f.draws[triangle.draw];
-    const Material& material = scene.materials[std::size_t(draw.material)];
+    const Material& material = f.scene.materials[std::size_t(draw.material)];
     const MaterialMaps& maps = f.textures.materials[std::size_t(draw.material)];
-    SurfaceInputs in{&all.view, &draw, &material, &maps, &triangle};
-    bool blended = material.translucent() && all.view.output == Output::shaded;
+    SurfaceInputs in{&f.view, &draw, &material, &maps, &triangle};
+    bool blended = material.translucent() && f.view.output == Output::shaded;
     std::optional<QuadPoints> points; // made when the first pixel passes the depth test
     std::array<float, 4> alphas{};    // of a masked material
     for (int lane = 0; lane < 4; ++lane) {
         int x = quad.x + (lane & 1), y = quad.y + (lane >> 1);
-        unsigned samples = tile.nearer(x, y, quad.covered[std::size_t(lane)], triangle.z, pattern);
+        unsigned samples = tile.nearer(x, y, quad.covered[std::size_t(lane)], triangle.z);
         if (!samples)
             continue;
         const bool masked = material.alphaMode == AlphaMode::mask;
         if (!points) {
-            points = interpolate(draw, triangle, quad.x, quad.y);
+            in.points = &points.emplace(interpolate(draw, triangle, quad.x, quad.y));
             for (int k = 0; masked && k < 4; ++k)
-                alphas[std::size_t(k)] = baseColorOf(in, *points, k).w;
+                alphas[std::size_t(k)] = baseColorOf(in, k).w;
         }
         if (masked)
             samples &= samplesOfMask(alphas, lane, material.alphaCutoff, pattern);
         if (!samples)
             continue;
-        Fragment fragment = shade(all, in, *points, lane);
+        Fragment fragment = shade(f, in, lane);
         if (fragment.discarded)
             continue;
         if (blended)
-            tile.blend(x, y, samples, fragment.value, fragment.through, triangle.z, pattern);
+            tile.blend(x, y, samples, fragment.value, fragment.through, triangle.z);
         else
-            tile.write(x, y, samples, fragment.value, triangle.z, pattern);
+            tile.write(x, y, samples, fragment.value, triangle.z);
     }
 }
 
 // Tells the tile of the triangles that hide what is behind them, whatever is shaded there.
-void expectOpaque(const Scene& scene, const Frozen& f, std::span<const std::uint32_t> triangles, const Rectangle& area,
+void expectOpaque(const Frozen& f, std::span<const std::uint32_t> triangles, const Rectangle& area,
                   const SamplePattern& pattern, Tile& tile)
 {
     for (const std::uint32_t t : triangles) {
         const RasterTriangle& triangle = f.tiled.triangles[t];
-        const Material& material = scene.materials[std::size_t(f.draws[triangle.draw].material)];
+        const Material& material = f.scene.materials[std::size_t(f.draws[triangle.draw].material)];
         if (material.alphaMode != AlphaMode::opaque || material.translucent())
             continue;
         forEachQuad(triangle, area, pattern, [&](const Quad& quad) {
             for (int lane = 0; lane < 4; ++lane)
-                tile.expect(quad.x + (lane & 1), quad.y + (lane >> 1), quad.covered[std::size_t(lane)], triangle.z,
-                            pattern);
+                tile.expect(quad.x + (lane & 1), quad.y + (lane >> 1), quad.covered[std::size_t(lane)], triangle.z);
         });
     }
 }
@@ -120,27 +115,25 @@ void expectOpaque(const Scene& scene, const Frozen& f, std::span<const std::uint
 bool oneByOne(const View& view) { return view.output == Output::shaded && view.samples > kMaxSharedSamples; }
 
 // Calls store(x, y, value) for the pixels of a tile, x and y in the upright picture.
-template<class Store>
-void drawTile(const Scene& scene, const View& view, const Frozen& f, std::size_t index, const Store& store)
+template<class Store> void drawTile(const Frozen& f, std::size_t index, const Store& store)
 {
+    const View& view = f.view;
     SamplePattern pattern = samplePattern(view.output == Output::shaded && !oneByOne(view) ? view.samples : 1);
-    PixelInputs all{view, f.projection, f.lights, f.shadow};
     Rectangle area = f.tiled.area(index, view.width, view.height);
-    Tile tile(area, pattern.count);
+    Tile tile(area, pattern);
     for (int y = area.y0; y < area.y1; ++y)
         for (int x = area.x0; x < area.x1; ++x)
-            tile.clear(x, y, background(all, x, y));
+            tile.clear(x, y, background(f, x, y));
     const std::vector<std::uint32_t>& triangles = f.tiled.tiles[index];
     const std::size_t often = kOftenWritten * std::size_t(area.x1 - area.x0) * std::size_t(area.y1 - area.y0);
     bool expects = false;
     for (std::size_t i = 0; i < triangles.size(); ++i) {
         if (!expects && tile.written() > often) { // what is hidden is shaded no more
-            expectOpaque(scene, f, std::span(triangles).subspan(i), area, pattern, tile);
+            expectOpaque(f, std::span(triangles).subspan(i), area, pattern, tile);
             expects = true;
         }
         const RasterTriangle& triangle = f.tiled.triangles[triangles[i]];
-        forEachQuad(triangle, area, pattern,
-                    [&](const Quad& quad) { drawQuad(scene, all, f, triangle, quad, pattern, tile); });
+        forEachQuad(triangle, area, pattern, [&](const Quad& quad) { drawQuad(f, triangle, quad, pattern, tile); });
     }
     for (int y = area.y0; y < area.y1; ++y)
         for (int x = area.x0; x < area.x1; ++x)
@@ -148,13 +141,12 @@ void drawTile(const Scene& scene, const View& view, const Frozen& f, std::size_t
 }
 
 // Draws all tiles; false where it was stopped.
-template<class Store>
-bool drawTiles(const Scene& scene, const View& view, const Frozen& frozen, CountedSteps& done, const Store& store)
+template<class Store> bool drawTiles(const Frozen& frozen, CountedSteps& done, const Store& store)
 {
     parallelFor(std::size_t(0), frozen.tiled.tiles.size(), [&](std::size_t index) {
         if (done.stopped())
             return;
-        drawTile(scene, view, frozen, index, store);
+        drawTile(frozen, index, store);
         done.step();
     });
     return !done.stopped();
@@ -169,7 +161,7 @@ Result<Image> draw(const Scene& scene, const View& view, const Progress& progres
     const auto store = [&](int x, int y, glm::vec4 value) { storePixel(picture, x, y, value, view.dither); };
     if (!oneByOne(view)) {
         CountedSteps done(progress, tiles);
-        return drawTiles(scene, view, frozen, done, store) ? Result<Image>(std::move(picture)) : stoppedError();
+        return drawTiles(frozen, done, store) ? Result<Image>(std::move(picture)) : stoppedError();
     }
     std::vector<glm::vec4> sums(picture.pixelCount(), glm::vec4(0));
     CountedSteps done(progress, tiles * kPlaces);
@@ -177,7 +169,7 @@ Result<Image> draw(const Scene& scene, const View& view, const Progress& progres
     for (int sample = 0; sample < kPlaces; ++sample) {
         frozen.projection = movedBy(still, samplePlace(sample));
         frozen.tiled = setUpTriangles(scene, frozen.draws, frozen.projection, Cull::backFaces);
-        const bool drawn = drawTiles(scene, view, frozen, done, [&](int x, int y, glm::vec4 value) {
+        const bool drawn = drawTiles(frozen, done, [&](int x, int y, glm::vec4 value) {
             sums[std::size_t(y) * std::size_t(view.width) + std::size_t(x)] += value;
         });
         if (!drawn)

@@ -6,12 +6,86 @@
 
 #include <glm/geometric.hpp>
 
-#include "clip.hpp"
 #include "core/loops.hpp"
+#include "cotan/covector.hpp"
+#include "cotan/frame.hpp"
+#include "scene/bounds.hpp"
 
 namespace cotan::reference {
 
 namespace {
+
+// How an instance moves points, vectors and covectors.
+struct Transform {
+    glm::mat3 vectors{1};
+    glm::vec3 translation{0}; // relative to the eye
+    glm::dmat3 covectors{1};  // inverse transpose, up to a positive factor
+    bool mirrored = false;
+};
+
+Transform transformOf(const glm::mat4& toWorld, glm::dvec3 eye)
+{
+    Transform t;
+    t.vectors = glm::mat3(toWorld);
+    t.translation = glm::vec3(glm::dvec3(toWorld[3]) - eye);
+    const LinearMap<double> map{glm::dmat3(toWorld)};
+    const glm::dmat3 covectors = map.planeMatrix();
+    t.mirrored = map.determinant() < 0;
+    double largest = 0;
+    for (int column = 0; column < 3; ++column)
+        for (int row = 0; row < 3; ++row)
+            largest = std::max(largest, std::abs(covectors[column][row]));
+    bool usable = largest > 0 && std::isfinite(largest);
+    t.covectors = usable ? covectors / largest : glm::dmat3(0.0);
+    return t;
+}
+
+glm::vec3 unitOrZero(glm::vec3 v) { return f32::cotan_normalize_or(v, glm::vec3(0)); }
+
+glm::vec3 covector(const Transform& t, glm::vec3 v) { return glm::vec3(t.covectors * glm::dvec3(v)); }
+
+// The one place where stored tangents meet our frames here: a judge does not take the sign from whom it judges
+// (tangentAlongV). glTF has bitangent = cross(n, t) * w, along the map's green direction, which is up the image:
+// against +v, since v runs down. Our b points along +v, hence the minus. A mirroring matrix reverses cross products
+// once more.
+glm::vec4 storedTangent(const Transform& t, glm::vec4 tangent)
+{
+    float handedness = -tangent.w * (t.mirrored ? -1.0f : 1.0f);
+    return {unitOrZero(t.vectors * glm::vec3(tangent)), handedness};
+}
+
+template<class In, class Out, class Function>
+void transformAll(const std::vector<In>& in, std::size_t count, std::vector<Out>& out, Function function)
+{
+    if (in.size() < count)
+        return; // absent
+    out.resize(count);
+    parallelRanges<std::size_t>(0, count, 4096, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i)
+            out[i] = function(in[i]);
+    });
+}
+
+Draw makeDraw(const Mesh& mesh, const glm::mat4& toWorld, glm::dvec3 eye, Frame frame)
+{
+    Transform t = transformOf(toWorld, eye);
+    std::size_t count = mesh.vertexCount();
+    Draw draw;
+    draw.mesh = &mesh;
+    draw.material = mesh.material;
+    draw.vectors = t.vectors;
+    draw.mirrored = t.mirrored;
+    transformAll(mesh.positions, count, draw.positions, [&](glm::vec3 p) { return t.vectors * p + t.translation; });
+    transformAll(mesh.normals, count, draw.normals, [&](glm::vec3 n) { return unitOrZero(covector(t, n)); });
+    if (readsTangents(frame))
+        transformAll(mesh.tangents, count, draw.tangents, [&](glm::vec4 tangent) { return storedTangent(t, tangent); });
+    if (readsCotangents(frame)) {
+        auto asCovector = [&](glm::vec3 v) { return covector(t, v); };
+        transformAll(mesh.cotangentsU, count, draw.cotangentsU, asCovector);
+        transformAll(mesh.cotangentsV, count, draw.cotangentsV, asCovector);
+    }
+    return draw;
+}
 
 constexpr std::size_t kChunkTriangles = 2048;
 
@@ -35,10 +109,9 @@ std::vector<Chunk> chunksOf(const std::vector<Draw>& draws)
     return chunks;
 }
 
-// Rows of the inverse of the matrix whose columns are (x, y, w) of the corners: the weight of each
-// vertex divided by w, as functions linear over the raster (Olano and Greer, Triangle Scan
-// Conversion using 2D Homogeneous Coordinates, 1997). They exist also where corners lie behind
-// the eye. False for a triangle that is seen edge-on.
+// Rows of the inverse of the matrix whose columns are (x, y, w) of the corners: the weight of each vertex divided by w,
+// as functions linear over the raster (Olano and Greer, Triangle Scan Conversion using 2D Homogeneous Coordinates,
+// 1997). They exist also where corners lie behind the eye. False for a triangle that is seen edge-on.
 bool makePlanes(const std::array<glm::dvec4, 3>& corner, RasterTriangle& triangle, double& orientation)
 {
     std::array<glm::dvec3, 3> p;
@@ -68,8 +141,7 @@ std::int64_t doubledArea(const std::array<glm::ivec2, 3>& c)
     return std::int64_t(c[1].x - c[0].x) * (c[2].y - c[0].y) - std::int64_t(c[1].y - c[0].y) * (c[2].x - c[0].x);
 }
 
-// The pieces of a triangle as a fan. Their inner edges are shared exactly, so no sample is covered
-// twice.
+// The pieces of a triangle as a fan. Their inner edges are shared exactly, so no sample is covered twice.
 void addPieces(const Polygon& polygon, RasterTriangle triangle, const Projection& projection,
                std::vector<RasterTriangle>& result)
 {
@@ -119,8 +191,8 @@ void setUp(const Scene& scene, const std::vector<Draw>& draws, const Projection&
 void sortIntoTiles(TiledTriangles& tiled, const Projection& projection)
 {
     tiled.columns = (projection.width + kTileSize - 1) / kTileSize;
-    tiled.rows = (projection.height + kTileSize - 1) / kTileSize;
-    tiled.tiles.resize(std::size_t(tiled.columns) * std::size_t(tiled.rows));
+    const int rows = (projection.height + kTileSize - 1) / kTileSize;
+    tiled.tiles.resize(std::size_t(tiled.columns) * std::size_t(rows));
     Rectangle picture{0, 0, projection.width, projection.height};
     for (std::size_t i = 0; i < tiled.triangles.size(); ++i) {
         const Rectangle b = boundsOf(tiled.triangles[i], picture);
@@ -136,6 +208,21 @@ void sortIntoTiles(TiledTriangles& tiled, const Projection& projection)
 }
 
 } // namespace
+
+std::vector<Draw> makeDraws(const Scene& scene, glm::dvec3 eye, Frame frame, bool blending)
+{
+    std::vector<Draw> draws;
+    for (const Instance& instance : scene.instances) {
+        const Mesh* mesh = meshPlacedBy(scene, instance);
+        if (mesh && mesh->material >= 0 && std::size_t(mesh->material) < scene.materials.size()
+            && mesh->triangleCount() > 0)
+            draws.push_back(makeDraw(*mesh, instance.toWorld, eye, frame));
+    }
+    const auto solid = [&](const Draw& d) { return !scene.materials[std::size_t(d.material)].translucent(); };
+    if (blending)
+        std::stable_partition(draws.begin(), draws.end(), solid);
+    return draws;
+}
 
 Rectangle TiledTriangles::area(std::size_t tile, int width, int height) const
 {

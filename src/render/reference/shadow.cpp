@@ -6,13 +6,11 @@
 #include <functional>
 #include <span>
 #include <utility>
-#include <vector>
 
 #include <glm/geometric.hpp>
 
 #include "core/loops.hpp"
 #include "scene/environment_map.hpp"
-#include "setup.hpp"
 #include "surface.hpp"
 
 namespace cotan::reference {
@@ -24,6 +22,12 @@ constexpr std::size_t kManyInTile = 64; // triangles from which on a tile is dra
 constexpr int kBlock = 8;               // texels: side of a block
 constexpr int kDrawnUntilAsked = 8;     // triangles after which the farthest texel of a block is looked for again
 
+// The nearest that the plane of a triangle comes in the area.
+double nearestIn(const Plane& z, Rectangle area)
+{
+    return z.at(z.x > 0 ? area.x1 : area.x0, z.y > 0 ? area.y1 : area.y0);
+}
+
 struct ShadowPass {
     const Scene& scene;
     const View& view;
@@ -31,98 +35,92 @@ struct ShadowPass {
     const TextureLibrary& textures;
     ShadowMap& map;
     std::size_t firstTranslucent; // of the draws
+    const TiledTriangles& tiled;
 
-    std::uint32_t layerOf(const RasterTriangle& triangle) const;
-    void drawQuad(const RasterTriangle& triangle, const Quad& quad) const;
-    void drawTile(const TiledTriangles& tiled, std::size_t tile) const;
-    void drawBlock(const TiledTriangles& tiled, std::span<const std::uint32_t> triangles, Rectangle block) const;
-};
-
-// Which pattern of cotan_shadow_threshold a translucent surface takes: the front and the back of a thing, and of two
-// things that follow one another, are told apart.
-std::uint32_t ShadowPass::layerOf(const RasterTriangle& triangle) const
-{
-    return (triangle.front ? 0u : 1u) + 2 * (std::uint32_t(triangle.draw - firstTranslucent) & 1u);
-}
-
-void ShadowPass::drawQuad(const RasterTriangle& triangle, const Quad& quad) const
-{
-    const Draw& draw = draws[triangle.draw];
-    const Material& material = scene.materials[std::size_t(draw.material)];
-    const MaterialMaps& maps = textures.materials[std::size_t(draw.material)];
-    const bool masked = material.alphaMode == AlphaMode::mask, blended = material.alphaMode == AlphaMode::blend;
-    QuadPoints points;
-    if (masked || blended)
-        points = interpolate(draw, triangle, quad.x, quad.y);
-    for (int lane = 0; lane < 4; ++lane) {
-        if (!quad.covered[std::size_t(lane)])
-            continue;
-        int x = quad.x + (lane & 1), y = quad.y + (lane >> 1);
-        float z = float(triangle.z.at(x + 0.5, y + 0.5));
-        float& stored = map.reversedDepth[std::size_t(y) * std::size_t(map.size) + std::size_t(x)];
-        if (!(z > stored))
-            continue;
-        const auto alpha = [&] { return baseColorOf({&view, &draw, &material, &maps, &triangle}, points, lane).w; };
-        if (masked && alpha() < material.alphaCutoff)
-            continue;
-        if (blended && !(alpha() > f32::cotan_shadow_threshold(unsigned(x), unsigned(y), layerOf(triangle))))
-            continue;
-        stored = z;
+    // Which pattern of cotan_shadow_threshold a translucent surface takes: the front and the back of a thing, and of
+    // two things that follow one another, are told apart.
+    std::uint32_t layerOf(const RasterTriangle& triangle) const
+    {
+        return (triangle.front ? 0u : 1u) + 2 * (std::uint32_t(triangle.draw - firstTranslucent) & 1u);
     }
-}
 
-// The nearest that the plane of a triangle comes in the area.
-double nearestIn(const Plane& z, Rectangle area)
-{
-    return z.at(z.x > 0 ? area.x1 : area.x0, z.y > 0 ? area.y1 : area.y0);
-}
-
-// The same texels from the nearest triangle on, whichever comes first in the scene: most of those behind are behind
-// all that is there, and are left out.
-void ShadowPass::drawBlock(const TiledTriangles& tiled, std::span<const std::uint32_t> triangles, Rectangle block) const
-{
-    std::vector<std::pair<double, std::uint32_t>> order;
-    for (const std::uint32_t index : triangles)
-        if (mayCover(edgesOf(tiled.triangles[index]), block))
-            order.emplace_back(nearestIn(tiled.triangles[index].z, block), index);
-    std::sort(order.begin(), order.end(), std::greater<>());
-    const auto farthest = [&] {
-        float least = map.reversedDepth[std::size_t(block.y0) * std::size_t(map.size) + std::size_t(block.x0)];
-        for (int y = block.y0; y < block.y1; ++y)
-            for (int x = block.x0; x < block.x1; ++x)
-                least = std::min(least, map.at(x, y));
-        return least;
-    };
-    float least = 0;
-    int drawn = 0;
-    for (const auto& [nearest, index] : order) {
-        if (!(float(nearest) > least))
-            return; // nor do those that follow
-        const RasterTriangle& triangle = tiled.triangles[index];
-        forEachQuad(triangle, block, samplePattern(1), [&](const Quad& quad) { drawQuad(triangle, quad); });
-        if (++drawn % kDrawnUntilAsked == 0)
-            least = farthest();
-    }
-}
-
-void ShadowPass::drawTile(const TiledTriangles& tiled, std::size_t tile) const
-{
-    const Rectangle area = tiled.area(tile, map.size, map.size);
-    std::vector<std::uint32_t> casting;
-    for (const std::uint32_t index : tiled.tiles[tile])
-        if (scene.materials[std::size_t(draws[tiled.triangles[index].draw].material)].throwsShadow())
-            casting.push_back(index);
-    if (casting.size() < kManyInTile) {
-        for (const std::uint32_t index : casting) {
-            const RasterTriangle& triangle = tiled.triangles[index];
-            forEachQuad(triangle, area, samplePattern(1), [&](const Quad& quad) { drawQuad(triangle, quad); });
+    void drawQuad(const RasterTriangle& triangle, const Quad& quad) const
+    {
+        const Draw& draw = draws[triangle.draw];
+        const Material& material = scene.materials[std::size_t(draw.material)];
+        const MaterialMaps& maps = textures.materials[std::size_t(draw.material)];
+        const bool masked = material.alphaMode == AlphaMode::mask, blended = material.alphaMode == AlphaMode::blend;
+        QuadPoints points;
+        if (masked || blended)
+            points = interpolate(draw, triangle, quad.x, quad.y);
+        for (int lane = 0; lane < 4; ++lane) {
+            if (!quad.covered[std::size_t(lane)])
+                continue;
+            int x = quad.x + (lane & 1), y = quad.y + (lane >> 1);
+            float z = float(triangle.z.at(x + 0.5, y + 0.5));
+            float& stored = map.reversedDepth[std::size_t(y) * std::size_t(map.size) + std::size_t(x)];
+            if (!(z > stored))
+                continue;
+            const auto alpha = [&] {
+                return baseColorOf({&view, &draw, &material, &maps, &triangle, &points}, lane).w;
+            };
+            if (masked && alpha() < material.alphaCutoff)
+                continue;
+            if (blended && !(alpha() > f32::cotan_shadow_threshold(unsigned(x), unsigned(y), layerOf(triangle))))
+                continue;
+            stored = z;
         }
-        return;
     }
-    for (int y = area.y0; y < area.y1; y += kBlock)
-        for (int x = area.x0; x < area.x1; x += kBlock)
-            drawBlock(tiled, casting, {x, y, std::min(x + kBlock, area.x1), std::min(y + kBlock, area.y1)});
-}
+
+    void drawTriangle(const RasterTriangle& triangle, Rectangle area) const
+    {
+        forEachQuad(triangle, area, samplePattern(1), [&](const Quad& quad) { drawQuad(triangle, quad); });
+    }
+
+    // The same texels from the nearest triangle on, whichever comes first in the scene: most of those behind are behind
+    // all that is there, and are left out.
+    void drawBlock(std::span<const std::uint32_t> triangles, Rectangle block) const
+    {
+        std::vector<std::pair<double, std::uint32_t>> order;
+        for (const std::uint32_t index : triangles)
+            if (mayCover(edgesOf(tiled.triangles[index]), block))
+                order.emplace_back(nearestIn(tiled.triangles[index].z, block), index);
+        std::sort(order.begin(), order.end(), std::greater<>());
+        const auto farthest = [&] {
+            float least = map.reversedDepth[std::size_t(block.y0) * std::size_t(map.size) + std::size_t(block.x0)];
+            for (int y = block.y0; y < block.y1; ++y)
+                for (int x = block.x0; x < block.x1; ++x)
+                    least = std::min(least, map.at(x, y));
+            return least;
+        };
+        float least = 0;
+        int drawn = 0;
+        for (const auto& [nearest, index] : order) {
+            if (!(float(nearest) > least))
+                return; // nor do those that follow
+            drawTriangle(tiled.triangles[index], block);
+            if (++drawn % kDrawnUntilAsked == 0)
+                least = farthest();
+        }
+    }
+
+    void drawTile(std::size_t tile) const
+    {
+        const Rectangle area = tiled.area(tile, map.size, map.size);
+        std::vector<std::uint32_t> casting;
+        for (const std::uint32_t index : tiled.tiles[tile])
+            if (scene.materials[std::size_t(draws[tiled.triangles[index].draw].material)].throwsShadow())
+                casting.push_back(index);
+        if (casting.size() < kManyInTile) {
+            for (const std::uint32_t index : casting)
+                drawTriangle(tiled.triangles[index], area);
+            return;
+        }
+        for (int y = area.y0; y < area.y1; y += kBlock)
+            for (int x = area.x0; x < area.x1; x += kBlock)
+                drawBlock(casting, {x, y, std::min(x + kBlock, area.x1), std::min(y + kBlock, area.y1)});
+    }
+};
 
 // What four texels in a row weigh when three bilinear reads side by side are averaged.
 std::array<float, 4> filterWeights(float fraction) { return {(1 - fraction) / 3, 1.0f / 3, 1.0f / 3, fraction / 3}; }
@@ -130,21 +128,21 @@ std::array<float, 4> filterWeights(float fraction) { return {(1 - fraction) / 3,
 } // namespace
 
 ShadowMap makeShadowMap(const Scene& scene, const View& view, const std::vector<Draw>& draws,
-                        const TextureLibrary& textures, glm::vec3 direction, const Ball& ball, glm::dvec3 origin)
+                        const TextureLibrary& textures, glm::vec3 direction, const Ball& ball, glm::dvec3 eye)
 {
     ShadowMap map;
     map.size = kShadowTexels;
-    map.projection = shadowProjection(glm::dvec3(direction), ball, origin, map.size);
+    map.projection = shadowProjection(glm::dvec3(direction), ball, eye, map.size);
     map.reversedDepth.assign(std::size_t(map.size) * std::size_t(map.size), 0.0f);
     map.texel = float(2 * ball.radius / (map.size - 2));
     map.depthUnit = float(0.5 / (ball.radius * 1.01));
-    TiledTriangles tiled = setUpTriangles(scene, draws, map.projection, Cull::nothing);
+    const TiledTriangles tiled = setUpTriangles(scene, draws, map.projection, Cull::nothing);
     const auto translucent = [&](const Draw& draw) {
         return scene.materials[std::size_t(draw.material)].translucent();
     };
     const auto first = std::find_if(draws.begin(), draws.end(), translucent);
-    ShadowPass pass{scene, view, draws, textures, map, std::size_t(first - draws.begin())};
-    parallelFor(std::size_t(0), tiled.tiles.size(), [&](std::size_t tile) { pass.drawTile(tiled, tile); });
+    ShadowPass pass{scene, view, draws, textures, map, std::size_t(first - draws.begin()), tiled};
+    parallelFor(std::size_t(0), tiled.tiles.size(), [&](std::size_t tile) { pass.drawTile(tile); });
     return map;
 }
 

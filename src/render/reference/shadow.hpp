@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "projection.hpp"
-#include "reference_geometry.hpp"
+#include "setup.hpp"
 #include "texture.hpp"
 
 namespace cotan::reference {
@@ -23,12 +23,11 @@ struct ShadowMap {
 // cast the shadow of what their mask leaves; blended ones cover as many texels as their alpha says, by
 // cotan_shadow_threshold; what transmits casts none.
 ShadowMap makeShadowMap(const Scene& scene, const View& view, const std::vector<Draw>& draws,
-                        const TextureLibrary& textures, glm::vec3 direction, const Ball& ball, glm::dvec3 origin);
+                        const TextureLibrary& textures, glm::vec3 direction, const Ball& ball, glm::dvec3 eye);
 
-// The share of light that arrives, 0..1: nine bilinear comparisons around the point. The point is
-// first moved off its surface along n, and compared with a bias that grows with the slope, both
-// in proportion to a texel.
-// position: relative to the origin of the projection. n: unit, on the side that is seen.
+// The share of light that arrives, 0..1: nine bilinear comparisons around the point. The point is first moved off its
+// surface along n, and compared with a bias that grows with the slope, both in proportion to a texel.
+// position: relative to the eye of the projection. n: unit, on the side that is seen.
 // toLight: unit.
 float lightReaching(const ShadowMap& map, glm::vec3 position, glm::vec3 n, glm::vec3 toLight);
 

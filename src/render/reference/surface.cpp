@@ -3,8 +3,7 @@
 #include <glm/geometric.hpp>
 
 #include "cotan/frame.hpp"
-#include "scene/normal_format.hpp"
-#include "scene/texture_uv.hpp"
+#include "scene/texture_sample.hpp"
 
 namespace cotan::reference {
 
@@ -24,13 +23,6 @@ glm::vec<N, float> interpolated(const std::vector<glm::vec<N, float>>& values, c
     return glm::vec<N, float>(sum);
 }
 
-// As above, or 0 where the mesh lacks the attribute.
-glm::vec3 interpolatedOrZero(const std::vector<glm::vec3>& values, const RasterTriangle& triangle,
-                             const std::array<double, 3>& weights)
-{
-    return values.empty() ? glm::vec3(0) : interpolated(values, triangle, weights);
-}
-
 std::size_t setOf(const Texture& texture) { return texture.texcoord == 1 ? 1 : 0; }
 
 // The two lanes whose difference a lane takes.
@@ -41,12 +33,12 @@ struct Pair {
 // Fine: along the lane's own row or column. Coarse: along the first row or column for all four.
 Pair alongX(int lane, Derivatives d)
 {
-    int first = d == Derivatives::fine ? lane & 2 : 0;
+    const int first = d == Derivatives::fine ? lane & 2 : 0;
     return {first, first | 1};
 }
 Pair alongY(int lane, Derivatives d)
 {
-    int first = d == Derivatives::fine ? lane & 1 : 0;
+    const int first = d == Derivatives::fine ? lane & 1 : 0;
     return {first, first | 2};
 }
 
@@ -101,6 +93,14 @@ glm::vec2 uvDifference(const Texture& texture, const QuadPoints& quad, Pair pair
     return transformedEdge(texture, uv[std::size_t(pair.to)] - uv[std::size_t(pair.from)]);
 }
 
+// Texture coordinates of a map in one lane, transformed as it asks, with their differences.
+UvDifferences uvOf(const SurfaceInputs& in, const Texture& texture, int lane)
+{
+    const Pair x = alongX(lane, in.view->derivatives), y = alongY(lane, in.view->derivatives);
+    return {textureUv(texture, in.points->uv[setOf(texture)][std::size_t(lane)]), uvDifference(texture, *in.points, x),
+            uvDifference(texture, *in.points, y)};
+}
+
 // Interpolates a uv set in one lane, as it is and relative to the triangle's first corner.
 void interpolateUv(QuadPoints& quad, std::size_t set, std::size_t lane, const Draw& draw,
                    const RasterTriangle& triangle)
@@ -114,65 +114,6 @@ void interpolateUv(QuadPoints& quad, std::size_t set, std::size_t lane, const Dr
     quad.uv[set][lane] = glm::vec2(corner + relative);
 }
 
-} // namespace
-
-QuadPoints interpolate(const Draw& draw, const RasterTriangle& triangle, int x, int y)
-{
-    QuadPoints quad;
-    bool uv0 = hasUv(draw, 0), uv1 = hasUv(draw, 1);
-    for (std::size_t lane = 0; lane < 4; ++lane) {
-        double px = x + int(lane & 1) + 0.5, py = y + int(lane >> 1) + 0.5;
-        double w0 = triangle.weight[0].at(px, py);
-        double w1 = triangle.weight[1].at(px, py);
-        double w2 = triangle.weight[2].at(px, py);
-        double w = 1 / (w0 + w1 + w2);
-        std::array<double, 3>& weights = quad.weights[lane];
-        weights = {w0 * w, w1 * w, w2 * w};
-        quad.position[lane] = interpolated(draw.positions, triangle, weights);
-        if (uv0)
-            interpolateUv(quad, 0, lane, draw, triangle);
-        if (uv1)
-            interpolateUv(quad, 1, lane, draw, triangle);
-    }
-    return quad;
-}
-
-UvDifferences uvOf(const Texture& texture, const QuadPoints& quad, int lane, Derivatives derivatives)
-{
-    Pair x = alongX(lane, derivatives), y = alongY(lane, derivatives);
-    return {textureUv(texture, quad.uv[setOf(texture)][std::size_t(lane)]), uvDifference(texture, quad, x),
-            uvDifference(texture, quad, y)};
-}
-
-glm::vec4 baseColorOf(const SurfaceInputs& in, const QuadPoints& quad, int lane)
-{
-    const Material& m = *in.material;
-    glm::vec4 base = m.baseColor;
-    if (in.maps->baseColor)
-        base *= sample(*in.maps->baseColor, m.baseColorMap.sampler,
-                       uvOf(m.baseColorMap, quad, lane, in.view->derivatives), in.view->pointSampled);
-    const std::vector<glm::vec4>& colors = in.draw->mesh->colors;
-    if (colors.size() >= in.draw->positions.size())
-        base *= interpolated(colors, *in.triangle, quad.weights[std::size_t(lane)]);
-    return base;
-}
-
-unsigned samplesOfMask(const std::array<float, 4>& alphas, int lane, float cutoff, const SamplePattern& pattern)
-{
-    const float alpha = alphas[std::size_t(lane)];
-    const float slopeX = alphas[std::size_t(lane | 1)] - alphas[std::size_t(lane & 2)];
-    const float slopeY = alphas[std::size_t(lane | 2)] - alphas[std::size_t(lane & 1)];
-    unsigned samples = 0;
-    for (int s = 0; s < pattern.count; ++s) {
-        const glm::vec2 place = glm::vec2(pattern.offset[std::size_t(s)]) / float(kSubPixels) - 0.5f;
-        if (!(alpha + slopeX * place.x + slopeY * place.y < cutoff))
-            samples |= 1u << s;
-    }
-    return samples;
-}
-
-namespace {
-
 // The normal without a map, and what frames are made from besides it.
 struct Smooth {
     glm::vec3 raw{0}; // as interpolated
@@ -181,23 +122,24 @@ struct Smooth {
     glm::vec3 dpdy{0};
 };
 
-Smooth smoothOf(const SurfaceInputs& in, const QuadPoints& quad, int lane, const UvDifferences& uv)
+Smooth smoothOf(const SurfaceInputs& in, int lane, const UvDifferences& uv)
 {
     Smooth smooth;
-    smooth.dpdx = difference(quad, alongX(lane, in.view->derivatives));
-    smooth.dpdy = difference(quad, alongY(lane, in.view->derivatives));
-    smooth.raw = interpolatedOrZero(in.draw->normals, *in.triangle, quad.weights[std::size_t(lane)]);
+    smooth.dpdx = difference(*in.points, alongX(lane, in.view->derivatives));
+    smooth.dpdy = difference(*in.points, alongY(lane, in.view->derivatives));
+    if (!in.draw->normals.empty())
+        smooth.raw = interpolated(in.draw->normals, *in.triangle, in.points->weights[std::size_t(lane)]);
     f32::cotan_differences safe = f32::cotan_scale_differences(smooth.dpdx, smooth.dpdy, uv.dx, uv.dy);
     smooth.n = f32::cotan_safe_normal(smooth.raw, safe.dpdx, safe.dpdy);
     return smooth;
 }
 
 // The turn of the surface's own normals in the pixel; none where the view does not ask for it.
-void addTurn(SurfaceNormal& result, const SurfaceInputs& in, const QuadPoints& quad, int lane)
+void addTurn(SurfaceNormal& result, const SurfaceInputs& in, int lane)
 {
     if (!in.view->specularAntialiasing)
         return;
-    const auto normal = [&](int at) { return smoothOf(in, quad, at, {}).n; };
+    const auto normal = [&](int at) { return smoothOf(in, at, {}).n; };
     const Pair x = alongX(lane, in.view->derivatives), y = alongY(lane, in.view->derivatives);
     result.turnX = normal(x.to) - normal(x.from);
     result.turnY = normal(y.to) - normal(y.from);
@@ -224,10 +166,6 @@ f32::cotan_frame frameOver(const SurfaceInputs& in, const Texture& map, const Sm
 
 bool sameUv(const Texture& a, const Texture& b) { return setOf(a) == setOf(b) && a.uRow == b.uRow && a.vRow == b.vRow; }
 
-} // namespace
-
-namespace {
-
 // A place in a pixel, of so many a side, from its middle in pixels.
 glm::vec2 placeOf(int place, int side)
 {
@@ -243,14 +181,64 @@ f32::cotan_normal_format formatOf(const SurfaceInputs& in)
 
 } // namespace
 
-SurfaceNormal normalOf(const SurfaceInputs& in, const QuadPoints& quad, int lane)
+QuadPoints interpolate(const Draw& draw, const RasterTriangle& triangle, int x, int y)
+{
+    QuadPoints quad;
+    bool uv0 = hasUv(draw, 0), uv1 = hasUv(draw, 1);
+    for (std::size_t lane = 0; lane < 4; ++lane) {
+        double px = x + int(lane & 1) + 0.5, py = y + int(lane >> 1) + 0.5;
+        double w0 = triangle.weight[0].at(px, py);
+        double w1 = triangle.weight[1].at(px, py);
+        double w2 = triangle.weight[2].at(px, py);
+        double w = 1 / (w0 + w1 + w2);
+        std::array<double, 3>& weights = quad.weights[lane];
+        weights = {w0 * w, w1 * w, w2 * w};
+        quad.position[lane] = interpolated(draw.positions, triangle, weights);
+        if (uv0)
+            interpolateUv(quad, 0, lane, draw, triangle);
+        if (uv1)
+            interpolateUv(quad, 1, lane, draw, triangle);
+    }
+    return quad;
+}
+
+glm::vec4 mapTexel(const SurfaceInputs& in, const MipChain* chain, const Texture& texture, int lane)
+{
+    return chain ? sample(*chain, texture.sampler, uvOf(in, texture, lane), in.view->pointSampled) : glm::vec4(1);
+}
+
+glm::vec4 baseColorOf(const SurfaceInputs& in, int lane)
+{
+    const Material& m = *in.material;
+    glm::vec4 base = m.baseColor * mapTexel(in, in.maps->baseColor, m.baseColorMap, lane);
+    const std::vector<glm::vec4>& colors = in.draw->mesh->colors;
+    if (colors.size() >= in.draw->positions.size())
+        base *= interpolated(colors, *in.triangle, in.points->weights[std::size_t(lane)]);
+    return base;
+}
+
+unsigned samplesOfMask(const std::array<float, 4>& alphas, int lane, float cutoff, const SamplePattern& pattern)
+{
+    const float alpha = alphas[std::size_t(lane)];
+    const float slopeX = alphas[std::size_t(lane | 1)] - alphas[std::size_t(lane & 2)];
+    const float slopeY = alphas[std::size_t(lane | 2)] - alphas[std::size_t(lane & 1)];
+    unsigned samples = 0;
+    for (int s = 0; s < pattern.count; ++s) {
+        const glm::vec2 place = glm::vec2(pattern.offset[std::size_t(s)]) / float(kSubPixels) - 0.5f;
+        if (!(alpha + slopeX * place.x + slopeY * place.y < cutoff))
+            samples |= 1u << s;
+    }
+    return samples;
+}
+
+SurfaceNormal normalOf(const SurfaceInputs& in, int lane)
 {
     const View& view = *in.view;
     const Material& material = *in.material;
-    UvDifferences uv = uvOf(material.normalMap, quad, lane, view.derivatives);
-    const Smooth smooth = smoothOf(in, quad, lane, uv);
+    UvDifferences uv = uvOf(in, material.normalMap, lane);
+    const Smooth smooth = smoothOf(in, lane, uv);
     const glm::vec3 n = smooth.n;
-    const f32::cotan_frame frame = frameOver(in, material.normalMap, smooth, uv, quad.weights[std::size_t(lane)]);
+    const f32::cotan_frame frame = frameOver(in, material.normalMap, smooth, uv, in.points->weights[std::size_t(lane)]);
 
     SurfaceNormal result;
     result.interpolated = result.finished = n;
@@ -258,7 +246,7 @@ SurfaceNormal normalOf(const SurfaceInputs& in, const QuadPoints& quad, int lane
     result.b = finiteOrZero(frame.b);
     result.uv = uv.uv;
     result.frame = frame;
-    addTurn(result, in, quad, lane);
+    addTurn(result, in, lane);
     result.mapped = in.maps->normal && view.normalMaps && hasUv(*in.draw, setOf(material.normalMap));
     if (result.mapped) {
         glm::vec4 texel = sample(*in.maps->normal, material.normalMap.sampler, uv, view.pointSampled);
@@ -277,11 +265,10 @@ SurfaceNormal normalOf(const SurfaceInputs& in, const QuadPoints& quad, int lane
     return result;
 }
 
-std::vector<LitTap> tapsOf(const SurfaceInputs& in, const QuadPoints& quad, int lane, const SurfaceNormal& normal,
-                           float roughness)
+std::vector<LitTap> tapsOf(const SurfaceInputs& in, int lane, const SurfaceNormal& normal, float roughness)
 {
     const Texture& map = in.material->normalMap;
-    const UvDifferences uv = uvOf(map, quad, lane, in.view->derivatives);
+    const UvDifferences uv = uvOf(in, map, lane);
     const int side = int(f32::cotan_places_of_roughness(roughness));
     std::vector<LitTap> taps(std::size_t(side * side));
     const float share = 1 / float(side), turn = normal.turn * share * share;
@@ -299,20 +286,20 @@ std::vector<LitTap> tapsOf(const SurfaceInputs& in, const QuadPoints& quad, int 
     return taps;
 }
 
-CoatNormal coatNormalOf(const SurfaceInputs& in, const QuadPoints& quad, int lane, const SurfaceNormal& base)
+CoatNormal coatNormalOf(const SurfaceInputs& in, int lane, const SurfaceNormal& base)
 {
     const Texture& map = in.material->coat.normalMap;
     const MipChain* const chain = in.maps->coatNormal;
     CoatNormal coat{base.interpolated, base.turn};
     if (chain && hasUv(*in.draw, setOf(map))) {
-        const UvDifferences uv = uvOf(map, quad, lane, in.view->derivatives);
+        const UvDifferences uv = uvOf(in, map, lane);
         f32::cotan_frame frame = base.frame;
         if (!sameUv(map, in.material->normalMap)) {
-            const Smooth smooth = smoothOf(in, quad, lane, uv);
+            const Smooth smooth = smoothOf(in, lane, uv);
             // What the vertices hold belongs to the uv of the surface beneath.
             frame = readsCotangents(in.view->frame)
                 ? evaluate(Frame::cotangent, smooth.n, smooth.dpdx, smooth.dpdy, uv.dx, uv.dy)
-                : frameOver(in, map, smooth, uv, quad.weights[std::size_t(lane)]);
+                : frameOver(in, map, smooth, uv, in.points->weights[std::size_t(lane)]);
         }
         const glm::vec4 texel = sample(*chain, map.sampler, uv, in.view->pointSampled);
         const auto format = toFormat<f32::cotan_normal_format>(in.material->coat.normalFormat, chain->image->type,

@@ -14,8 +14,7 @@
 #include "cotan/portable.hpp"
 #include "cotan/view.hpp"
 #include "raster.hpp"
-#include "reference_geometry.hpp"
-#include "reference_light.hpp"
+#include "setup.hpp"
 #include "texture.hpp"
 
 namespace cotan::reference {
@@ -38,13 +37,14 @@ struct SurfaceInputs {
     const Material* material = nullptr;
     const MaterialMaps* maps = nullptr;
     const RasterTriangle* triangle = nullptr;
+    const QuadPoints* points = nullptr;
 };
 
-// Texture coordinates of a map in one lane, transformed as it asks, with their differences.
-UvDifferences uvOf(const Texture& texture, const QuadPoints& quad, int lane, Derivatives derivatives);
+// What a map of the material has in one lane; 1 where there is no chain.
+glm::vec4 mapTexel(const SurfaceInputs& in, const MipChain* chain, const Texture& texture, int lane);
 
 // The base colour and alpha: factor, map and vertex colour, whatever the material does with alpha.
-glm::vec4 baseColorOf(const SurfaceInputs& in, const QuadPoints& quad, int lane);
+glm::vec4 baseColorOf(const SurfaceInputs& in, int lane);
 
 // The samples of a pixel that a masked material covers: where alpha, taken as a plane over the pixel, is not below the
 // cutoff. alphas: of the quad's lanes.
@@ -65,12 +65,17 @@ struct SurfaceNormal {
 };
 
 // As the material's normal map has it.
-SurfaceNormal normalOf(const SurfaceInputs& in, const QuadPoints& quad, int lane);
+SurfaceNormal normalOf(const SurfaceInputs& in, int lane);
+
+// One of several normals of a pixel that are lit one by one.
+struct LitTap {
+    glm::vec3 n{0};
+    float roughness = 0;
+};
 
 // The normals of even places in the pixel, to be lit one by one for specular antialiasing: as many as the surface's
 // roughness asks for, each rougher by what is smaller than its part of the pixel. normal: mapped, of the same lane.
-std::vector<LitTap> tapsOf(const SurfaceInputs& in, const QuadPoints& quad, int lane, const SurfaceNormal& normal,
-                           float roughness);
+std::vector<LitTap> tapsOf(const SurfaceInputs& in, int lane, const SurfaceNormal& normal, float roughness);
 
 struct CoatNormal {
     glm::vec3 n{0}; // unit, turned towards the camera's side
@@ -78,6 +83,6 @@ struct CoatNormal {
 };
 
 // The coat's normal, from its own map and a frame of the same name. base: of the surface beneath.
-CoatNormal coatNormalOf(const SurfaceInputs& in, const QuadPoints& quad, int lane, const SurfaceNormal& base);
+CoatNormal coatNormalOf(const SurfaceInputs& in, int lane, const SurfaceNormal& base);
 
 } // namespace cotan::reference

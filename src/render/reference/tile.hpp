@@ -21,23 +21,22 @@ struct TooManyLayers {};
 // colours are premultiplied by it, as they are in a render target after blending.
 class Tile {
 public:
-    Tile(Rectangle area, int samples);
+    Tile(Rectangle area, const SamplePattern& pattern);
 
     // Says that an opaque surface will be drawn there: what lies behind it does not pass from now on.
-    void expect(int x, int y, unsigned covered, const Plane& z, const SamplePattern& pattern);
+    void expect(int x, int y, unsigned covered, const Plane& z);
 
     // The samples of `covered` for which z passes: nearer than what is there, and not behind what is expected.
-    unsigned nearer(int x, int y, unsigned covered, const Plane& z, const SamplePattern& pattern) const;
+    unsigned nearer(int x, int y, unsigned covered, const Plane& z) const;
 
     // Replaces the samples and their reversed depth.
-    void write(int x, int y, unsigned samples, glm::vec4 value, const Plane& z, const SamplePattern& pattern);
+    void write(int x, int y, unsigned samples, glm::vec4 value, const Plane& z);
 
     // Adds a translucent layer to the samples: nothing that is written later may be behind it. Layers are
     // composed in `resolve`, by reversed depth; of equally near ones the later is in front.
     // through: factors of what is behind, by colour.
     // Throws TooManyLayers over kMaxLayers.
-    void blend(int x, int y, unsigned samples, glm::vec4 value, glm::vec3 through, const Plane& z,
-               const SamplePattern& pattern);
+    void blend(int x, int y, unsigned samples, glm::vec4 value, glm::vec3 through, const Plane& z);
 
     // How many pixels were written, each as often as it was.
     std::size_t written() const { return written_; }
@@ -59,10 +58,12 @@ private:
     static constexpr std::uint32_t kNone = 0xffffffff;
 
     std::size_t at(int x, int y) const;
+    float reversedDepthAt(const Plane& z, int x, int y, std::size_t sample) const;
     std::vector<const Layer*> layersOf(std::size_t pixel) const;
 
     Rectangle area_;
-    int samples_;
+    SamplePattern pattern_;
+    std::size_t samples_; // of a pixel
     std::vector<glm::vec4> value_;
     std::vector<float> reversedDepth_;
     std::vector<float> expected_; // reversed depth of the nearest surface that will be drawn; empty before the first

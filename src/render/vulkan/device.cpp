@@ -1,6 +1,7 @@
 #include "device.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <cstring>
 
@@ -47,17 +48,15 @@ vk::DebugUtilsMessengerCreateInfoEXT messengerInfo(std::vector<std::string>& mes
 
 bool hasValidation(const vk::raii::Context& context)
 {
-    for (const vk::LayerProperties& layer : context.enumerateInstanceLayerProperties())
-        if (std::strcmp(layer.layerName, kValidationLayer) == 0)
-            return true;
-    return false;
+    return std::ranges::any_of(context.enumerateInstanceLayerProperties(), [](const vk::LayerProperties& layer) {
+        return std::strcmp(layer.layerName, kValidationLayer) == 0;
+    });
 }
 
 vk::raii::Instance makeInstance(const vk::raii::Context& context, bool validate, std::vector<std::string>& messages)
 {
     const vk::ApplicationInfo application("cotan", 1, "cotan", 1, VK_API_VERSION_1_3);
-    std::vector<const char*> layers;
-    std::vector<const char*> extensions;
+    std::vector<const char*> layers, extensions;
     const vk::DebugUtilsMessengerCreateInfoEXT messenger = messengerInfo(messages);
     if (validate) {
         layers.push_back(kValidationLayer);
@@ -69,20 +68,12 @@ vk::raii::Instance makeInstance(const vk::raii::Context& context, bool validate,
 
 // ---- choosing -------------------------------------------------------------------------------
 
-int rank(vk::PhysicalDeviceType type)
+// 0 is the best.
+std::ptrdiff_t rank(vk::PhysicalDeviceType type)
 {
-    switch (type) {
-    case vk::PhysicalDeviceType::eDiscreteGpu: return 0;
-    case vk::PhysicalDeviceType::eIntegratedGpu: return 1;
-    case vk::PhysicalDeviceType::eVirtualGpu: return 2;
-    case vk::PhysicalDeviceType::eCpu: return 3;
-    default: return 4;
-    }
-}
-
-std::string versionText(std::uint32_t version)
-{
-    return std::to_string(VK_API_VERSION_MAJOR(version)) + "." + std::to_string(VK_API_VERSION_MINOR(version));
+    using T = vk::PhysicalDeviceType;
+    constexpr std::array kOrder{T::eDiscreteGpu, T::eIntegratedGpu, T::eVirtualGpu, T::eCpu}; // others come last
+    return std::ranges::find(kOrder, type) - kOrder.begin();
 }
 
 // The family with graphics; -1 if there is none.
@@ -99,7 +90,8 @@ std::string missingFeature(const vk::raii::PhysicalDevice& physical)
 {
     const vk::PhysicalDeviceProperties properties = physical.getProperties();
     if (properties.apiVersion < VK_API_VERSION_1_3)
-        return "needs Vulkan 1.3, has " + versionText(properties.apiVersion);
+        return "needs Vulkan 1.3, has " + std::to_string(VK_API_VERSION_MAJOR(properties.apiVersion)) + "."
+            + std::to_string(VK_API_VERSION_MINOR(properties.apiVersion));
     if (graphicsFamily(physical) < 0)
         return "has no graphics queue";
     const auto features = physical.getFeatures2<vk::PhysicalDeviceFeatures2, vk::PhysicalDeviceVulkan13Features>();
@@ -123,19 +115,17 @@ std::vector<Candidate> findCandidates(const vk::raii::Instance& instance)
     for (vk::raii::PhysicalDevice& physical : vk::raii::PhysicalDevices(instance)) {
         const vk::PhysicalDeviceProperties properties = physical.getProperties();
         std::string missing = missingFeature(physical);
-        const auto family = static_cast<std::uint32_t>(std::max(graphicsFamily(physical), 0));
+        const auto family = std::uint32_t(std::max(graphicsFamily(physical), 0));
         candidates.push_back({std::move(physical), std::string(properties.deviceName.data()), properties.deviceType,
                               family, std::move(missing)});
     }
-    std::stable_sort(candidates.begin(), candidates.end(),
-                     [](const Candidate& a, const Candidate& b) { return rank(a.type) < rank(b.type); });
+    std::ranges::stable_sort(candidates, {}, [](const Candidate& c) { return rank(c.type); });
     return candidates;
 }
 
 std::string lower(std::string text)
 {
-    std::transform(text.begin(), text.end(), text.begin(),
-                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    std::ranges::transform(text, text.begin(), [](unsigned char c) { return char(std::tolower(c)); });
     return text;
 }
 
@@ -153,9 +143,8 @@ Result<Candidate> choose(std::vector<Candidate> candidates, const std::string& w
     for (Candidate& c : candidates)
         if (c.missing.empty() && lower(c.name).find(lower(wanted)) != std::string::npos)
             return std::move(c);
-    if (wanted.empty())
-        return unavailableError("no Vulkan device can be used; found: " + listed(candidates));
-    return unavailableError("no Vulkan device named '" + wanted + "' can be used; found: " + listed(candidates));
+    return unavailableError("no Vulkan device " + (wanted.empty() ? "" : "named '" + wanted + "' ")
+                            + "can be used; found: " + listed(candidates));
 }
 
 // ---- opening --------------------------------------------------------------------------------
@@ -240,7 +229,6 @@ Result<std::unique_ptr<Device>> openDevice(const VulkanRendererOptions& options)
 {
     try {
         auto d = std::make_unique<Device>();
-        d->messages = std::make_unique<std::vector<std::string>>();
         startValidation(*d, options.validation);
         Result<Candidate> chosen = choose(findCandidates(d->instance), options.device);
         if (!chosen)

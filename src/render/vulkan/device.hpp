@@ -14,7 +14,8 @@ namespace cotan {
 // A device that is open. Everything made from it must be destroyed before it.
 struct Device {
     vk::raii::Context context;
-    std::unique_ptr<std::vector<std::string>> messages; // of the validation layer; address is kept
+    // Of the validation layer; their address is kept.
+    std::unique_ptr<std::vector<std::string>> messages = std::make_unique<std::vector<std::string>>();
     vk::raii::Instance instance{nullptr};
     vk::raii::DebugUtilsMessengerEXT messenger{nullptr};
     vk::raii::PhysicalDevice physical{nullptr};

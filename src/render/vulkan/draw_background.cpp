@@ -1,4 +1,7 @@
-// Where the scene can be in the picture, and what is behind and around it.
+// Where the scene can be in the picture, and what is behind and around it: also pictures of light on the device.
+
+#include <glm/gtc/packing.hpp>
+
 #include "draw_passes.hpp"
 
 namespace cotan {
@@ -16,6 +19,29 @@ int backdropOf(const View& view)
 }
 
 } // namespace
+
+void HeldPicture::hold(const Device& device, std::shared_ptr<const void> newOwner, const Image& picture)
+{
+    if (newOwner == owner)
+        return;
+    std::vector<glm::uint64> halves(picture.pixelCount());
+    for (std::size_t i = 0; i < halves.size(); ++i) {
+        const float* p = picture.floats() + 4 * i;
+        halves[i] = glm::packHalf4x16(glm::vec4(p[0], p[1], p[2], p[3]));
+    }
+    owner.reset();
+    texture = {};
+    memory = std::make_unique<Memory>(device);
+    texture = makeTexture(device, *memory,
+                          {.format = vk::Format::eR16G16B16A16Sfloat,
+                           .extent = {std::uint32_t(picture.width), std::uint32_t(picture.height)},
+                           .usage = vk::ImageUsageFlagBits::eSampled | vk::ImageUsageFlagBits::eTransferDst});
+    const std::array levels{std::as_bytes(std::span(halves))};
+    Uploader uploader(device, halves.size() * sizeof(glm::uint64));
+    uploader.image(texture, levels, sizeof(glm::uint64));
+    uploader.finish();
+    owner = std::move(newOwner);
+}
 
 vk::Rect2D rectangle(const PixelArea& a)
 {
@@ -38,15 +64,13 @@ void CommandRecorder::setAreas(DrawLists& lists, const View& view, const gpu::Co
 PipelineKey CommandRecorder::backgroundKey(const View& view) const
 {
     const PipelineKey picture = forwardKey(view, *targets_);
-    PipelineKey key;
-    key.pass = Pass::background;
-    key.toneMap = picture.toneMap;
-    key.tone = picture.tone;
-    key.backdrop = backdropOf(view);
-    key.ground = view.ground != nullptr;
-    key.samples = picture.samples;
-    key.format = picture.format;
-    return key;
+    return {.pass = Pass::background,
+            .toneMap = picture.toneMap,
+            .tone = picture.tone,
+            .backdrop = backdropOf(view),
+            .ground = view.ground != nullptr,
+            .samples = picture.samples,
+            .format = picture.format};
 }
 
 PipelineKey CommandRecorder::surroundKey(const View& view) const

@@ -3,27 +3,26 @@
 #include <algorithm>
 #include <array>
 #include <cstring>
-#include <optional>
 
-#include "cotan/portable.hpp"
 #include "cotan/vector.hpp"
 #include "scene/environment_map.hpp"
-#include "scene/ground_map.hpp"
 #include "scene/sample_places.hpp"
 
 namespace cotan {
 
 namespace {
 
+using Stage = vk::PipelineStageFlagBits2;
+using Access = vk::AccessFlagBits2;
+
 glm::uvec2 split(vk::DeviceAddress address)
 {
     return {static_cast<glm::uint>(address), static_cast<glm::uint>(address >> 32)};
 }
 
-// Addresses and flags of CotanDraw.
-void addMesh(gpu::CotanDraw& constants, const GpuScene& scene, const GpuMesh& mesh)
+// Addresses and flags of CotanDraw. base: of the buffer that the mesh lies in; 0: nobody asks for it.
+void addMesh(gpu::CotanDraw& constants, vk::DeviceAddress base, const GpuMesh& mesh)
 {
-    const vk::DeviceAddress base = scene.buffers[mesh.buffer].address;
     if (base != 0) {
         constants.positions = split(base + mesh.offsets[kPosition]);
         constants.indices = split(base + mesh.indices);
@@ -33,14 +32,9 @@ void addMesh(gpu::CotanDraw& constants, const GpuScene& scene, const GpuMesh& me
         return mesh.has(stream) ? static_cast<glm::uint>((mesh.offsets[stream] - mesh.offsets[kPosition]) / 4) : 0u;
     };
     constants.texcoords = {floatsOn(kTexcoord0), floatsOn(kTexcoord1)};
-    if (mesh.has(kTexcoord0))
-        constants.flags |= COTAN_DRAW_HAS_TEXCOORDS0;
-    if (mesh.has(kTexcoord1))
-        constants.flags |= COTAN_DRAW_HAS_TEXCOORDS1;
-    if (mesh.has(kTangent))
-        constants.flags |= COTAN_DRAW_HAS_TANGENTS;
-    if (mesh.has(kCotangentU) && mesh.has(kCotangentV))
-        constants.flags |= COTAN_DRAW_HAS_COTANGENTS;
+    constants.flags = (mesh.has(kTexcoord0) ? COTAN_DRAW_HAS_TEXCOORDS0 : 0u)
+        | (mesh.has(kTexcoord1) ? COTAN_DRAW_HAS_TEXCOORDS1 : 0u) | (mesh.has(kTangent) ? COTAN_DRAW_HAS_TANGENTS : 0u)
+        | (mesh.has(kCotangentU) && mesh.has(kCotangentV) ? COTAN_DRAW_HAS_COTANGENTS : 0u);
 }
 
 // The maps that a pipeline reads, of those that a material has.
@@ -56,13 +50,12 @@ std::uint32_t mapsNeeded(const PipelineKey& key)
 
 PipelineKey forwardKey(const View& view, const Targets& targets)
 {
-    PipelineKey key;
-    key.frame = view.frame;
-    key.output = view.output;
-    key.coarse = view.derivatives == Derivatives::coarse;
-    key.normalMaps = view.normalMaps;
-    key.samples = targets.kind().samples;
-    key.format = targets.kind().format;
+    PipelineKey key{.frame = view.frame,
+                    .output = view.output,
+                    .coarse = view.derivatives == Derivatives::coarse,
+                    .normalMaps = view.normalMaps,
+                    .samples = targets.kind().samples,
+                    .format = targets.kind().format};
     if (view.output == Output::shaded) {
         key.shading = view.shading;
         key.environment = view.environment;
@@ -81,18 +74,14 @@ CommandRecorder::CommandRecorder(const Device& device, const Layouts& layouts)
     : device_(&device), layouts_(&layouts), pipelines_(device, layouts), commands_(device), memory_(device)
 {
     viewBuffer_ = makeHostBuffer(device, memory_, sizeof(gpu::CotanView), vk::BufferUsageFlagBits::eUniformBuffer);
+    depthSampler_ = vk::raii::Sampler(device.device, vk::SamplerCreateInfo());
     vk::SamplerCreateInfo sampler;
-    sampler.addressModeU = vk::SamplerAddressMode::eClampToEdge;
-    sampler.addressModeV = vk::SamplerAddressMode::eClampToEdge;
-    sampler.magFilter = sampler.minFilter = vk::Filter::eLinear; // of what comparisons give
-    sampler.compareEnable = VK_TRUE;
+    sampler.magFilter = sampler.minFilter = vk::Filter::eLinear;
+    sampler.addressModeU = sampler.addressModeV = vk::SamplerAddressMode::eClampToEdge;
+    pictureSampler_ = vk::raii::Sampler(device.device, sampler);
+    sampler.compareEnable = VK_TRUE; // filters what comparisons give
     sampler.compareOp = vk::CompareOp::eLessOrEqual;
     shadowSampler_ = vk::raii::Sampler(device.device, sampler);
-    depthSampler_ = vk::raii::Sampler(device.device, vk::SamplerCreateInfo());
-    vk::SamplerCreateInfo filtering;
-    filtering.magFilter = filtering.minFilter = vk::Filter::eLinear;
-    filtering.addressModeU = filtering.addressModeV = vk::SamplerAddressMode::eClampToEdge;
-    pictureSampler_ = vk::raii::Sampler(device.device, filtering);
     constexpr std::uint32_t kSets = 2;
     const std::array sizes{vk::DescriptorPoolSize(vk::DescriptorType::eUniformBuffer, kSets),
                            vk::DescriptorPoolSize(vk::DescriptorType::eStorageBuffer, kSets * 3),
@@ -113,7 +102,9 @@ CommandRecorder::DrawLists CommandRecorder::makeLists(const GpuScene& scene, con
         item.mesh = &scene.meshes[instance.mesh];
         item.material = &scene.materials[std::size_t(item.mesh->material)];
         item.constants = drawConstants(instance.toWorld, axes.eye);
-        addMesh(item.constants, scene, *item.mesh);
+        const Buffer& buffer = scene.buffers[item.mesh->buffer];
+        item.buffer = *buffer.buffer;
+        addMesh(item.constants, buffer.address, *item.mesh);
         // A mirroring matrix and a raster whose rows run upward each turn the winding round.
         item.clockwise = (item.constants.normalX.w < 0) != view.rowsUpward;
         item.distance =
@@ -149,8 +140,11 @@ void CommandRecorder::prepare(const View& view, const CameraAxes& axes, const gp
         environment_.hold(*device_, view.environmentMap, view.environmentMap->atlas);
     if (view.ground)
         ground_.hold(*device_, view.ground, view.ground->shares);
-    if (layered)
-        prepareLayers();
+    const std::uint32_t width = targets_->kind().width;
+    if (layered && !(layers_ && layers_->width() == width)) {
+        layers_.reset(); // its memory may be needed for the new ones
+        layers_ = std::make_unique<LayerLists>(*device_, width);
+    }
     writePictureSet(layered);
 }
 
@@ -190,21 +184,6 @@ void CommandRecorder::writePictureSet(bool layered)
     write(pictureSet_, shadow, environment);
     write(composeSet_, layered && targets_->multisampled() ? depth : shadow,
           targets_->resolves() ? samples : environment);
-}
-
-void CommandRecorder::drawItem(const vk::raii::CommandBuffer& commands, const GpuScene& scene, const Item& item) const
-{
-    const GpuMesh& mesh = *item.mesh;
-    commands.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, layouts_->pipelineOf(item.material->extended()), 1,
-                                item.material->set, {});
-    std::array<vk::Buffer, kStreamCount> buffers;
-    buffers.fill(*scene.buffers[mesh.buffer].buffer);
-    // Every range ends with its buffer; the sizes are only stated to be allowed to give strides.
-    commands.bindVertexBuffers2(0, buffers, mesh.offsets, {}, mesh.strides);
-    commands.bindIndexBuffer(buffers[0], mesh.indices, vk::IndexType::eUint32);
-    commands.pushConstants<gpu::CotanDraw>(layouts_->pipelineOf(item.material->extended()), kBothStages, 0,
-                                           item.constants);
-    commands.drawIndexed(mesh.indexCount, 1, 0, 0, 0);
 }
 
 // What draws that one in the pass of the key.
@@ -249,8 +228,8 @@ void CommandRecorder::beginPipelines(const DrawLists& lists, const View& view, b
     pipelines_.begin(keys);
 }
 
-void CommandRecorder::drawItems(const vk::raii::CommandBuffer& commands, const GpuScene& scene,
-                                const std::vector<Item>& items, PipelineKey key)
+void CommandRecorder::drawItems(const vk::raii::CommandBuffer& commands, const std::vector<Item>& items,
+                                PipelineKey key)
 {
     std::optional<PipelineKey> bound;
     for (const Item& item : items) {
@@ -261,7 +240,16 @@ void CommandRecorder::drawItems(const vk::raii::CommandBuffer& commands, const G
         const bool both = isShadow(key.pass) || item.material->doubleSided;
         commands.setCullMode(both ? vk::CullModeFlagBits::eNone : vk::CullModeFlagBits::eBack);
         commands.setFrontFace(item.clockwise ? vk::FrontFace::eClockwise : vk::FrontFace::eCounterClockwise);
-        drawItem(commands, scene, item);
+        const GpuMesh& mesh = *item.mesh;
+        const vk::PipelineLayout layout = layouts_->pipelineOf(item.material->extended());
+        commands.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, layout, 1, item.material->set, {});
+        std::array<vk::Buffer, kStreamCount> buffers;
+        buffers.fill(item.buffer);
+        // Every range ends with its buffer; the sizes are only stated to be allowed to give strides.
+        commands.bindVertexBuffers2(0, buffers, mesh.offsets, {}, mesh.strides);
+        commands.bindIndexBuffer(item.buffer, mesh.indices, vk::IndexType::eUint32);
+        commands.pushConstants<gpu::CotanDraw>(layout, kBothStages, 0, item.constants);
+        commands.drawIndexed(mesh.indexCount, 1, 0, 0, 0);
     }
 }
 
@@ -274,18 +262,67 @@ void CommandRecorder::drawOver(const vk::raii::CommandBuffer& commands, const Pi
     commands.draw(3, 1, 0, 0);
 }
 
+// A single texel where no shadow is wanted: the descriptor must exist all the same.
+void CommandRecorder::prepareShadowMap(bool needed)
+{
+    const std::uint32_t side = needed ? kShadowSize : 1;
+    if (shadowMap_.extent.width >= side)
+        return;
+    shadowMap_ = {};
+    shadowDrawn_.reset();
+    shadowMemory_ = std::make_unique<Memory>(*device_);
+    shadowMap_ =
+        makeTexture(*device_, *shadowMemory_,
+                    {.format = vk::Format::eD32Sfloat,
+                     .extent = {side, side},
+                     .usage = vk::ImageUsageFlagBits::eDepthStencilAttachment | vk::ImageUsageFlagBits::eSampled,
+                     .aspect = vk::ImageAspectFlagBits::eDepth});
+}
+
+// Kept from one picture to the next, as long as it shows the same.
+void CommandRecorder::recordShadow(const vk::raii::CommandBuffer& commands, const DrawLists& lists,
+                                   const ShadowView& shown)
+{
+    if (shadowDrawn_ == shown)
+        return;
+    constexpr auto kDepth = vk::ImageAspectFlagBits::eDepth;
+    const auto stages = Stage::eEarlyFragmentTests | Stage::eLateFragmentTests;
+    const auto write = Access::eDepthStencilAttachmentRead | Access::eDepthStencilAttachmentWrite;
+    const bool draws = shadowMap_.extent.width > 1;
+    shadowDrawn_.reset();
+    if (draws)
+        shadowDrawn_ = shown;
+    transition(commands, *shadowMap_.image, kDepth, vk::ImageLayout::eUndefined,
+               vk::ImageLayout::eDepthAttachmentOptimal, Stage::eFragmentShader, {}, stages, write);
+    if (draws) {
+        const vk::RenderingAttachmentInfo depth(*shadowMap_.view, vk::ImageLayout::eDepthAttachmentOptimal, {}, {}, {},
+                                                vk::AttachmentLoadOp::eClear, vk::AttachmentStoreOp::eStore,
+                                                vk::ClearDepthStencilValue(1.0f, 0));
+        const vk::Rect2D area({0, 0}, shadowMap_.extent);
+        commands.beginRendering(vk::RenderingInfo({}, area, 1, 0, 0, nullptr, &depth));
+        commands.setViewport(0, vk::Viewport(0, 0, kShadowSize, kShadowSize, 0.0f, 1.0f));
+        commands.setScissor(0, area);
+        drawItems(commands, lists.opaque, {.pass = Pass::shadow});
+        drawItems(commands, lists.mask, {.pass = Pass::shadowMask});
+        drawItems(commands, lists.veils, {.pass = Pass::shadowMask});
+        commands.endRendering();
+    }
+    transition(commands, *shadowMap_.image, kDepth, vk::ImageLayout::eDepthAttachmentOptimal,
+               vk::ImageLayout::eShaderReadOnlyOptimal, stages, write, Stage::eFragmentShader,
+               Access::eShaderSampledRead);
+}
+
 // Everything that writes depth, and the background.
-void CommandRecorder::recordPicture(const vk::raii::CommandBuffer& commands, const GpuScene& scene,
-                                    const DrawLists& lists, const View& view)
+void CommandRecorder::recordPicture(const vk::raii::CommandBuffer& commands, const DrawLists& lists, const View& view)
 {
     const PipelineKey key = forwardKey(view, *targets_);
     const bool shaded = view.output == Output::shaded;
-    drawItems(commands, scene, lists.opaque, key);
-    drawItems(commands, scene, lists.mask, key);
+    drawItems(commands, lists.opaque, key);
+    drawItems(commands, lists.mask, key);
     if (shaded && (view.background || view.ground))
         drawOver(commands, backgroundKey(view));
     if (!shaded)
-        drawItems(commands, scene, lists.translucent, key);
+        drawItems(commands, lists.translucent, key);
 }
 
 const vk::raii::CommandBuffer& CommandRecorder::begin()

@@ -4,9 +4,7 @@
 #include <memory>
 #include <optional>
 
-#include "cotan/frame.hpp"
 #include "cotan/render.hpp"
-#include "layers.hpp"
 #include "pipeline.hpp"
 #include "scene_upload.hpp"
 #include "targets.hpp"
@@ -26,6 +24,35 @@ struct HeldPicture {
     Texture2D texture;
 
     void hold(const Device& device, std::shared_ptr<const void> newOwner, const Image& picture);
+};
+
+// Where translucent fragments are kept until they are composed: lists for a band of the picture's rows.
+class LayerLists {
+public:
+    // width: of the picture, in pixels.
+    LayerLists(const Device& device, std::uint32_t width);
+
+    std::uint32_t width() const { return width_; }
+    // Rows that a band may have, at least 1.
+    std::uint32_t maxRows() const;
+    std::uint32_t capacity() const; // in layers
+
+    const Buffer& lists() const { return lists_; }
+    const Buffer& layers() const { return layers_; }
+
+    // Empties the lists, for the band of `rows` that starts at `top`.
+    void clear(const vk::raii::CommandBuffer& commands, std::uint32_t top, std::uint32_t rows) const;
+    // Makes what was drawn readable for fragments to come, and the count for the host.
+    void finish(const vk::raii::CommandBuffer& commands) const;
+    // How many layers were drawn. Only after the commands have been waited for. Over the capacity, some were not kept.
+    std::uint32_t count() const;
+
+private:
+    Memory memory_;
+    std::uint32_t width_;
+    Buffer lists_;
+    Buffer layers_;
+    Buffer count_; // host
 };
 
 // What pictures share: constants, shadow map, targets; kept from one picture to the next.
@@ -49,6 +76,7 @@ private:
     struct Item {
         gpu::CotanDraw constants{};
         const GpuMesh* mesh = nullptr;
+        vk::Buffer buffer; // that the mesh lies in
         const GpuMaterial* material = nullptr;
         bool clockwise = false; // front faces run clockwise over the raster
         double distance = 0;    // of the centre from the eye
@@ -70,12 +98,9 @@ private:
     void beginPipelines(const DrawLists& lists, const View& view, bool layered);
     void prepare(const View& view, const CameraAxes& axes, const gpu::CotanView& constants, bool layered);
     void prepareShadowMap(bool needed);
-    void prepareLayers();
     void writePictureSet(bool layered);
-    void recordShadow(const vk::raii::CommandBuffer& commands, const GpuScene& scene, const DrawLists& lists,
-                      const ShadowView& shown);
-    void recordPicture(const vk::raii::CommandBuffer& commands, const GpuScene& scene, const DrawLists& lists,
-                       const View& view);
+    void recordShadow(const vk::raii::CommandBuffer& commands, const DrawLists& lists, const ShadowView& shown);
+    void recordPicture(const vk::raii::CommandBuffer& commands, const DrawLists& lists, const View& view);
     static PipelineKey keyOf(PipelineKey key, const Item& item);
     PipelineKey layersKey(const View& view) const;
     PipelineKey composeKey() const;
@@ -86,12 +111,10 @@ private:
     void finish(const vk::raii::CommandBuffer& commands, const PixelArea& area);
     void drawOver(const vk::raii::CommandBuffer& commands, const PipelineKey& key);
     const vk::raii::CommandBuffer& begin();
-    Status drawLayers(const GpuScene& scene, const DrawLists& lists, const View& view);
-    std::uint32_t keepLayers(const GpuScene& scene, const DrawLists& lists, const View& view, const vk::Rect2D& band);
+    Status drawLayers(const DrawLists& lists, const View& view);
+    std::uint32_t keepLayers(const DrawLists& lists, const View& view, const vk::Rect2D& band);
     void composeLayers(const vk::Rect2D& band);
-    void drawItem(const vk::raii::CommandBuffer& commands, const GpuScene& scene, const Item& item) const;
-    void drawItems(const vk::raii::CommandBuffer& commands, const GpuScene& scene, const std::vector<Item>& items,
-                   PipelineKey key);
+    void drawItems(const vk::raii::CommandBuffer& commands, const std::vector<Item>& items, PipelineKey key);
 
     const Device* device_;
     const Layouts* layouts_;

@@ -1,8 +1,9 @@
-#include "layers.hpp"
-
+// Translucent fragments: kept in lists, a list for each pixel, and composed in the order of their distance.
 #include <algorithm>
 #include <cstring>
+#include <string>
 
+#include "draw_passes.hpp"
 #include "gpu_structs.hpp"
 
 namespace cotan {
@@ -65,6 +66,71 @@ std::uint32_t LayerLists::count() const
     std::uint32_t count = 0;
     std::memcpy(&count, count_.mapped, sizeof count);
     return count;
+}
+
+PipelineKey CommandRecorder::layersKey(const View& view) const
+{
+    PipelineKey key = forwardKey(view, *targets_);
+    key.pass = Pass::layers;
+    key.format = vk::Format::eUndefined;
+    return key;
+}
+
+PipelineKey CommandRecorder::composeKey() const
+{
+    return {.pass = Pass::compose, .samples = targets_->kind().samples, .format = targets_->kind().format};
+}
+
+// Draws the translucent fragments of a band into their lists; returns how many there are.
+std::uint32_t CommandRecorder::keepLayers(const DrawLists& lists, const View& view, const vk::Rect2D& band)
+{
+    const vk::raii::CommandBuffer& commands = begin();
+    layers_->clear(commands, static_cast<std::uint32_t>(band.offset.y), band.extent.height);
+    targets_->beginLayers(commands, band);
+    drawItems(commands, lists.translucent, layersKey(view));
+    commands.endRendering();
+    layers_->finish(commands);
+    commands_.submitAndWait();
+    return layers_->count();
+}
+
+// Lays the lists of a band over the picture, one sample after the other: so they need no device that
+// shades each sample.
+void CommandRecorder::composeLayers(const vk::Rect2D& band)
+{
+    const PipelineKey key = composeKey();
+    const vk::raii::CommandBuffer& commands = begin();
+    commands.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, *layouts_->pipeline, 0, composeSet_, {});
+    targets_->beginCompose(commands, band);
+    for (std::uint32_t sample = 0; sample < static_cast<std::uint32_t>(key.samples); ++sample) {
+        commands.pushConstants<std::uint32_t>(*layouts_->pipeline, kBothStages, 0, sample);
+        drawOver(commands, key);
+    }
+    commands.endRendering();
+    commands_.submitAndWait();
+}
+
+// The picture in bands of rows that are low enough for their layers to find room.
+Status CommandRecorder::drawLayers(const DrawLists& lists, const View& view)
+{
+    const PixelArea& area = lists.translucentArea;
+    const auto width = static_cast<std::uint32_t>(area.x1 - area.x0), end = static_cast<std::uint32_t>(area.y1);
+    std::uint32_t rows = layers_->maxRows();
+    for (auto top = static_cast<std::uint32_t>(area.y0); top < end && width > 0;) {
+        const std::uint32_t height = std::min(rows, end - top);
+        const vk::Rect2D band({area.x0, std::int32_t(top)}, {width, height});
+        const std::uint32_t count = keepLayers(lists, view, band);
+        if (count <= layers_->capacity()) {
+            composeLayers(band);
+            top += height;
+        } else if (height > 1) {
+            rows = height / 2;
+        } else {
+            return unavailableError(std::to_string(count) + " translucent fragments in one row of pixels: at most "
+                                    + std::to_string(layers_->capacity()) + " can be put in order");
+        }
+    }
+    return Done{};
 }
 
 } // namespace cotan

@@ -12,11 +12,6 @@ using Access = vk::AccessFlagBits2;
 
 constexpr vk::DeviceSize kBlockSize = vk::DeviceSize(32) << 20;
 
-vk::DeviceSize aligned(vk::DeviceSize value, vk::DeviceSize alignment)
-{
-    return (value + alignment - 1) / alignment * alignment;
-}
-
 Buffer makeBuffer(const Device& device, Memory& memory, vk::DeviceSize size, vk::BufferUsageFlags usage,
                   vk::MemoryPropertyFlags needed, vk::MemoryPropertyFlags wanted)
 {
@@ -90,19 +85,10 @@ Buffer makeHostBuffer(const Device& device, Memory& memory, vk::DeviceSize size,
 
 Texture2D makeTexture(const Device& device, Memory& memory, const TextureInfo& info)
 {
-    Texture2D t;
-    t.format = info.format;
-    t.extent = info.extent;
-    t.levels = info.levels;
-    vk::ImageCreateInfo create;
-    create.imageType = vk::ImageType::e2D;
-    create.format = info.format;
-    create.extent = vk::Extent3D(info.extent, 1);
-    create.mipLevels = info.levels;
-    create.arrayLayers = 1;
-    create.samples = info.samples;
-    create.usage = info.usage;
-    t.image = vk::raii::Image(device.device, create);
+    Texture2D t{.format = info.format, .extent = info.extent, .levels = info.levels};
+    t.image = vk::raii::Image(device.device,
+                              vk::ImageCreateInfo({}, vk::ImageType::e2D, info.format, vk::Extent3D(info.extent, 1),
+                                                  info.levels, 1, info.samples, vk::ImageTiling::eOptimal, info.usage));
     const Memory::Piece piece =
         memory.allocate(t.image.getMemoryRequirements(), {}, vk::MemoryPropertyFlagBits::eDeviceLocal);
     t.image.bindMemory(piece.memory, piece.offset);

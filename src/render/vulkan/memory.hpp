@@ -9,6 +9,12 @@
 
 namespace cotan {
 
+// The next multiple.
+inline vk::DeviceSize aligned(vk::DeviceSize value, vk::DeviceSize alignment)
+{
+    return (value + alignment - 1) / alignment * alignment;
+}
+
 // Memory in blocks, handed out from front to back and given back all at once.
 class Memory {
 public:

@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "core/parallel.hpp"
+#include "cotan_shaders.h"
 #include "gpu_structs.hpp"
 #include "scene/sample_places.hpp"
 #include "scene_upload.hpp"
@@ -29,20 +30,20 @@ struct Specialization {
     vk::SpecializationInfo info;
 
     explicit Specialization(const PipelineKey& key)
-        : values{static_cast<std::uint32_t>(key.frame),
-                 static_cast<std::uint32_t>(key.output),
-                 static_cast<std::uint32_t>(key.shading),
-                 static_cast<std::uint32_t>(key.alphaMode),
+        : values{std::uint32_t(key.frame),
+                 std::uint32_t(key.output),
+                 std::uint32_t(key.shading),
+                 std::uint32_t(key.alphaMode),
                  key.coarse,
                  key.normalMaps,
                  key.environment,
                  key.shadows,
                  key.toneMap,
                  key.maps,
-                 static_cast<std::uint32_t>(key.tone),
+                 std::uint32_t(key.tone),
                  key.environmentMap,
                  key.softShadows,
-                 static_cast<std::uint32_t>(key.backdrop),
+                 std::uint32_t(key.backdrop),
                  key.ground,
                  key.samples != vk::SampleCountFlagBits::e1,
                  key.specularAntialiasing,
@@ -51,41 +52,51 @@ struct Specialization {
     {
         for (std::uint32_t i = 0; i < entries.size(); ++i)
             entries[i] = vk::SpecializationMapEntry(i, i * 4, 4);
-        info = vk::SpecializationInfo(static_cast<std::uint32_t>(entries.size()), entries.data(), sizeof values,
-                                      values.data());
+        info = vk::SpecializationInfo(std::uint32_t(entries.size()), entries.data(), sizeof values, values.data());
     }
     Specialization(const Specialization&) = delete; // info points into this
 };
 
 struct StageShaders {
-    Shader vertex;
-    std::optional<Shader> fragment;
+    Spirv vertex;
+    Spirv fragment; // empty: none
 };
 
-// The shader of a surface. exact: fragments are told their triangle.
-Shader forwardShader(const PipelineKey& key, bool exact)
+// The shader of a surface, for opaque materials, masked ones and translucent layers; of these for materials without and
+// with what extensions add; of these without and with the frame `exact` (needs the features geometryShader, for
+// gl_PrimitiveID, and buffer addresses). exact: fragments are told their triangle.
+Spirv forwardShader(const PipelineKey& key, bool exact)
 {
+    static constexpr Spirv kShaders[3][2][2] = {
+        {{cotanForwardFrag, cotanForwardExactFrag}, {cotanForwardExtendedFrag, cotanForwardExactExtendedFrag}},
+        {{cotanForwardMaskedFrag, cotanForwardExactMaskedFrag},
+         {cotanForwardExtendedMaskedFrag, cotanForwardExactExtendedMaskedFrag}},
+        {{cotanForwardLayersFrag, cotanForwardExactLayersFrag},
+         {cotanForwardExtendedLayersFrag, cotanForwardExactExtendedLayersFrag}},
+    };
     const int kind = key.pass == Pass::layers ? 2 : key.alphaMode == AlphaMode::mask ? 1 : 0;
-    return Shader(int(Shader::forwardFrag) + 4 * kind + (key.extended ? 2 : 0) + (exact ? 1 : 0));
+    return kShaders[kind][key.extended ? 1 : 0][exact ? 1 : 0];
 }
 
 // exact: the device can tell fragments their triangle.
 StageShaders shadersOf(const PipelineKey& key, bool exact)
 {
     switch (key.pass) {
-    case Pass::shadow: return {Shader::shadowVert, std::nullopt};
-    case Pass::shadowMask: return {Shader::shadowVert, Shader::shadowFrag};
+    case Pass::shadow: return {cotanShadowVert, {}};
+    case Pass::shadowMask: return {cotanShadowVert, cotanShadowFrag};
     case Pass::surround:
-    case Pass::background: return {Shader::backgroundVert, Shader::backgroundFrag};
-    case Pass::layers: return {Shader::forwardVert, forwardShader(key, exact)};
+    case Pass::background: return {cotanBackgroundVert, cotanBackgroundFrag};
+    case Pass::layers: return {cotanForwardVert, forwardShader(key, exact)};
     case Pass::compose:
-        return {Shader::composeVert,
-                key.samples == vk::SampleCountFlagBits::e1 ? Shader::composeFrag : Shader::composeMultisampledFrag};
+        return {cotanComposeVert,
+                key.samples == vk::SampleCountFlagBits::e1 ? Spirv(cotanComposeFrag)
+                                                           : Spirv(cotanComposeMultisampledFrag)};
     case Pass::resolve:
-        return {Shader::composeVert, key.multisampledSource ? Shader::resolveMultisampledFrag : Shader::resolveFrag};
+        return {cotanComposeVert,
+                key.multisampledSource ? Spirv(cotanResolveMultisampledFrag) : Spirv(cotanResolveFrag)};
     case Pass::forward: break;
     }
-    return {Shader::forwardVert, forwardShader(key, info(key.frame).source == FrameSource::triangle)};
+    return {cotanForwardVert, forwardShader(key, info(key.frame).source == FrameSource::triangle)};
 }
 
 bool hasDepth(Pass pass) { return pass != Pass::compose && pass != Pass::surround && pass != Pass::resolve; }
@@ -189,13 +200,14 @@ vk::DescriptorSet allocateSet(const Device& device, const vk::raii::DescriptorPo
     return (*device.device).allocateDescriptorSets(info, *device.device.getDispatcher())[0];
 }
 
-vk::ShaderModule Pipelines::module(Shader shader)
+vk::ShaderModule Pipelines::module(Spirv code)
 {
-    auto found = modules_.find(shader);
+    if (code.empty())
+        return {};
+    auto found = modules_.find(code.data());
     if (found == modules_.end()) {
-        const std::span<const std::uint32_t> code = spirv(shader);
         const vk::ShaderModuleCreateInfo info({}, code.size_bytes(), code.data());
-        found = modules_.emplace(shader, vk::raii::ShaderModule(device_->device, info)).first;
+        found = modules_.emplace(code.data(), vk::raii::ShaderModule(device_->device, info)).first;
     }
     return *found->second;
 }
@@ -203,7 +215,7 @@ vk::ShaderModule Pipelines::module(Shader shader)
 Pipelines::Stages Pipelines::stagesOf(const PipelineKey& key)
 {
     const StageShaders shaders = shadersOf(key, device_->exact);
-    return {module(shaders.vertex), shaders.fragment ? module(*shaders.fragment) : vk::ShaderModule()};
+    return {module(shaders.vertex), module(shaders.fragment)};
 }
 
 vk::raii::Pipeline Pipelines::make(const PipelineKey& key, const Stages& modules) const

@@ -1,15 +1,15 @@
-// Layouts and pipelines. Pipelines are made when first needed: on a CPU driver each costs a
-// compilation of the whole fragment shader.
+// Layouts and pipelines. Pipelines are made when first needed: on a CPU driver each costs a compilation of the whole
+// fragment shader.
 #pragma once
 
 #include <compare>
 #include <future>
 #include <map>
+#include <span>
 #include <vector>
 
 #include "cotan/view.hpp"
 #include "device.hpp"
-#include "shaders.hpp"
 
 namespace cotan {
 
@@ -76,6 +76,8 @@ struct PipelineKey {
     auto operator<=>(const PipelineKey&) const = default;
 };
 
+using Spirv = std::span<const std::uint32_t>; // words of a compiled shader
+
 class Pipelines {
 public:
     Pipelines(const Device& device, const Layouts& layouts) : device_(&device), layouts_(&layouts) {}
@@ -96,13 +98,13 @@ private:
         vk::raii::Pipeline pipeline{nullptr};
     };
 
-    vk::ShaderModule module(Shader shader);
+    vk::ShaderModule module(Spirv code);
     Stages stagesOf(const PipelineKey& key);
     vk::raii::Pipeline make(const PipelineKey& key, const Stages& modules) const;
 
     const Device* device_;
     const Layouts* layouts_;
-    std::map<Shader, vk::raii::ShaderModule> modules_;
+    std::map<const std::uint32_t*, vk::raii::ShaderModule> modules_;
     std::map<PipelineKey, Entry> entries_;
     std::vector<std::future<void>> workers_; // the last member: they use the others
 };

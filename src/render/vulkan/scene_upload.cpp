@@ -54,55 +54,50 @@ glm::vec2 originOf(const std::vector<glm::vec2>& uv)
     return {originOf(low.x, high.x), originOf(low.y, high.y)};
 }
 
-// The uv of a mesh near zero: values minus origin (xy set 0, zw set 1). Differences of uv far from
-// zero would lose their digits in the rasteriser.
-struct RelativeTexcoords {
-    std::array<std::vector<glm::vec2>, 2> values;
-    glm::vec4 origin{0};
-
-    explicit RelativeTexcoords(const Mesh& mesh) : values(mesh.texcoords)
-    {
-        for (int set = 0; set < 2; ++set) {
-            const glm::vec2 o = originOf(mesh.texcoords[std::size_t(set)]);
-            for (glm::vec2& c : values[std::size_t(set)])
-                c -= o;
-            origin[2 * set] = o.x;
-            origin[2 * set + 1] = o.y;
-        }
-    }
-};
-
-// A stream's bytes must outlive what is returned; so must `texcoords`.
-std::array<StreamData, kStreamCount> streamsOf(const Mesh& mesh, const RelativeTexcoords& texcoords)
-{
-    const std::size_t n = mesh.vertexCount();
-    return {streamOf(mesh.positions, n),
-            streamOf(mesh.normals, n),
-            streamOf(texcoords.values[0], n),
-            streamOf(texcoords.values[1], n),
-            streamOf(mesh.colors, n),
-            streamOf(mesh.tangents, n),
-            streamOf(mesh.cotangentsU, n),
-            streamOf(mesh.cotangentsV, n),
-            StreamData{bytesOf(std::span(&texcoords.origin, 1)), 0}};
-}
-
 bool drawable(const glm::vec3& p) { return std::abs(p.x) + std::abs(p.y) + std::abs(p.z) <= 1e37f; }
 
-// The triangles that can be drawn.
-std::vector<std::uint32_t> usableIndices(const Mesh& mesh)
-{
-    const std::size_t n = mesh.vertexCount();
-    const auto usable = [&](std::uint32_t i) { return i < n && drawable(mesh.positions[i]); };
-    std::vector<std::uint32_t> result;
-    result.reserve(mesh.indices.size());
-    for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
-        const std::uint32_t* t = &mesh.indices[i];
-        if (usable(t[0]) && usable(t[1]) && usable(t[2]))
-            result.insert(result.end(), t, t + 3);
+// What of a mesh goes to the device.
+struct MeshSource {
+    const Mesh* mesh;
+    // The uv near zero: values minus origin (xy set 0, zw set 1). Differences of uv far from zero would lose their
+    // digits in the rasteriser.
+    std::array<std::vector<glm::vec2>, 2> texcoords;
+    glm::vec4 texcoordOrigin{0};
+    std::vector<std::uint32_t> indices; // of the triangles that can be drawn
+
+    explicit MeshSource(const Mesh& source) : mesh(&source), texcoords(source.texcoords)
+    {
+        for (int set = 0; set < 2; ++set) {
+            const glm::vec2 o = originOf(source.texcoords[std::size_t(set)]);
+            for (glm::vec2& c : texcoords[std::size_t(set)])
+                c -= o;
+            texcoordOrigin[2 * set] = o.x;
+            texcoordOrigin[2 * set + 1] = o.y;
+        }
+        const std::size_t n = source.vertexCount();
+        const auto usable = [&](std::uint32_t i) { return i < n && drawable(source.positions[i]); };
+        indices.reserve(source.indices.size());
+        for (std::size_t i = 0; i + 2 < source.indices.size(); i += 3) {
+            const std::uint32_t* t = &source.indices[i];
+            if (usable(t[0]) && usable(t[1]) && usable(t[2]))
+                indices.insert(indices.end(), t, t + 3);
+        }
     }
-    return result;
-}
+
+    std::array<StreamData, kStreamCount> streams() const // refer to this
+    {
+        const std::size_t n = mesh->vertexCount();
+        return {streamOf(mesh->positions, n),
+                streamOf(mesh->normals, n),
+                streamOf(texcoords[0], n),
+                streamOf(texcoords[1], n),
+                streamOf(mesh->colors, n),
+                streamOf(mesh->tangents, n),
+                streamOf(mesh->cotangentsU, n),
+                streamOf(mesh->cotangentsV, n),
+                StreamData{bytesOf(std::span(&texcoordOrigin, 1)), 0}};
+    }
+};
 
 // What the shaders' floats can take the square of.
 Bounds withinReach(const Bounds& box)
@@ -111,43 +106,34 @@ Bounds withinReach(const Bounds& box)
     return {glm::clamp(box.low, -kFarthest, kFarthest), glm::clamp(box.high, -kFarthest, kFarthest)};
 }
 
-vk::DeviceSize padded(std::size_t bytes) { return (vk::DeviceSize(bytes) + 15) / 16 * 16; }
-
 // Gives every stream and the indices of the mesh their place from `offset` on; returns the end.
-vk::DeviceSize place(GpuMesh& gpu, const Mesh& mesh, const RelativeTexcoords& texcoords, vk::DeviceSize offset)
+vk::DeviceSize place(GpuMesh& gpu, const MeshSource& source, vk::DeviceSize offset)
 {
-    const std::array<StreamData, kStreamCount> streams = streamsOf(mesh, texcoords);
+    const std::array<StreamData, kStreamCount> streams = source.streams();
     for (std::size_t s = 0; s < kStreamCount; ++s) {
         gpu.strides[s] = streams[s].stride;
         gpu.offsets[s] = !streams[s].bytes.empty() ? offset : s == kColor ? 0 : kZeroOffset;
-        offset += padded(streams[s].bytes.size());
+        offset += aligned(streams[s].bytes.size(), 16);
     }
     gpu.indices = offset;
-    return offset + padded(gpu.indexCount * sizeof(std::uint32_t));
-}
-
-bool drawable(const Scene& scene, const Instance& instance)
-{
-    if (instance.mesh < 0 || std::size_t(instance.mesh) >= scene.meshes.size())
-        return false;
-    const int material = scene.meshes[std::size_t(instance.mesh)].material;
-    return material >= 0 && std::size_t(material) < scene.materials.size();
+    return offset + aligned(gpu.indexCount * sizeof(std::uint32_t), 16);
 }
 
 gpu::CotanTextureUse useConstants(const Texture& use, bool present)
 {
-    gpu::CotanTextureUse g{};
-    g.uRow = gpu::vec4(use.uRow, use.texcoord == 1 ? 1.0f : 0.0f);
-    g.vRow = gpu::vec4(use.vRow, present ? 1.0f : 0.0f);
-    return g;
+    return {gpu::vec4(use.uRow, use.texcoord == 1 ? 1.0f : 0.0f), gpu::vec4(use.vRow, present ? 1.0f : 0.0f)};
+}
+
+bool sameUv(const Texture& a, const Texture& b)
+{
+    return a.texcoord == b.texcoord && a.uRow == b.uRow && a.vRow == b.vRow;
 }
 
 bool sameUse(const Texture& a, const Texture& b)
 {
-    const Sampler& s = a.sampler;
-    const Sampler& t = b.sampler;
-    return a.image == b.image && a.texcoord == b.texcoord && a.uRow == b.uRow && a.vRow == b.vRow && s.wrapU == t.wrapU
-        && s.wrapV == t.wrapV && s.magnify == t.magnify && s.minify == t.minify && s.mip == t.mip;
+    const Sampler &s = a.sampler, &t = b.sampler;
+    return a.image == b.image && sameUv(a, b) && s.wrapU == t.wrapU && s.wrapV == t.wrapV && s.magnify == t.magnify
+        && s.minify == t.minify && s.mip == t.mip;
 }
 
 // The maps and layers that are there.
@@ -161,16 +147,13 @@ std::uint32_t mapsOf(const Material& m, const Textures& textures)
     const std::uint32_t both = COTAN_MAP_METALLIC_ROUGHNESS | COTAN_MAP_OCCLUSION;
     if ((maps & both) == both && sameUse(m.metallicRoughnessMap, m.occlusionMap))
         maps = (maps & ~COTAN_MAP_OCCLUSION) | COTAN_MAP_OCCLUSION_SHARED;
-    if (m.coat.strength > 0)
-        maps |= COTAN_LAYER_COAT;
-    if (m.glossy())
-        maps |= COTAN_LAYER_GLOSS;
-    if (m.anisotropy.strength > 0)
-        maps |= COTAN_LAYER_ANISOTROPY;
-    if (m.transmission.strength > 0)
-        maps |= COTAN_LAYER_TRANSMISSION;
-    if (m.sheen.present())
-        maps |= COTAN_LAYER_SHEEN;
+    const std::pair<bool, std::uint32_t> layers[] = {{m.coat.strength > 0, COTAN_LAYER_COAT},
+                                                     {m.glossy(), COTAN_LAYER_GLOSS},
+                                                     {m.anisotropy.strength > 0, COTAN_LAYER_ANISOTROPY},
+                                                     {m.transmission.strength > 0, COTAN_LAYER_TRANSMISSION},
+                                                     {m.sheen.present(), COTAN_LAYER_SHEEN}};
+    for (const auto& [there, layer] : layers)
+        maps |= there ? layer : 0u;
     return maps;
 }
 
@@ -181,11 +164,6 @@ gpu::ivec4 normalConstants(const Scene& scene, const Texture& map, const Convent
     const PixelType type = mapped ? scene.images[std::size_t(map.image)].type : PixelType::unorm8;
     return {expansionFor(format.expansion, bitsPerComponent(type)), int(format.channels), greenAlongV(format) ? 1 : -1,
             0};
-}
-
-bool sameUv(const Texture& a, const Texture& b)
-{
-    return a.texcoord == b.texcoord && a.uRow == b.uRow && a.vRow == b.vRow;
 }
 
 gpu::CotanMaterial materialConstants(const Scene& scene, const Material& m, const Textures& textures)
@@ -235,38 +213,32 @@ void GpuScene::loadMeshes(const Scene& scene, Uploader& uploader)
 {
     constexpr std::size_t kNone = ~std::size_t(0);
     std::vector<std::size_t> gpuOf(scene.meshes.size(), kNone);
-    std::vector<const Mesh*> sources;
-    std::vector<RelativeTexcoords> texcoords;
-    std::vector<std::vector<std::uint32_t>> indices;
+    std::vector<MeshSource> sources;
     for (const Instance& instance : scene.instances) {
-        if (!drawable(scene, instance))
+        const Mesh* mesh = meshPlacedBy(scene, instance);
+        if (!mesh || mesh->material < 0 || std::size_t(mesh->material) >= scene.materials.size())
             continue;
-        const auto m = std::size_t(instance.mesh);
-        if (gpuOf[m] == kNone) {
-            const Mesh& mesh = scene.meshes[m];
-            gpuOf[m] = meshes.size();
+        std::size_t& at = gpuOf[std::size_t(instance.mesh)];
+        if (at == kNone) {
+            at = meshes.size();
+            const MeshSource& source = sources.emplace_back(*mesh);
             GpuMesh& gpu = meshes.emplace_back();
-            sources.push_back(&mesh);
-            texcoords.emplace_back(mesh);
-            indices.push_back(usableIndices(mesh));
-            gpu.indexCount = static_cast<std::uint32_t>(indices.back().size());
-            gpu.material = mesh.material;
-            gpu.box = cotan::bounds(mesh);
+            gpu.indexCount = static_cast<std::uint32_t>(source.indices.size());
+            gpu.material = mesh->material;
+            gpu.box = cotan::bounds(*mesh);
         }
-        const GpuMesh& gpu = meshes[gpuOf[m]];
-        if (gpu.indexCount == 0)
-            continue;
-        instances.push_back({instance.toWorld, gpuOf[m]});
+        if (meshes[at].indexCount > 0)
+            instances.push_back({instance.toWorld, at});
     }
 
     // Many meshes share a buffer; one larger than a buffer has its own.
     std::vector<vk::DeviceSize> sizes;
     for (std::size_t i = 0; i < meshes.size(); ++i) {
-        const vk::DeviceSize alone = place(meshes[i], *sources[i], texcoords[i], 0);
+        const vk::DeviceSize alone = place(meshes[i], sources[i], 0);
         if (sizes.empty() || sizes.back() + alone > kBufferSize)
             sizes.push_back(sizeof kConstants);
         meshes[i].buffer = sizes.size() - 1;
-        sizes.back() = place(meshes[i], *sources[i], texcoords[i], sizes.back());
+        sizes.back() = place(meshes[i], sources[i], sizes.back());
     }
     vk::BufferUsageFlags usage = vk::BufferUsageFlagBits::eVertexBuffer | vk::BufferUsageFlagBits::eIndexBuffer
         | vk::BufferUsageFlagBits::eTransferDst;
@@ -278,10 +250,10 @@ void GpuScene::loadMeshes(const Scene& scene, Uploader& uploader)
     }
     for (std::size_t i = 0; i < meshes.size(); ++i) {
         const GpuMesh& gpu = meshes[i];
-        const std::array<StreamData, kStreamCount> streams = streamsOf(*sources[i], texcoords[i]);
+        const std::array<StreamData, kStreamCount> streams = sources[i].streams();
         for (std::size_t s = 0; s < kStreamCount; ++s)
             uploader.buffer(buffers[gpu.buffer], gpu.offsets[s], streams[s].bytes);
-        uploader.buffer(buffers[gpu.buffer], gpu.indices, bytesOf(indices[i]));
+        uploader.buffer(buffers[gpu.buffer], gpu.indices, bytesOf(sources[i].indices));
     }
 }
 
@@ -293,7 +265,7 @@ void GpuScene::loadMaterials(const Scene& scene, const Layouts& layouts, Uploade
     if (count == 0)
         return;
     const vk::DeviceSize alignment = std::max<vk::DeviceSize>(device_->limits.minUniformBufferOffsetAlignment, 16);
-    const vk::DeviceSize stride = (sizeof(gpu::CotanMaterial) + alignment - 1) / alignment * alignment;
+    const vk::DeviceSize stride = aligned(sizeof(gpu::CotanMaterial), alignment);
     materialBuffer_ = makeDeviceBuffer(*device_, memory_, stride * count,
                                        vk::BufferUsageFlagBits::eUniformBuffer | vk::BufferUsageFlagBits::eTransferDst);
 
@@ -311,11 +283,7 @@ void GpuScene::loadMaterials(const Scene& scene, const Layouts& layouts, Uploade
             maps_[i][k++] = {use.texture->sampler, textures_.view(use)};
 
         GpuMaterial& gpu = materials[i];
-        gpu.alphaMode = m.alphaMode;
-        gpu.doubleSided = m.doubleSided;
-        gpu.translucent = m.translucent();
-        gpu.throwsShadow = m.throwsShadow();
-        gpu.maps = mapsOf(m, textures_);
+        gpu = {m.alphaMode, m.doubleSided, m.translucent(), m.throwsShadow(), mapsOf(m, textures_), {}};
         gpu.set = allocateSet(*device_, pool_, layouts.materialOf(gpu.extended()));
         const vk::DescriptorBufferInfo buffer(*materialBuffer_.buffer, i * stride, sizeof(gpu::CotanMaterial));
         device_->device.updateDescriptorSets(

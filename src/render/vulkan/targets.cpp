@@ -20,15 +20,6 @@ vk::DeviceSize bytesPerPixel(vk::Format format)
     return format == vk::Format::eR32G32B32A32Sfloat ? 16 : format == vk::Format::eR16G16B16A16Sfloat ? 8 : 4;
 }
 
-TextureInfo attachmentInfo(const Targets::Kind& kind)
-{
-    TextureInfo info;
-    info.format = kind.format;
-    info.extent = vk::Extent2D(kind.width, kind.height);
-    info.samples = kind.samples;
-    return info;
-}
-
 } // namespace
 
 vk::DeviceSize Targets::bytes(const Kind& kind)
@@ -40,23 +31,26 @@ vk::DeviceSize Targets::bytes(const Kind& kind)
 
 Targets::Targets(const Device& device, const Kind& kind) : memory_(device), kind_(kind)
 {
-    TextureInfo info = attachmentInfo(kind);
-    info.usage = vk::ImageUsageFlagBits::eColorAttachment;
-    info.usage |= resolves() ? vk::ImageUsageFlagBits::eSampled : vk::ImageUsageFlagBits::eTransferSrc;
-    color_ = makeTexture(device, memory_, info);
-    if (resolves()) {
-        info.format = kind.shown;
-        info.samples = vk::SampleCountFlagBits::e1;
-        info.usage = vk::ImageUsageFlagBits::eColorAttachment | vk::ImageUsageFlagBits::eTransferSrc;
-        resolved_ = makeTexture(device, memory_, info);
-    }
-    TextureInfo depth = attachmentInfo(kind);
-    depth.format = vk::Format::eD32Sfloat;
-    depth.usage = vk::ImageUsageFlagBits::eDepthStencilAttachment;
+    using Usage = vk::ImageUsageFlagBits;
+    const vk::Extent2D extent(kind.width, kind.height);
+    color_ = makeTexture(device, memory_,
+                         {.format = kind.format,
+                          .extent = extent,
+                          .samples = kind.samples,
+                          .usage = Usage::eColorAttachment | (resolves() ? Usage::eSampled : Usage::eTransferSrc)});
+    if (resolves())
+        resolved_ = makeTexture(
+            device, memory_,
+            {.format = kind.shown, .extent = extent, .usage = Usage::eColorAttachment | Usage::eTransferSrc});
+    vk::ImageUsageFlags depthUsage = Usage::eDepthStencilAttachment;
     if (multisampled()) // then the hidden samples of translucent layers are found by it
-        depth.usage |= vk::ImageUsageFlagBits::eSampled;
-    depth.aspect = vk::ImageAspectFlagBits::eDepth;
-    depth_ = makeTexture(device, memory_, depth);
+        depthUsage |= Usage::eSampled;
+    depth_ = makeTexture(device, memory_,
+                         {.format = vk::Format::eD32Sfloat,
+                          .extent = extent,
+                          .samples = kind.samples,
+                          .usage = depthUsage,
+                          .aspect = vk::ImageAspectFlagBits::eDepth});
     readBack_ = makeHostBuffer(device, memory_, vk::DeviceSize(kind.width) * kind.height * bytesPerPixel(kind.shown),
                                vk::BufferUsageFlagBits::eTransferDst, /*readBack*/ true);
 }
@@ -68,17 +62,20 @@ void Targets::setArea(const vk::raii::CommandBuffer& commands, const vk::Rect2D&
     commands.setScissor(0, area);
 }
 
+void Targets::beginColor(const vk::raii::CommandBuffer& commands, const Texture2D& target, vk::AttachmentLoadOp load,
+                         const vk::Rect2D& area) const
+{
+    const vk::RenderingAttachmentInfo color(*target.view, kAttachment, {}, {}, {}, load);
+    commands.beginRendering(vk::RenderingInfo({}, area, 1, 0, color));
+    setArea(commands, area);
+}
+
 void Targets::beginSurround(const vk::raii::CommandBuffer& commands)
 {
     transition(commands, *resolved_->image, kColorAspect, vk::ImageLayout::eUndefined, kAttachment,
                Stage::eTransfer | Stage::eColorAttachmentOutput, {}, Stage::eColorAttachmentOutput,
                Access::eColorAttachmentWrite);
-    vk::RenderingAttachmentInfo color(*resolved_->view, kAttachment);
-    color.loadOp = vk::AttachmentLoadOp::eClear;
-    color.storeOp = vk::AttachmentStoreOp::eStore;
-    const vk::Rect2D area({0, 0}, {kind_.width, kind_.height});
-    commands.beginRendering(vk::RenderingInfo({}, area, 1, 0, color));
-    setArea(commands, area);
+    beginColor(commands, *resolved_, vk::AttachmentLoadOp::eClear, {{0, 0}, {kind_.width, kind_.height}});
 }
 
 void Targets::begin(const vk::raii::CommandBuffer& commands, const vk::Rect2D& area, bool layersFollow)
@@ -91,13 +88,11 @@ void Targets::begin(const vk::raii::CommandBuffer& commands, const vk::Rect2D& a
                Access::eDepthStencilAttachmentWrite, kDepthStages,
                Access::eDepthStencilAttachmentRead | Access::eDepthStencilAttachmentWrite);
 
-    vk::RenderingAttachmentInfo color(*color_.view, kAttachment);
-    color.loadOp = vk::AttachmentLoadOp::eClear;
-    color.storeOp = vk::AttachmentStoreOp::eStore;
-    vk::RenderingAttachmentInfo depth(*depth_.view, vk::ImageLayout::eDepthAttachmentOptimal);
-    depth.loadOp = vk::AttachmentLoadOp::eClear;
-    depth.storeOp = layersFollow ? vk::AttachmentStoreOp::eStore : vk::AttachmentStoreOp::eDontCare;
-    depth.clearValue.depthStencil = vk::ClearDepthStencilValue(0.0f, 0);
+    constexpr auto clear = vk::AttachmentLoadOp::eClear;
+    const auto kept = layersFollow ? vk::AttachmentStoreOp::eStore : vk::AttachmentStoreOp::eDontCare;
+    const vk::RenderingAttachmentInfo color(*color_.view, kAttachment, {}, {}, {}, clear);
+    const vk::RenderingAttachmentInfo depth(*depth_.view, vk::ImageLayout::eDepthAttachmentOptimal, {}, {}, {}, clear,
+                                            kept, vk::ClearDepthStencilValue(0.0f, 0));
     commands.beginRendering(vk::RenderingInfo({}, area, 1, 0, color, &depth));
     setArea(commands, area);
 }
@@ -112,12 +107,9 @@ void Targets::endOpaque(const vk::raii::CommandBuffer& commands)
 
 void Targets::beginLayers(const vk::raii::CommandBuffer& commands, const vk::Rect2D& area)
 {
-    vk::RenderingAttachmentInfo depth(*depth_.view, kDepthRead);
-    depth.loadOp = vk::AttachmentLoadOp::eLoad;
-    depth.storeOp = vk::AttachmentStoreOp::eNone;
-    vk::RenderingInfo rendering({}, area, 1);
-    rendering.pDepthAttachment = &depth;
-    commands.beginRendering(rendering);
+    const vk::RenderingAttachmentInfo depth(*depth_.view, kDepthRead, {}, {}, {}, vk::AttachmentLoadOp::eLoad,
+                                            vk::AttachmentStoreOp::eNone);
+    commands.beginRendering(vk::RenderingInfo({}, area, 1, 0, 0, nullptr, &depth));
     setArea(commands, area);
 }
 
@@ -126,11 +118,7 @@ void Targets::beginCompose(const vk::raii::CommandBuffer& commands, const vk::Re
     const auto both = Access::eColorAttachmentRead | Access::eColorAttachmentWrite;
     transition(commands, *color_.image, kColorAspect, kAttachment, kAttachment, Stage::eColorAttachmentOutput,
                Access::eColorAttachmentWrite, Stage::eColorAttachmentOutput, both);
-    vk::RenderingAttachmentInfo color(*color_.view, kAttachment);
-    color.loadOp = vk::AttachmentLoadOp::eLoad;
-    color.storeOp = vk::AttachmentStoreOp::eStore;
-    commands.beginRendering(vk::RenderingInfo({}, area, 1, 0, color));
-    setArea(commands, area);
+    beginColor(commands, color_, vk::AttachmentLoadOp::eLoad, area);
 }
 
 void Targets::beginResolve(const vk::raii::CommandBuffer& commands, const vk::Rect2D& area)
@@ -140,11 +128,7 @@ void Targets::beginResolve(const vk::raii::CommandBuffer& commands, const vk::Re
                Access::eShaderSampledRead);
     transition(commands, *resolved_->image, kColorAspect, kAttachment, kAttachment, Stage::eColorAttachmentOutput,
                Access::eColorAttachmentWrite, Stage::eColorAttachmentOutput, Access::eColorAttachmentWrite);
-    vk::RenderingAttachmentInfo color(*resolved_->view, kAttachment);
-    color.loadOp = vk::AttachmentLoadOp::eLoad;
-    color.storeOp = vk::AttachmentStoreOp::eStore;
-    commands.beginRendering(vk::RenderingInfo({}, area, 1, 0, color));
-    setArea(commands, area);
+    beginColor(commands, *resolved_, vk::AttachmentLoadOp::eLoad, area);
 }
 
 void Targets::copy(const vk::raii::CommandBuffer& commands)

@@ -36,7 +36,7 @@ public:
     void beginSurround(const vk::raii::CommandBuffer& commands);
     // Starts drawing in the area: cleared to 0 (depth is reversed, so 0 is far away); ends with endOpaque where
     // translucent layers follow, else with endRendering.
-    void begin(const vk::raii::CommandBuffer& commands, const vk::Rect2D& area, bool layersFollow = false);
+    void begin(const vk::raii::CommandBuffer& commands, const vk::Rect2D& area, bool layersFollow);
     // Ends drawing that began with layersFollow: the depth can be read from here on.
     void endOpaque(const vk::raii::CommandBuffer& commands);
     // Starts fragments that write no target and are tested against the depth; ends with endRendering.
@@ -55,6 +55,8 @@ public:
 
 private:
     void setArea(const vk::raii::CommandBuffer& commands, const vk::Rect2D& area) const;
+    void beginColor(const vk::raii::CommandBuffer& commands, const Texture2D& target, vk::AttachmentLoadOp load,
+                    const vk::Rect2D& area) const;
 
     Memory memory_;
     Kind kind_;

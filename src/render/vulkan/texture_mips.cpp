@@ -5,12 +5,12 @@
 #include <cmath>
 #include <cstdint>
 #include <cstring>
-#include <utility>
+#include <limits>
 
 #include <glm/gtc/packing.hpp>
 
 #include "cotan/portable.hpp"
-#include "scene/normal_format.hpp"
+#include "scene/texture_sample.hpp"
 
 namespace cotan {
 
@@ -24,7 +24,6 @@ struct FloatLevel {
     int height = 0;
     std::vector<vec4> texels;
 
-    const vec4* row(int y) const { return texels.data() + std::size_t(y) * std::size_t(width); }
     vec4* row(int y) { return texels.data() + std::size_t(y) * std::size_t(width); }
 };
 
@@ -180,47 +179,24 @@ template<class RowOf> FloatLevel halved(int width, int height, RowOf rowOf)
 
 // ---- storing --------------------------------------------------------------------------------
 
-void storeTexel(const vec4& t, TexelFormat format, std::byte* out)
+template<class Word> std::array<Word, 4> unorms(const vec4& t)
 {
-    switch (format) {
-    case TexelFormat::srgb8: {
-        const std::uint8_t bytes[4] = {srgbByte(t.x), srgbByte(t.y), srgbByte(t.z),
-                                       std::uint8_t(unit(t.w) * 255.0f + 0.5f)};
-        std::memcpy(out, bytes, sizeof bytes);
-        break;
-    }
-    case TexelFormat::unorm8: {
-        std::uint8_t bytes[4];
-        for (int c = 0; c < 4; ++c)
-            bytes[c] = std::uint8_t(unit(t[c]) * 255.0f + 0.5f);
-        std::memcpy(out, bytes, sizeof bytes);
-        break;
-    }
-    case TexelFormat::unorm16: {
-        std::uint16_t words[4];
-        for (int c = 0; c < 4; ++c)
-            words[c] = std::uint16_t(unit(t[c]) * 65535.0f + 0.5f);
-        std::memcpy(out, words, sizeof words);
-        break;
-    }
-    case TexelFormat::float16: {
-        const glm::uint64 halves = glm::packHalf4x16(t);
-        std::memcpy(out, &halves, sizeof halves);
-        break;
-    }
-    case TexelFormat::float32: std::memcpy(out, &t.x, 16); break;
-    }
+    const auto word = [](float x) { return Word(unit(x) * float(std::numeric_limits<Word>::max()) + 0.5f); };
+    return {word(t.x), word(t.y), word(t.z), word(t.w)};
 }
 
-// Adds a level made of width * height texels, texelAt(index).
-template<class TexelAt> void addLevel(MipChain& chain, int width, int height, TexelAt texelAt)
+void storeTexel(const vec4& t, TexelFormat format, std::byte* out)
 {
-    const std::size_t size = bytesPerTexel(chain.format);
-    const std::size_t count = std::size_t(width) * std::size_t(height);
-    std::vector<std::byte>& data = chain.own.emplace_back(count * size);
-    for (std::size_t i = 0; i < count; ++i)
-        storeTexel(texelAt(i), chain.format, data.data() + i * size);
-    chain.levels.push_back({width, height, data});
+    const auto store = [&](const auto& texel) { std::memcpy(out, &texel, sizeof texel); };
+    switch (format) {
+    case TexelFormat::srgb8:
+        store(std::array{srgbByte(t.x), srgbByte(t.y), srgbByte(t.z), unorms<std::uint8_t>(t)[3]});
+        break;
+    case TexelFormat::unorm8: store(unorms<std::uint8_t>(t)); break;
+    case TexelFormat::unorm16: store(unorms<std::uint16_t>(t)); break;
+    case TexelFormat::float16: store(glm::packHalf4x16(t)); break;
+    case TexelFormat::float32: store(t); break;
+    }
 }
 
 bool storedAsItIs(const MipRequest& request)
@@ -277,9 +253,14 @@ FloatLevel firstHalf(const MipRequest& request)
 void addSmallerLevel(MipChain& chain, const MipRequest& request, const FloatLevel& level)
 {
     const f32::cotan_normal_format format = portableFormat(request);
-    const bool normal = request.kind == TextureKind::normal;
-    addLevel(chain, level.width, level.height,
-             [&](std::size_t i) { return normal ? encodedNormal(level.texels[i], format) : level.texels[i]; });
+    const std::size_t size = bytesPerTexel(chain.format);
+    std::vector<std::byte>& data = chain.own.emplace_back(level.texels.size() * size);
+    for (std::size_t i = 0; i < level.texels.size(); ++i) {
+        const vec4& texel = level.texels[i];
+        storeTexel(request.kind == TextureKind::normal ? encodedNormal(texel, format) : texel, chain.format,
+                   data.data() + i * size);
+    }
+    chain.levels.push_back({level.width, level.height, data});
 }
 
 } // namespace
@@ -316,8 +297,8 @@ MipChain buildMips(const MipRequest& request)
         addFinestLevel(chain, request);
     FloatLevel level;
     while (width > 1 || height > 1) {
-        level = level.texels.empty() ? firstHalf(request)
-                                     : halved(width, height, [&level](int y) { return std::as_const(level).row(y); });
+        level =
+            level.texels.empty() ? firstHalf(request) : halved(width, height, [&level](int y) { return level.row(y); });
         width = level.width;
         height = level.height;
         if (fits())

@@ -1,8 +1,6 @@
 #include "textures.hpp"
 
 #include <algorithm>
-#include <array>
-#include <cmath>
 
 #include "core/parallel.hpp"
 
@@ -130,13 +128,12 @@ void Textures::request(const Scene& scene, const MapUse& use, std::vector<MipReq
 
 Texture2D Textures::upload(const MipChain& chain, Uploader& uploader)
 {
-    TextureInfo info;
-    info.format = formatOf(chain.format);
-    info.extent = vk::Extent2D(static_cast<std::uint32_t>(chain.levels[0].width),
-                               static_cast<std::uint32_t>(chain.levels[0].height));
-    info.levels = static_cast<std::uint32_t>(chain.levels.size());
-    info.usage = vk::ImageUsageFlagBits::eSampled | vk::ImageUsageFlagBits::eTransferDst;
-    Texture2D texture = makeTexture(*device_, memory_, info);
+    const MipLevel& finest = chain.levels[0];
+    Texture2D texture = makeTexture(*device_, memory_,
+                                    {.format = formatOf(chain.format),
+                                     .extent = {std::uint32_t(finest.width), std::uint32_t(finest.height)},
+                                     .levels = std::uint32_t(chain.levels.size()),
+                                     .usage = vk::ImageUsageFlagBits::eSampled | vk::ImageUsageFlagBits::eTransferDst});
     std::vector<std::span<const std::byte>> levels;
     for (const MipLevel& level : chain.levels)
         levels.push_back(level.data);

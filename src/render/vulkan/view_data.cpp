@@ -9,7 +9,6 @@
 #include "cotan/covector.hpp"
 #include "cotan/vector.hpp"
 #include "scene/environment_map.hpp"
-#include "scene/ground_map.hpp"
 
 namespace cotan {
 
@@ -18,11 +17,6 @@ namespace {
 using glm::dvec3;
 
 constexpr double kShortest = 1e-30; // a vector that has a direction
-
-double positiveOr(float value, double otherwise)
-{
-    return std::isfinite(value) && value > 0 ? double(value) : otherwise;
-}
 
 gpu::vec4 row(const dvec3& v, double w) { return gpu::vec4(float(v.x), float(v.y), float(v.z), float(w)); }
 
@@ -63,35 +57,26 @@ double reach(const CameraAxes& axes, const Bounds& bounds)
 }
 
 // Depth is reversed (1 near, 0 far): float has its precision at 0, where perspective needs it.
-void perspectiveRows(gpu::CotanView& g, const View& view, const CameraAxes& axes, const Bounds& bounds)
+void cameraRows(gpu::CotanView& g, const View& view, const CameraAxes& axes, const Bounds& bounds)
 {
-    const double fov = positiveOr(view.camera.verticalFieldOfView, 0.785398);
-    const double tanY = std::tan(std::min(fov, 3.1) / 2);
-    const double tanX = tanY * view.width / view.height;
-    const double down = view.rowsUpward ? 1 : -1; // Vulkan's clip y points down the raster
-    g.clipX = row(axes.right / tanX, 0);
-    g.clipY = row(axes.up * (down / tanY), 0);
-    // No far plane, and a near plane that cuts models seen from inside as late as possible.
-    g.clipZ = row(dvec3(0), 1e-4 * reach(axes, bounds));
-    g.clipW = row(axes.forward, 0);
-    g.right = row(axes.right * tanX, 0);
-    g.up = row(axes.up * (down * tanY), 0);
-    g.forward = row(axes.forward, 1);
-}
-
-// From the eye's plane to behind the scene.
-void orthographicRows(gpu::CotanView& g, const View& view, const CameraAxes& axes, const Bounds& bounds)
-{
-    const double halfY = positiveOr(view.camera.verticalExtent, 2) / 2;
+    const bool flat = view.camera.orthographic;
+    // Of the picture: a length, or the tangent of an angle.
+    const double halfY = flat ? double(view.camera.verticalExtent) / 2
+                              : std::tan(std::min(double(view.camera.verticalFieldOfView), 3.1) / 2);
     const double halfX = halfY * view.width / view.height;
-    const double down = view.rowsUpward ? 1 : -1;
+    const double down = view.rowsUpward ? 1 : -1; // Vulkan's clip y points down the raster
     g.clipX = row(axes.right / halfX, 0);
     g.clipY = row(axes.up * (down / halfY), 0);
-    g.clipZ = row(axes.forward * (-1 / (reach(axes, bounds) * 1.01)), 1);
-    g.clipW = row(dvec3(0), 1);
-    g.right = row(dvec3(0), 0);
-    g.up = row(dvec3(0), 0);
-    g.forward = row(axes.forward, 0);
+    g.forward = row(axes.forward, flat ? 0 : 1);
+    if (flat) { // from the eye's plane to behind the scene; right and up stay 0
+        g.clipZ = row(axes.forward * (-1 / (reach(axes, bounds) * 1.01)), 1);
+        g.clipW = row(dvec3(0), 1);
+    } else { // no far plane, and a near plane that cuts models seen from inside as late as possible
+        g.clipZ = row(dvec3(0), 1e-4 * reach(axes, bounds));
+        g.clipW = row(axes.forward, 0);
+        g.right = row(axes.right * halfX, 0);
+        g.up = row(axes.up * (down * halfY), 0);
+    }
 }
 
 const Light* shadowLight(const View& view)
@@ -138,8 +123,7 @@ void moveSample(gpu::CotanView& g, const View& view, glm::dvec2 place)
     const float x = float(2 * place.x / view.width), y = float(2 * place.y / view.height);
     g.clipX -= g.clipW * x;
     g.clipY -= g.clipW * y;
-    const gpu::vec4 seen = g.right * x + g.up * y; // both without w
-    g.forward += seen;
+    g.forward += g.right * x + g.up * y; // both without w
 }
 
 } // namespace
@@ -147,10 +131,7 @@ void moveSample(gpu::CotanView& g, const View& view, glm::dvec2 place)
 gpu::CotanView viewConstants(const View& view, const CameraAxes& axes, const Bounds& bounds, glm::dvec2 place)
 {
     gpu::CotanView g{};
-    if (view.camera.orthographic)
-        orthographicRows(g, view, axes, bounds);
-    else
-        perspectiveRows(g, view, axes, bounds);
+    cameraRows(g, view, axes, bounds);
     if (const Light* light = shadowLight(view))
         shadowRows(g, *light, view.shadowSoftness, axes, bounds);
     g.tone = gpu::vec4(view.exposure, view.backdrop == Backdrop::sharp ? 0 : kBackdropRoughness, 0, 0);
@@ -194,7 +175,6 @@ bool castsShadow(const View& view) { return view.shadows && shadowLight(view) !=
 std::vector<gpu::CotanLight> lightConstants(const View& view, const CameraAxes& axes)
 {
     std::vector<gpu::CotanLight> result;
-    result.reserve(view.lights.size() + 1);
     const Light* caster = view.shadows ? shadowLight(view) : nullptr;
     for (const Light& light : view.lights) {
         gpu::CotanLight g{};
@@ -214,9 +194,7 @@ std::vector<gpu::CotanLight> lightConstants(const View& view, const CameraAxes& 
 
 gpu::CotanDraw drawConstants(const glm::mat4& toWorld, const glm::dvec3& eye)
 {
-    const dvec3 x(toWorld[0]);
-    const dvec3 y(toWorld[1]);
-    const dvec3 z(toWorld[2]);
+    const dvec3 x(toWorld[0]), y(toWorld[1]), z(toWorld[2]);
     const dvec3 origin = dvec3(toWorld[3]) - eye;
     gpu::CotanDraw g{};
     g.rowX = row({x.x, y.x, z.x}, origin.x);

@@ -8,14 +8,14 @@
 
 #include "cotan/view.hpp"
 #include "gpu_structs.hpp"
-#include "scene/camera_axes.hpp"
+#include "scene/geometry.hpp"
 
 namespace cotan {
 
 inline constexpr int kShadowSize = 2048; // texels a side
 
-// View, shadow map and background constants. bounds: of the whole scene, world space; may be empty. place: what the
-// middle of a pixel sees, from there in pixels of the raster.
+// View, shadow map and background constants. view: checkView has passed it. bounds: of the whole scene, world space;
+// may be empty. place: what the middle of a pixel sees, from there in pixels of the raster.
 gpu::CotanView viewConstants(const View& view, const CameraAxes& axes, const Bounds& bounds,
                              glm::dvec2 place = glm::dvec2(0));
 

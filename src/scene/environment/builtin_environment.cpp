@@ -3,7 +3,7 @@
 #include <glm/gtc/packing.hpp>
 
 #include "core/loops.hpp"
-#include "studio_halfs.hpp"
+#include "prefilter.hpp"
 
 // The file is taken in by the assembler: as numbers in a source file it would take the compiler seconds.
 __asm__(".section .rodata\n"
@@ -48,7 +48,9 @@ std::optional<EnvironmentMap> builtinEnvironment(const std::string& name, const 
         return std::nullopt;
     if (name == "studio" && options.rotation == 0 && options.intensity == 1)
         return storedStudio();
-    return makeBuiltin(name, *radiance, options);
+    EnvironmentMap map = makeEnvironment(*radiance, 1, options);
+    map.name = name;
+    return map;
 }
 
 } // namespace cotan

@@ -8,10 +8,8 @@
 #include <fmt/format.h>
 #include <glm/packing.hpp>
 
-#include "albedo.hpp"
 #include "core/loops.hpp"
-#include "lamps.hpp"
-#include "octahedral.hpp"
+#include "prefilter.hpp"
 #include "scene/environment_map.hpp"
 
 namespace cotan {

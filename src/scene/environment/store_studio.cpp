@@ -1,11 +1,12 @@
-// Part of the build: writes the studio's atlas into the file that environment.cpp takes in.
+// Part of the build: writes the studio's atlas into the file that builtin_environment.cpp takes in.
 #include <cstdio>
 #include <fstream>
 #include <vector>
 
 #include <glm/gtc/packing.hpp>
 
-#include "studio_halfs.hpp"
+#include "cotan/view.hpp"
+#include "prefilter.hpp"
 
 int main(int argc, char** argv)
 {
@@ -15,7 +16,7 @@ int main(int argc, char** argv)
         std::fputs("usage: cotan_store_studio FILE\n", stderr);
         return 1;
     }
-    const EnvironmentMap map = makeBuiltin("studio", *builtinRadiance("studio"), {});
+    const EnvironmentMap map = makeEnvironment(*builtinRadiance("studio"), 1);
     std::vector<std::uint16_t> halfs;
     halfs.reserve(kStudioHalfs);
     for (std::size_t i = 0; i < map.atlas.pixelCount(); ++i)

@@ -1,10 +1,11 @@
-// The built-in environment.
+// The built-in environments.
 #include <algorithm>
 #include <cmath>
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
+#include "core/named_values.hpp"
 #include "cotan/view.hpp"
 
 namespace cotan {
@@ -81,23 +82,17 @@ glm::vec3 evening(glm::vec3 d)
     return 1.6f * glm::mix(ground, sky + glow + halo, smooth(-0.03f, 0.03f, d.y));
 }
 
+constexpr Named<glm::vec3 (*)(glm::vec3)> kBuiltin[] = {
+    {"studio", studio}, {"overcast", overcast}, {"evening", evening}};
+
 } // namespace
 
 const std::vector<std::string>& environmentNames()
 {
-    static const std::vector<std::string> names = {"studio", "overcast", "evening"};
+    static const std::vector<std::string> names = wordsOf(kBuiltin);
     return names;
 }
 
-std::optional<Radiance> builtinRadiance(const std::string& name)
-{
-    if (name == "studio")
-        return studio;
-    if (name == "overcast")
-        return overcast;
-    if (name == "evening")
-        return evening;
-    return std::nullopt;
-}
+std::optional<Radiance> builtinRadiance(const std::string& name) { return valueOf(kBuiltin, name); }
 
 } // namespace cotan

@@ -11,7 +11,6 @@
 
 #include "scene/bounds.hpp"
 #include "scene/texture_sample.hpp"
-#include "scene/texture_uv.hpp"
 
 namespace cotan::ground {
 

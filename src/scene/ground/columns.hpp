@@ -5,7 +5,6 @@
 #include <vector>
 
 #include <glm/vec2.hpp>
-#include <glm/vec3.hpp>
 
 #include "cotan/scene.hpp"
 

@@ -23,13 +23,12 @@ struct Look {
 
 int addMaterial(Scene& scene, const Look& look)
 {
-    Material material;
+    Material& material = scene.materials.emplace_back();
     material.name = look.name;
     material.baseColor = glm::vec4(look.color, 1);
     material.metallic = look.metallic;
     material.roughness = look.roughness;
     material.normalMap.image = static_cast<int>(look.relief); // images are in the order of Relief
-    scene.materials.push_back(std::move(material));
     return static_cast<int>(scene.materials.size()) - 1;
 }
 
@@ -80,25 +79,6 @@ void addShapes(Scene& scene)
              {"coral glaze", Relief::waves, {0.55f, 0.10f, 0.065f}, 0, 0.34f}, {-1.5f, 0.18f, 1.0f});
 }
 
-Light keyLight()
-{
-    Light light;
-    light.direction = glm::normalize(glm::vec3(0.66f, -0.85f, -0.62f)); // from the upper left, in front
-    light.color = {1.0f, 0.985f, 0.96f};
-    light.intensity = 3;
-    return light;
-}
-
-Camera frontCamera()
-{
-    Camera camera;
-    camera.name = "front";
-    camera.verticalFieldOfView = glm::radians(19.0f);
-    camera.eye = {0.55f, 2.5f, 8.9f};
-    camera.target = {0.02f, 0.84f, 0};
-    return camera;
-}
-
 } // namespace
 
 Scene builtinScene()
@@ -108,8 +88,12 @@ Scene builtinScene()
     for (const Relief kind : {Relief::domes, Relief::bricks, Relief::waves})
         scene.images.push_back(makeReliefMap(kind, kMapSide));
     addShapes(scene);
-    scene.lights.push_back(keyLight());
-    scene.cameras.push_back(frontCamera());
+    const glm::vec3 fromUpperLeft = glm::normalize(glm::vec3(0.66f, -0.85f, -0.62f)); // and from the front
+    scene.lights.push_back({.color = {1.0f, 0.985f, 0.96f}, .intensity = 3, .direction = fromUpperLeft});
+    scene.cameras.push_back({.name = "front",
+                             .verticalFieldOfView = glm::radians(19.0f),
+                             .eye = {0.55f, 2.5f, 8.9f},
+                             .target = {0.02f, 0.84f, 0}});
     return scene;
 }
 
@@ -128,15 +112,14 @@ Scene shapeScene(const std::string& shape)
     } else {
         mesh = makePatch(1, 0, /*mirrored*/ false, 1);
     }
-    Material material;
+    Material& material = scene.materials.emplace_back();
     material.name = "white plastic";
     material.baseColor = {0.6f, 0.6f, 0.6f, 1};
     material.metallic = 0;
     material.roughness = 0.4f;
     material.doubleSided = true; // a sheet has a back, a spout is open
-    scene.materials.push_back(std::move(material));
     glm::mat4 toWorld(1);
-    if (shape == "teapot" || (shape != "sphere" && shape != "torus"))
+    if (shape != "sphere" && shape != "torus")
         toWorld = glm::scale(toWorld, glm::vec3(2));
     scene.instances.push_back({shape, 0, toWorld});
     scene.meshes.push_back(std::move(mesh));

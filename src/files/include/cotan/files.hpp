@@ -79,7 +79,7 @@ struct Pose {
 // Which axis of a model's file is up.
 enum class Up {
     y, // as in a scene
-    z, // the model is turned, see turnZUp in scene/up.hpp
+    z, // the model is turned, see turnZUp in scene/geometry.hpp
 };
 
 // Limits on what a file may ask for. Over a limit the file is refused before memory is taken. All members have an

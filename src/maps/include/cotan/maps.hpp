@@ -163,7 +163,7 @@ std::vector<Fault> faultsOf(const NormalStatistics& statistics, const GreenVerdi
 // A map whose zero is 127.5 keeps it: green that is turned about 128 would lean by 0.45 degrees.
 std::string fixOptions(const std::vector<Fault>& faults, const NormalStatistics& statistics);
 
-// "NAME: FAULT; FAULT; cotan map convert OPTIONS mends it."; empty without faults.
+// "NAME: FAULT; FAULT; cotan map convert OPTIONS fixes it."; empty without faults.
 std::string sentenceOf(const std::string& name, const std::vector<Fault>& faults, const NormalStatistics& statistics);
 
 // ---- what somebody says of a map -----------------------------------------------------------

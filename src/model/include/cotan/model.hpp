@@ -20,24 +20,20 @@ namespace cotan {
 
 // ---- to a scene ----------------------------------------------------------------------------
 
-// Reads a model: .gltf and .glb, .obj, everything else (.ply .stl .dae .fbx .3ds)
-// through Assimp; all but glTF in a process of its own where limits.sandbox says so. What comes from limits.readFile is
-// glTF. What was odd but usable is said
-// in Scene::warnings. Missing normals are generated. limits.up says
-// whether it is turned. Only files inside the model's own folder are opened.
-// Errors: ErrorKind::input with one line: file, field, expected, found; a reader's process that crashed,
-// or was stopped at a limit, is one, too. ErrorKind::unavailable: it could not be started; not built with Assimp.
-// Never throws
-// for bad input.
+// Reads a model: .gltf and .glb, .obj, everything else (.ply .stl .dae .fbx .3ds) through Assimp; all but glTF in a
+// process of its own where limits.sandbox says so. What comes from limits.readFile is glTF. What was odd but usable is
+// said in Scene::warnings. Missing normals are generated. limits.up says whether it is turned. Only files inside the
+// model's own folder are opened.
+// Errors: ErrorKind::input with one line: file, field, expected, found; a reader's process that crashed, or was stopped
+// at a limit, is one, too. ErrorKind::unavailable: it could not be started; not built with Assimp. Never throws for bad
+// input.
 Result<Scene> loadScene(const std::filesystem::path& file, const LoadLimits& limits = {});
 
 // The readers behind loadScene, with loadGltf of cotan/gltf.hpp.
 Result<Scene> loadObj(const std::filesystem::path& file, const LoadLimits& limits = {});
 Result<Scene> loadWithAssimp(const std::filesystem::path& file, const LoadLimits& limits = {});
 
-// ---- the reader in a child process ---------------------------------------------------------
-
-// The child's side of reading in a process of its own: see cotan/files.hpp.
+// ---- the reader in a child process, see cotan/files.hpp ------------------------------------
 
 // Whether this process was started to read for another one.
 bool isReaderProcess(int argc, const char* const* argv);

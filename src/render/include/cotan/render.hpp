@@ -56,10 +56,9 @@ public:
     // The renderer has no scene from here on.
     void forget() { loaded_ = false; }
 
-    // A picture of the loaded scene. Errors: ErrorKind::usage without a scene, for a size that cannot be
-    // drawn (the reference renderer: 1 to 16384 pixels a side), an unknown frame, or one that reads what the scene
-    // lacks at its vertices; ErrorKind::unavailable without the memory; those of VulkanRenderer::render and
-    // renderReference.
+    // A picture of the loaded scene. Errors: ErrorKind::usage without a scene, for a size that cannot be drawn (the
+    // reference renderer: 1 to 16384 pixels a side), an unknown frame, or one that reads what the scene lacks at its
+    // vertices; ErrorKind::unavailable without the memory; those of VulkanRenderer::render and renderReference.
     Result<Image> draw(const View& view);
 
     // "reference", or the Vulkan device's name.

@@ -183,7 +183,7 @@ struct Material {
     Convention normalFormat;          // how normalMap is stored; v runs down, as everywhere in a scene
     std::optional<Frame> normalFrame; // that the normal maps were made for, where the file says so
     // Green of the normal maps is the other way than the file declares, and so is w of the meshes' tangents: see
-    // scene/stored_green.hpp.
+    // scene/normal_maps.hpp.
     bool greenReversed = false;
     Texture baseColorMap;         // sRGB, alpha linear
     Texture metallicRoughnessMap; // linear: g roughness, b metallic
@@ -285,10 +285,8 @@ struct Bounds {
 
 // ---- built-in shapes and maps --------------------------------------------------------------
 
-// Built-in shapes and maps: analytic, made in memory, no files.
-
-// Every shape has outward normals, uv set 0 and counter-clockwise triangles seen from outside.
-// uv follow glTF: v = 0 at the top row of the image. `segments` is the number of cells along u.
+// Analytic, made in memory. Every shape has outward normals, uv set 0 and counter-clockwise triangles seen from
+// outside. uv follow glTF: v = 0 at the top row of the image. `segments` is the number of cells along u.
 Mesh makePlane(float side, int segments, float uvRepeat); // in xz, facing +y, centred
 Mesh makeCube(float side, float uvRepeat);                // six faces, split at the edges
 Mesh makeSphere(float radius, int segments);              // latitude-longitude, poles split

@@ -32,8 +32,6 @@ namespace cotan {
 
 // ---- the view ------------------------------------------------------------------------------
 
-// How to draw a scene: what both renderers take, so that their pictures can be compared.
-
 // What the picture shows. Everything but `shaded` is written as float32: x y z and, in alpha, 1
 // where there is a surface and 0 elsewhere.
 enum class Output {
@@ -138,10 +136,9 @@ struct View {
 // ---- cameras and lights --------------------------------------------------------------------
 
 // From the front, a little from the right and above, with a lens of 30 degrees: as near as all vertices stay inside
-// the picture less a margin of 4 % on each side, with equal room on both sides; in an
-// animation (Scene::reach) at all of its moments. Beyond 16 million vertices,
-// instances counted, the corners of the meshes' boxes stand for their vertices.
-// What is flat is seen straight on. Nothing finite to see gives the default camera.
+// the picture less a margin of 4 % on each side, with equal room on both sides; in an animation (Scene::reach) at all
+// of its moments. Beyond 16 million vertices, instances counted, the corners of the meshes' boxes stand for their
+// vertices. What is flat is seen straight on. Nothing finite to see gives the default camera.
 Camera frontCamera(const Scene& scene, int width, int height);
 
 // The same from another side. azimuth: degrees from the front (+z) counter-clockwise as seen from above, so that 90 is
@@ -179,16 +176,12 @@ const std::vector<std::string>& environmentNames();
 // Nothing for a name that is not among them.
 std::optional<Radiance> builtinRadiance(const std::string& name);
 
-// The built-in environment, ready to light a scene.
-
 // The atlas of a built-in one, see environmentNames; nothing for another name. The studio as it is, not turned and not
 // dimmed, was made while Cotan was built and is only read: to the byte what makeEnvironment makes of it, without the
 // quarter of a second of processor that this takes. The others are made by the call.
 std::optional<EnvironmentMap> builtinEnvironment(const std::string& name, const EnvironmentOptions& options = {});
 
 // ---- ground --------------------------------------------------------------------------------
-
-// The shadow of a scene on a level plane, which nothing else is seen of.
 
 struct GroundOptions {
     std::optional<float> height; // of the plane, world y; none: of the scene's lowest point
@@ -204,8 +197,6 @@ struct GroundOptions {
 std::optional<GroundMap> makeGround(const Scene& scene, const View& view, const GroundOptions& options = {});
 
 // ---- frames at vertices --------------------------------------------------------------------
-
-// The attributes that frames from vertices need, derived from a scene's meshes.
 
 // Where the tangents come from that a frame reads, `mikktspace` and `vertex`.
 enum class TangentOrigin {

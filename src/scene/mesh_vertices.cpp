@@ -1,24 +1,53 @@
-// Vertex normals from triangles: generateNormals of geometry.hpp.
+// What meshes have at their vertices: normals made of triangles, equal vertices merged, frames derived.
 #include <algorithm>
 #include <array>
 #include <bit>
 #include <cmath>
 #include <cstdint>
+#include <cstring>
 #include <numeric>
+#include <span>
 #include <tuple>
 #include <unordered_map>
 #include <vector>
 
 #include <glm/geometric.hpp>
 
+#include "cotan/tangents.hpp"
 #include "cotan/vector.hpp"
 #include "scene/geometry.hpp"
+#include "scene/texture_sample.hpp"
 
 namespace cotan {
 
 namespace {
 
 using Index = std::uint32_t;
+constexpr Index kNone = ~Index(0);
+
+// Calls work with each array of the mesh that has an entry a vertex.
+template<class M, class Work> void eachAttribute(M& mesh, const Work& work)
+{
+    const auto call = [&](auto& attribute) {
+        if (!attribute.empty())
+            work(attribute);
+    };
+    std::apply([&](auto&... attributes) { (call(attributes), ...); }, attributesOf(mesh));
+}
+
+// Makes vertex i what vertex sources[i] was.
+void takeVertices(Mesh& mesh, std::span<const Index> sources)
+{
+    eachAttribute(mesh, [&](auto& attribute) {
+        std::remove_reference_t<decltype(attribute)> taken;
+        taken.reserve(sources.size());
+        for (const Index source : sources)
+            taken.push_back(attribute[source]);
+        attribute = std::move(taken);
+    });
+}
+
+// ---- normals --------------------------------------------------------------------------------
 
 // A point of space each: vertices at equal positions get equal numbers.
 std::vector<Index> positionNumbers(const std::vector<glm::vec3>& positions)
@@ -62,27 +91,6 @@ std::vector<Face> measureFaces(const Mesh& mesh)
     return faces;
 }
 
-// Union-find over corners (three a triangle, numbered as the indices are).
-class Groups {
-public:
-    explicit Groups(std::size_t corners) : parent_(corners) { std::iota(parent_.begin(), parent_.end(), Index(0)); }
-    Index find(Index corner)
-    {
-        while (parent_[corner] != corner)
-            corner = parent_[corner] = parent_[parent_[corner]];
-        return corner;
-    }
-    void join(Index a, Index b)
-    {
-        a = find(a);
-        b = find(b);
-        parent_[std::max(a, b)] = std::min(a, b);
-    }
-
-private:
-    std::vector<Index> parent_;
-};
-
 // An edge of a triangle between two points, and the triangle's corners at the lower and the higher.
 struct Edge {
     Index low, high;
@@ -107,7 +115,7 @@ std::vector<Edge> sortedEdges(const std::vector<Index>& pointOfCorner)
 }
 
 // Joins the corners of triangles that meet at an edge within the crease angle.
-void joinAcrossEdges(Groups& groups, const std::vector<Index>& pointOfCorner, const std::vector<Face>& faces,
+void joinAcrossEdges(JoinedGroups& groups, const std::vector<Index>& pointOfCorner, const std::vector<Face>& faces,
                      double minimumCosine)
 {
     const std::vector<Edge> edges = sortedEdges(pointOfCorner);
@@ -125,10 +133,9 @@ void joinAcrossEdges(Groups& groups, const std::vector<Index>& pointOfCorner, co
     }
 }
 
-void joinAtPoints(Groups& groups, const std::vector<Index>& pointOfCorner, std::size_t points,
+void joinAtPoints(JoinedGroups& groups, const std::vector<Index>& pointOfCorner, std::size_t points,
                   const std::vector<Face>& faces)
 {
-    constexpr Index kNone = ~Index(0);
     std::vector<Index> first(points, kNone);
     for (Index corner = 0; corner < pointOfCorner.size(); ++corner) {
         if (!faces[corner / 3].usable())
@@ -143,7 +150,7 @@ void joinAtPoints(Groups& groups, const std::vector<Index>& pointOfCorner, std::
 
 // One normal a group, at the group's first corner. A corner of a degenerate triangle, which has
 // no group but its own, takes over that of another corner at the same point.
-std::vector<glm::vec3> groupNormals(Groups& groups, const std::vector<Index>& pointOfCorner, std::size_t points,
+std::vector<glm::vec3> groupNormals(JoinedGroups& groups, const std::vector<Index>& pointOfCorner, std::size_t points,
                                     const std::vector<Face>& faces)
 {
     std::vector<glm::dvec3> sums(pointOfCorner.size(), glm::dvec3(0));
@@ -167,29 +174,15 @@ std::vector<glm::vec3> groupNormals(Groups& groups, const std::vector<Index>& po
     return normals;
 }
 
-template<class T> void copyLast(std::vector<T>& attribute, Index vertex)
-{
-    if (!attribute.empty())
-        attribute.push_back(T(attribute[vertex]));
-}
-
 Index duplicateVertex(Mesh& mesh, Index vertex)
 {
-    copyLast(mesh.positions, vertex);
-    copyLast(mesh.normals, vertex);
-    copyLast(mesh.tangents, vertex);
-    copyLast(mesh.texcoords[0], vertex);
-    copyLast(mesh.texcoords[1], vertex);
-    copyLast(mesh.colors, vertex);
-    copyLast(mesh.cotangentsU, vertex);
-    copyLast(mesh.cotangentsV, vertex);
+    eachAttribute(mesh, [&](auto& attribute) { attribute.push_back(attribute[vertex]); });
     return Index(mesh.positions.size() - 1);
 }
 
 // Gives every corner a vertex that carries its normal.
-void assignNormals(Mesh& mesh, Groups& groups, const std::vector<glm::vec3>& normals)
+void assignNormals(Mesh& mesh, JoinedGroups& groups, const std::vector<glm::vec3>& normals)
 {
-    constexpr Index kNone = ~Index(0);
     std::vector<Index> groupOfVertex(mesh.vertexCount(), kNone);
     std::unordered_map<std::uint64_t, Index> splits; // (vertex, group) to the new vertex
     mesh.normals.assign(mesh.vertexCount(), glm::vec3(0, 0, 1));
@@ -210,6 +203,53 @@ void assignNormals(Mesh& mesh, Groups& groups, const std::vector<glm::vec3>& nor
     }
 }
 
+// ---- equal vertices --------------------------------------------------------------------------
+
+std::uint64_t hashVertex(const Mesh& mesh, Index vertex)
+{
+    std::uint64_t hash = 0x9e3779b97f4a7c15u;
+    eachAttribute(mesh, [&](const auto& attribute) {
+        const auto& value = attribute[vertex];
+        for (int c = 0; c < value.length(); ++c) {
+            hash = (hash ^ std::bit_cast<std::uint32_t>(value[c])) * 0xff51afd7ed558ccdu;
+            hash ^= hash >> 32;
+        }
+    });
+    return hash;
+}
+
+bool equalVertices(const Mesh& mesh, Index a, Index b)
+{
+    bool equal = true;
+    eachAttribute(mesh, [&](const auto& attribute) {
+        equal = equal && std::memcmp(&attribute[a], &attribute[b], sizeof attribute[a]) == 0;
+    });
+    return equal;
+}
+
+// ---- frames ----------------------------------------------------------------------------------
+
+void deriveCotangents(Mesh& mesh, std::span<const glm::vec2> uv)
+{
+    SplitCotangents made = splitSmoothCotangents({mesh.positions, mesh.normals, uv, mesh.indices});
+    takeVertices(mesh, made.split.sources);
+    mesh.indices = std::move(made.split.indices);
+    mesh.cotangentsU = std::move(made.cotangents.u);
+    mesh.cotangentsV = std::move(made.cotangents.v);
+}
+
+void deriveTangents(Mesh& mesh, std::span<const glm::vec2> uv, Frame frame)
+{
+    const auto corners = generateTangents(frame, {mesh.positions, mesh.normals, uv, mesh.indices});
+    const VertexSplit split = splitVertices(mesh.vertexCount(), mesh.indices, corners);
+    mesh.tangents.clear();
+    takeVertices(mesh, split.sources);
+    mesh.indices = split.indices;
+    mesh.tangents.resize(mesh.vertexCount());
+    for (std::size_t i = 0; i < corners.size(); ++i)
+        mesh.tangents[mesh.indices[i]] = corners[i];
+}
+
 } // namespace
 
 void generateNormals(Mesh& mesh, float creaseDegrees)
@@ -219,7 +259,7 @@ void generateNormals(Mesh& mesh, float creaseDegrees)
     std::ranges::transform(mesh.indices, pointOfCorner.begin(), [&](Index i) { return number[i]; });
     const std::vector<Face> faces = measureFaces(mesh);
 
-    Groups groups(mesh.indices.size());
+    JoinedGroups groups(mesh.indices.size());
     if (creaseDegrees >= 180)
         joinAtPoints(groups, pointOfCorner, mesh.vertexCount(), faces);
     else // a hair more than asked, so that faces at exactly the angle count as smooth
@@ -228,6 +268,40 @@ void generateNormals(Mesh& mesh, float creaseDegrees)
 
     const auto normals = groupNormals(groups, pointOfCorner, mesh.vertexCount(), faces);
     assignNormals(mesh, groups, normals);
+}
+
+void weldVertices(Mesh& mesh)
+{
+    std::vector<Index> table(std::bit_ceil(mesh.vertexCount() * 2 + 1), kNone); // open addressing
+    std::vector<Index> newIndex(mesh.vertexCount(), kNone);                     // of the first of equal vertices
+    std::vector<Index> kept;                                                    // old index of every new vertex
+    for (Index& index : mesh.indices) {
+        std::size_t slot = hashVertex(mesh, index) & (table.size() - 1);
+        while (table[slot] != kNone && !equalVertices(mesh, table[slot], index))
+            slot = (slot + 1) & (table.size() - 1);
+        if (table[slot] == kNone) {
+            table[slot] = index;
+            newIndex[index] = Index(kept.size());
+            kept.push_back(index);
+        }
+        index = newIndex[table[slot]];
+    }
+    takeVertices(mesh, kept);
+}
+
+void deriveVertexFrames(Scene& scene, Frame frame, TangentOrigin tangents)
+{
+    if (!readsVertices(frame))
+        return;
+    for (Mesh& mesh : scene.meshes) {
+        const std::vector<glm::vec2> uv = textureUv(scene.materials[std::size_t(mesh.material)].normalMap, mesh);
+        if (uv.empty() || mesh.indices.empty())
+            continue;
+        if (readsCotangents(frame))
+            deriveCotangents(mesh, uv);
+        else if (tangents == TangentOrigin::generated || mesh.tangents.empty())
+            deriveTangents(mesh, uv, frame);
+    }
 }
 
 } // namespace cotan

@@ -1,16 +1,15 @@
-#include "cotan/view.hpp"
-
+// The axes of cameras, cameras that show a whole scene, and the lights of one that brings none.
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
 
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
 #include "cotan/vector.hpp"
-#include "scene/bounds.hpp"
-#include "scene/camera_axes.hpp"
+#include "scene/geometry.hpp"
 
 namespace cotan {
 
@@ -18,15 +17,37 @@ namespace {
 
 using glm::dvec3;
 
+// ---- axes ------------------------------------------------------------------------------------
+
+constexpr double kShortest = 1e-30; // of a vector that has a direction
+constexpr double kParallel = 1e-6;  // sine of an angle below which `up` is along forward
+
+// ---- from the right and above ----------------------------------------------------------------
+
+constexpr float kMargin = 0.94f;   // of the half picture that the box may fill
+constexpr float kFlatness = 0.05f; // depth over width or height below which a box is a picture
+const glm::vec3 kFrontRightAbove{0.40f, 0.35f, 1.0f};
+
+// The smallest distance along `back` from the centre at which every corner of the box is inside
+// the picture with the margin.
+float distanceToSee(glm::vec3 halfSize, glm::vec3 back, float tanX, float tanY)
+{
+    const CameraAxes axes = axesAlong(-glm::dvec3(back), glm::dvec3(0, 1, 0));
+    const glm::vec3 right(axes.right), up(axes.up);
+    float distance = 0;
+    for (int corner = 0; corner < 8; ++corner) {
+        const glm::vec3 p = halfSize * glm::vec3(corner & 1 ? 1 : -1, corner & 2 ? 1 : -1, corner & 4 ? 1 : -1);
+        const float beside = std::max(std::abs(glm::dot(p, right)) / tanX, std::abs(glm::dot(p, up)) / tanY);
+        distance = std::max(distance, glm::dot(p, back) + beside / kMargin);
+    }
+    return distance;
+}
+
+// ---- as near as all of it shows --------------------------------------------------------------
+
 constexpr double kFieldOfView = 0.523599; // 30 degrees
 constexpr double kRadians = std::numbers::pi / 180;
 constexpr double kFilled = 0.92; // of the picture, so that 4 % stay free on each side
-constexpr float kFlat = 0.05f;   // depth over width or height
-
-// The axes of a camera, and what it goes around.
-struct Stand {
-    dvec3 middle, right, up, back;
-};
 
 // A point as it is seen along one axis: its place, and how far before the eye it is.
 struct Seen {
@@ -34,16 +55,16 @@ struct Seen {
 };
 
 // Moves the eye sideways until what is seen furthest to both sides is equally far from the middle, and likewise up and
-// down. What was inside the picture stays there.
-void centre(const Scene& scene, const Stand& stand, double distance, double& x, double& y)
+// down. What was inside the picture stays there. stand: the axes of the camera at what it looks at.
+void centre(const Scene& scene, const CameraAxes& stand, double distance, double& x, double& y)
 {
     for (int round = 0; round < 4; ++round) {
         std::array<Seen, 4> furthest; // east, west, north, south
         std::array<double, 4> slope;
         slope.fill(-std::numeric_limits<double>::infinity());
         forEachFramedPoint(scene, [&](const glm::mat4& toWorld, const glm::vec3& point) {
-            const dvec3 p = dvec3(glm::dmat4(toWorld) * glm::dvec4(dvec3(point), 1)) - stand.middle;
-            const double before = distance - glm::dot(p, stand.back);
+            const dvec3 p = dvec3(glm::dmat4(toWorld) * glm::dvec4(dvec3(point), 1)) - stand.eye;
+            const double before = distance + glm::dot(p, stand.forward);
             const double right = glm::dot(p, stand.right), up = glm::dot(p, stand.up);
             if (!(before > 0) || !std::isfinite(right) || !std::isfinite(up))
                 return;
@@ -75,9 +96,9 @@ Camera filledFrom(const char* name, const Scene& scene, const Bounds& box, const
     if (box.empty())
         return camera;
     camera.up = upward;
-    const CameraAxes axes = axesAlong(-back, dvec3(upward));
-    const dvec3 right = axes.right, up = axes.up;
-    const dvec3 middle = dvec3(box.low) * 0.5 + dvec3(box.high) * 0.5;
+    CameraAxes axes = axesAlong(-back, dvec3(upward));
+    axes.eye = dvec3(box.low) * 0.5 + dvec3(box.high) * 0.5;
+    const dvec3 right = axes.right, up = axes.up, middle = axes.eye;
 
     // A point at x, y, z of these axes is inside while |x - eye.x| <= tanX (eye.z - z): each point moves four planes.
     const double tanY = std::tan(kFieldOfView / 2) * kFilled;
@@ -100,7 +121,7 @@ Camera filledFrom(const char* name, const Scene& scene, const Bounds& box, const
     if (!(distance - nearest > 1e-3 * magnitude)) // a point, or nearly: a distance that rounding does not swallow
         distance = nearest + std::max(1e-3 * magnitude, distance > nearest ? distance - nearest : 1.0);
     double x = (east - west) / 2, y = (north - south) / 2;
-    centre(scene, {middle, right, up, back}, distance, x, y);
+    centre(scene, axes, distance, x, y);
     const dvec3 aim = middle + right * x + up * y;
     const glm::vec3 eye(aim + back * distance);
     if (!std::isfinite(distance) || !std::isfinite(eye.x + eye.y + eye.z))
@@ -121,11 +142,73 @@ double sineOf(double degrees)
 
 } // namespace
 
+CameraAxes axesAlong(const glm::dvec3& forward, const glm::dvec3& up)
+{
+    const glm::dvec3 other = std::abs(forward.y) < 0.9 ? glm::dvec3(0, 1, 0) : glm::dvec3(0, 0, -1);
+    glm::dvec3 side = glm::cross(forward, unitOr(up, other, kShortest));
+    if (glm::length(side) < kParallel)
+        side = glm::cross(forward, other);
+    CameraAxes axes;
+    axes.forward = forward;
+    axes.right = side / glm::length(side);
+    axes.up = glm::cross(axes.right, forward);
+    return axes;
+}
+
+CameraAxes cameraAxes(const Camera& camera)
+{
+    const glm::dvec3 eye = isFinite(camera.eye) ? glm::dvec3(camera.eye) : glm::dvec3(0);
+    CameraAxes axes = axesAlong(unitOr(glm::dvec3(camera.target) - eye, {0, 0, -1}, kShortest), glm::dvec3(camera.up));
+    axes.eye = eye;
+    return axes;
+}
+
+Camera fitCamera(const Bounds& box, int width, int height)
+{
+    Camera camera;
+    camera.name = "fit";
+    if (box.empty() || !isFinite(box.low) || !isFinite(box.high))
+        return camera;
+
+    // Halved before they are subtracted, so that the largest floats do not overflow.
+    const glm::vec3 centre = box.low * 0.5f + box.high * 0.5f;
+    const glm::vec3 halfSize = box.high * 0.5f - box.low * 0.5f;
+    const bool flat = halfSize.z < kFlatness * std::max(halfSize.x, halfSize.y);
+    const glm::vec3 back = flat ? glm::vec3(0, 0, 1) : glm::normalize(kFrontRightAbove);
+
+    const float aspect = width > 0 && height > 0 ? float(width) / float(height) : 1.0f;
+    const float tanY = std::tan(camera.verticalFieldOfView / 2);
+    float distance = distanceToSee(halfSize, back, tanY * aspect, tanY);
+    if (!(distance > 0)) { // a single point: any distance that rounding does not swallow shows it
+        const glm::vec3 size = glm::abs(centre);
+        distance = std::max(1.0f, std::max({size.x, size.y, size.z}) * 1e-3f);
+    }
+    const glm::vec3 eye = centre + back * distance;
+    if (!isFinite(eye)) // a box of nearly the largest floats
+        return camera;
+    camera.target = centre;
+    camera.eye = eye;
+    return camera;
+}
+
+Camera turnedAbout(Camera camera, double angle)
+{
+    const glm::vec3 d = camera.eye - camera.target;
+    const float c = float(std::cos(angle)), s = float(std::sin(angle));
+    camera.eye = camera.target + glm::vec3(c * d.x + s * d.z, d.y, c * d.z - s * d.x);
+    return camera;
+}
+
+std::vector<Light> defaultLights()
+{
+    return {Light{.kind = LightKind::directional, .direction = glm::normalize(glm::vec3(0.5f, -0.9f, -0.75f))}};
+}
+
 Camera frontCamera(const Scene& scene, int width, int height)
 {
     const Bounds box = framedBounds(scene);
     const glm::vec3 size = box.high - box.low;
-    const bool flat = size.z < kFlat * std::max(size.x, size.y);
+    const bool flat = size.z < kFlatness * std::max(size.x, size.y);
     const dvec3 back = flat ? dvec3(0, 0, 1) : glm::normalize(dvec3(0.36, 0.24, 1));
     return filledFrom("front", scene, box, back, {0, 1, 0}, width, height);
 }

@@ -1,0 +1,223 @@
+#include "scene/normal_maps.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <map>
+
+#include <glm/geometric.hpp>
+
+#include "scene/geometry.hpp"
+#include "scene/texture_sample.hpp"
+
+namespace cotan {
+
+namespace {
+
+const Texture& mapOf(const Material& m) { return m.normalMap.present() ? m.normalMap : m.coat.normalMap; }
+
+// ---- green -----------------------------------------------------------------------------------
+
+struct Area {
+    double compared = 0, contradicting = 0;
+};
+
+// Degenerate triangles, and corners without a tangent or a normal, add nothing.
+void addTriangle(const Mesh& mesh, const std::vector<glm::vec2>& uv, std::size_t first, Area& area)
+{
+    const std::uint32_t* const at = &mesh.indices[first];
+    const glm::dvec3 p0(mesh.positions[at[0]]);
+    const glm::dvec3 p1 = glm::dvec3(mesh.positions[at[1]]) - p0, p2 = glm::dvec3(mesh.positions[at[2]]) - p0;
+    const glm::dvec2 uv0(uv[at[0]]);
+    const glm::dvec2 uv1 = glm::dvec2(uv[at[1]]) - uv0, uv2 = glm::dvec2(uv[at[2]]) - uv0;
+    const double uvArea = uv1.x * uv2.y - uv1.y * uv2.x, third = glm::length(glm::cross(p1, p2)) / 6;
+    if (!(std::abs(uvArea) > 0) || !(third > 0) || !std::isfinite(third))
+        return;
+    const double sign = uvArea < 0 ? -1 : 1;
+    const glm::dvec3 alongU = sign * (p1 * uv2.y - p2 * uv1.y), alongV = sign * (p2 * uv1.x - p1 * uv2.x);
+    for (int k = 0; k < 3; ++k) {
+        const glm::dvec4 stored(mesh.tangents[at[k]]);
+        const glm::dvec3 tangent(stored), up = glm::cross(glm::dvec3(mesh.normals[at[k]]), tangent) * stored.w;
+        if (tangent == glm::dvec3(0) || up == glm::dvec3(0))
+            continue;
+        area.compared += third;
+        if (glm::dot(tangent, alongU) > 0 && glm::dot(up, alongV) > 0) // it should point against increasing v
+            area.contradicting += third;
+    }
+}
+
+// The materials that share a normal map, by however many steps.
+JoinedGroups groupsByMap(const Scene& scene)
+{
+    JoinedGroups groups(scene.materials.size());
+    std::map<int, std::uint32_t> readers;
+    for (std::uint32_t i = 0; i < scene.materials.size(); ++i)
+        for (const Texture* const map : {&scene.materials[i].normalMap, &scene.materials[i].coat.normalMap})
+            if (map->present())
+                groups.join(i, readers.emplace(map->image, i).first->second);
+    return groups;
+}
+
+std::string nameOf(const Scene& scene, const Material& m)
+{
+    const std::size_t image = std::size_t(mapOf(m).image);
+    const std::string& name = image < scene.images.size() ? scene.images[image].name : m.name;
+    return name.empty() ? "of material '" + m.name + "'" : "'" + name + "'";
+}
+
+void reverse(Scene& scene, const std::vector<bool>& chosen)
+{
+    for (std::size_t i = 0; i < chosen.size(); ++i)
+        if (chosen[i]) {
+            Material& m = scene.materials[i];
+            m.greenReversed = !m.greenReversed;
+            m.normalFormat.greenUp = !m.normalFormat.greenUp;
+            m.coat.normalFormat.greenUp = !m.coat.normalFormat.greenUp;
+            m.anisotropy.rotation = -m.anisotropy.rotation; // from t towards b
+        }
+    for (Mesh& mesh : scene.meshes)
+        if (chosen[std::size_t(mesh.material)])
+            for (glm::vec4& tangent : mesh.tangents)
+                tangent.w = -tangent.w;
+}
+
+// ---- the frame -------------------------------------------------------------------------------
+
+constexpr float kOneCopy = 1.01f; // a little over: uv of a chart that fills the map are rounded
+
+bool hasNormalMap(const Material& m) { return mapOf(m).present(); }
+
+// What the material says, or else its map.
+std::optional<Frame> namedBy(const Scene& scene, const Material& m)
+{
+    if (m.normalFrame || !hasNormalMap(m))
+        return hasNormalMap(m) ? m.normalFrame : std::nullopt;
+    const std::size_t image = std::size_t(mapOf(m).image);
+    return image < scene.images.size() ? frameFromName(scene.images[image].frame) : std::nullopt;
+}
+
+// In the world, of each material.
+std::vector<double> areasOf(const Scene& scene)
+{
+    std::vector<double> areas(scene.materials.size());
+    for (const Instance& instance : scene.instances) {
+        const Mesh& mesh = scene.meshes[std::size_t(instance.mesh)];
+        const glm::dmat3 m{glm::mat3(instance.toWorld)};
+        const auto at = [&](std::size_t i) { return m * glm::dvec3(mesh.positions[mesh.indices[i]]); };
+        for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
+            const glm::dvec3 p = at(i);
+            areas[std::size_t(mesh.material)] += glm::length(glm::cross(at(i + 1) - p, at(i + 2) - p)) / 2;
+        }
+    }
+    return areas;
+}
+
+// Whether the texture coordinates of some mesh that shows a normal map reach over more than one copy of it.
+bool repeatsNormalMaps(const Scene& scene)
+{
+    return std::ranges::any_of(scene.meshes, [&](const Mesh& mesh) {
+        const Material& m = scene.materials[std::size_t(mesh.material)];
+        if (!m.normalMap.present())
+            return false;
+        const std::vector<glm::vec2> uv = textureUv(m.normalMap, mesh);
+        glm::vec2 low(1e30f), high(-1e30f);
+        for (const glm::vec2& c : uv) {
+            low = glm::min(low, c);
+            high = glm::max(high, c);
+        }
+        return !uv.empty() && (high.x - low.x > kOneCopy || high.y - low.y > kOneCopy);
+    });
+}
+
+} // namespace
+
+std::vector<std::string> followStoredTangents(Scene& scene)
+{
+    JoinedGroups groups = groupsByMap(scene);
+    std::vector<Area> areas(scene.materials.size());
+    for (const Mesh& mesh : scene.meshes) {
+        const Texture& map = mapOf(scene.materials[std::size_t(mesh.material)]);
+        if (!map.present() || mesh.tangents.empty() || mesh.normals.empty())
+            continue;
+        const std::vector<glm::vec2> uv = textureUv(map, mesh);
+        Area& area = areas[groups.find(std::uint32_t(mesh.material))];
+        for (std::size_t i = 0; !uv.empty() && i + 2 < mesh.indices.size(); i += 3)
+            addTriangle(mesh, uv, i, area);
+    }
+    std::vector<bool> stays(scene.materials.size()), chosen(scene.materials.size());
+    for (std::uint32_t i = 0; i < scene.materials.size(); ++i)
+        if (scene.materials[i].anisotropy.map.present())
+            stays[groups.find(i)] = true;
+    std::vector<std::string> lines;
+    for (std::uint32_t i = 0; i < scene.materials.size(); ++i) {
+        const std::uint32_t group = groups.find(i);
+        const Area& area = areas[group];
+        const double fraction = area.compared > 0 ? area.contradicting / area.compared : 0;
+        chosen[i] = mapOf(scene.materials[i]).present() && fraction >= kGreenReversedFrom && !stays[group];
+        if (group != i || fraction < kGreenMentionedFrom)
+            continue;
+        lines.push_back("TANGENT.w contradicts the texture coordinates on "
+                        + std::to_string(std::lround(100 * fraction)) + " % of the area of normal map "
+                        + nameOf(scene, scene.materials[i])
+                        + (chosen[i] ? ": without stored tangents its green is read the other way (--convention gltf: "
+                                       "as declared)"
+                                     : ": its green is read as declared"));
+    }
+    reverse(scene, chosen);
+    return lines;
+}
+
+void restoreDeclaredGreen(Scene& scene, int material)
+{
+    std::vector<bool> chosen(scene.materials.size());
+    for (std::size_t i = 0; i < scene.materials.size(); ++i)
+        chosen[i] = scene.materials[i].greenReversed && (material < 0 || std::size_t(material) == i);
+    reverse(scene, chosen);
+}
+
+std::optional<NamedFrame> namedFrame(const Scene& scene)
+{
+    if (std::ranges::none_of(scene.materials, [&](const Material& m) { return namedBy(scene, m).has_value(); }))
+        return std::nullopt;
+    const std::vector<double> areas = areasOf(scene);
+    std::array<double, kFrameCount> area{};
+    std::array<std::size_t, kFrameCount> materials{};
+    std::size_t all = 0;
+    for (std::size_t i = 0; i < scene.materials.size(); ++i) {
+        const Material& m = scene.materials[i];
+        all += hasNormalMap(m) ? 1 : 0;
+        if (const auto frame = namedBy(scene, m)) {
+            area[std::size_t(*frame)] += areas[i];
+            ++materials[std::size_t(*frame)];
+        }
+    }
+    std::size_t best = 0;
+    for (std::size_t f = 0; f < area.size(); ++f)
+        if (std::pair(area[f], materials[f]) > std::pair(area[best], materials[best]))
+            best = f;
+    return NamedFrame{Frame(int(best)), all - materials[best]};
+}
+
+Frame autoFrame(const Scene& scene, MapSource source)
+{
+    if (const auto named = namedFrame(scene))
+        return named->frame;
+    const bool shaped = source == MapSource::shape || std::ranges::none_of(scene.materials, hasNormalMap);
+    return shaped || (source == MapSource::own && repeatsNormalMaps(scene)) ? Frame::cotangent : Frame::orthonormal;
+}
+
+std::string frameNote(const Scene& scene, Frame frame)
+{
+    const auto named = namedFrame(scene);
+    if (!named)
+        return "";
+    const std::string maps = "the normal maps are for the frame " + std::string(name(named->frame));
+    if (named->frame != frame)
+        return maps + ", as the file says, and are read with " + std::string(name(frame));
+    return named->others == 0 ? ""
+                              : maps + " in the largest part of the model; those of " + std::to_string(named->others)
+            + " other material(s) are not, and are read with it all the same";
+}
+
+} // namespace cotan

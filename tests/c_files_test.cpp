@@ -1,0 +1,243 @@
+// The caller's functions of cotan_model_files: which files and images they are asked for, that each is done with once,
+// and what the library says when they fail. The model is a square with a map beside it.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <string>
+#include <vector>
+
+#include "cotan.h"
+
+namespace {
+
+char text[512];
+
+constexpr char kModel[] =
+    R"({"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0}],
+  "buffers": [{"uri": "square.bin", "byteLength": 140}],
+  "bufferViews": [{"buffer": 0, "byteOffset": 0, "byteLength": 48}, {"buffer": 0, "byteOffset": 48, "byteLength": 48},
+                  {"buffer": 0, "byteOffset": 96, "byteLength": 32}, {"buffer": 0, "byteOffset": 128, "byteLength": 12}],
+  "accessors": [
+    {"bufferView": 0, "componentType": 5126, "count": 4, "type": "VEC3", "min": [0, 0, 0], "max": [2, 3, 0]},
+    {"bufferView": 1, "componentType": 5126, "count": 4, "type": "VEC3"},
+    {"bufferView": 2, "componentType": 5126, "count": 4, "type": "VEC2"},
+    {"bufferView": 3, "componentType": 5123, "count": 6, "type": "SCALAR"}],
+  "images": [{"uri": "bumps.png"}], "textures": [{"source": 0}],
+  "materials": [{"normalTexture": {"index": 0}}],
+  "meshes": [{"primitives": [
+    {"attributes": {"POSITION": 0, "NORMAL": 1, "TEXCOORD_0": 2}, "indices": 3, "material": 0}]}]})";
+
+// Which of the functions fails, and how.
+enum class Failing { none, readSaysNo, readGivesNull, decodeSaysNo, decodeGivesBits, encodeSaysNo, encodeGivesNull };
+
+struct Caller {
+    Failing failing = Failing::none;
+    std::vector<std::string> calls; // as "read square.bin", "done"
+    std::vector<unsigned char> binary = std::vector<unsigned char>(140);
+    std::array<unsigned char, 4 * 8 * 8> pixels{};
+    unsigned char file[3] = {'p', 'n', 'g'};
+
+    Caller()
+    {
+        // A square of 2 by 3 whose uv is skewed, so that a conversion changes its map.
+        const float positions[] = {0, 0, 0, 2, 0, 0, 2, 3, 0, 0, 3, 0},
+                    normals[] = {0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1};
+        const float texcoords[] = {0, 0.9f, 0.6f, 0.9f, 0.9f, 0, 0.3f, 0};
+        const unsigned short indices[] = {0, 1, 2, 0, 2, 3};
+        std::memcpy(&binary[0], positions, 48);
+        std::memcpy(&binary[48], normals, 48);
+        std::memcpy(&binary[96], texcoords, 32);
+        std::memcpy(&binary[128], indices, 12);
+        for (std::size_t i = 0; i < pixels.size(); i += 4) {
+            const unsigned char bump[] = {180, 150, 230, 255};
+            std::memcpy(&pixels[i], bump, 4);
+        }
+    }
+
+    cotan_model_files files()
+    {
+        cotan_model_files f = COTAN_INIT(cotan_model_files);
+        f.user = this;
+        f.read = [](void* user, const char* uri, const void** bytes, std::size_t* size) {
+            Caller& self = *static_cast<Caller*>(user);
+            self.calls.push_back(std::string("read ") + uri);
+            if (self.failing == Failing::readSaysNo)
+                return 1;
+            const bool model = std::string(uri) == "square.bin";
+            *bytes = model ? self.binary.data() : self.file;
+            *size = model ? self.binary.size() : sizeof self.file;
+            if (self.failing == Failing::readGivesNull)
+                *bytes = nullptr;
+            return 0;
+        };
+        f.decode = [](void* user, const char* name, const void* bytes, std::size_t size, cotan_picture* picture) {
+            Caller& self = *static_cast<Caller*>(user);
+            self.calls.push_back(std::string("decode ") + name);
+            EXPECT_TRUE(size == 3 && std::memcmp(bytes, "png", 3) == 0);
+            EXPECT_EQ(picture->size, sizeof *picture);
+            picture->width = picture->height = 8;
+            picture->bits = self.failing == Failing::decodeGivesBits ? 7 : 8;
+            picture->pixels = self.pixels.data();
+            return int(self.failing == Failing::decodeSaysNo);
+        };
+        f.encode = [](void* user, const cotan_picture* picture, const void** bytes, std::size_t* size) {
+            Caller& self = *static_cast<Caller*>(user);
+            self.calls.push_back("encode " + std::to_string(picture->width) + " x " + std::to_string(picture->height));
+            *bytes = self.failing == Failing::encodeGivesNull ? nullptr : self.file;
+            *size = sizeof self.file;
+            return int(self.failing == Failing::encodeSaysNo);
+        };
+        f.done = [](void* user) { static_cast<Caller*>(user)->calls.push_back("done"); };
+        return f;
+    }
+
+    cotan_status convert(cotan_bytes** glb)
+    {
+        const cotan_model_files f = files();
+        text[0] = '\0';
+        return cotan_convert_gltf(kModel, sizeof kModel - 1, &f, nullptr, nullptr, glb, nullptr, text, sizeof text);
+    }
+
+    // Each call is done with before the next, and no "done" belongs to none.
+    void expectEachDoneWith() const
+    {
+        ASSERT_EQ(calls.size() % 2, 0u);
+        for (std::size_t i = 0; i < calls.size(); i += 2) {
+            EXPECT_NE(calls[i], "done") << i;
+            EXPECT_EQ(calls[i + 1], "done") << "after " << calls[i];
+        }
+    }
+    std::size_t count(const std::string& call) const
+    {
+        return std::size_t(std::count(calls.begin(), calls.end(), call));
+    }
+};
+
+TEST(CFiles, eachFileAndImageIsAskedForOnceAndDoneWithOnce)
+{
+    Caller caller;
+    cotan_bytes* glb = nullptr;
+    ASSERT_EQ(caller.convert(&glb), COTAN_OK) << text;
+    caller.expectEachDoneWith();
+    for (const char* call : {"read square.bin", "decode bumps.png", "encode 8 x 8"})
+        EXPECT_EQ(caller.count(call), 1u) << call;
+    // The caller's file is what the new model holds.
+    const std::string made(static_cast<const char*>(cotan_bytes_data(glb)), cotan_bytes_size(glb));
+    EXPECT_EQ(made.substr(0, 4), "glTF");
+    const std::size_t json = made.find("\"byteLength\":3");
+    EXPECT_NE(json, std::string::npos);
+    EXPECT_NE(made.find("png", made.find("BIN")), std::string::npos);
+    cotan_bytes_free(glb);
+}
+
+TEST(CFiles, aFunctionThatFailsEndsTheCallAndIsDoneWithToo)
+{
+    struct Case {
+        Failing failing;
+        cotan_status status;
+        const char* message;
+    };
+    const Case cases[] = {
+        {Failing::readSaysNo, COTAN_INPUT, "square.bin: there is no such file beside the model"},
+        {Failing::readGivesNull, COTAN_INPUT, "square.bin: there is no such file beside the model"},
+        {Failing::encodeSaysNo, COTAN_OUTPUT, "the caller did not encode the picture"},
+        {Failing::encodeGivesNull, COTAN_OUTPUT, "the caller did not encode the picture"},
+    };
+    for (const Case& c : cases) {
+        Caller caller;
+        caller.failing = c.failing;
+        cotan_bytes* glb = nullptr;
+        EXPECT_EQ(caller.convert(&glb), c.status) << c.message << ": " << text;
+        EXPECT_NE(std::string(text).find(c.message), std::string::npos) << text;
+        EXPECT_EQ(glb, nullptr);
+        caller.expectEachDoneWith();
+        EXPECT_FALSE(caller.calls.empty());
+    }
+}
+
+// An image that cannot be decoded does not end the conversion: its map stays.
+TEST(CFiles, anImageThatIsNotDecodedStaysAndIsDoneWithToo)
+{
+    for (const Failing failing : {Failing::decodeSaysNo, Failing::decodeGivesBits}) {
+        Caller caller;
+        caller.failing = failing;
+        cotan_bytes* glb = nullptr;
+        const cotan_status status = caller.convert(&glb);
+        EXPECT_EQ(status == COTAN_OK, glb != nullptr) << text;
+        if (status != COTAN_OK) {
+            EXPECT_NE(std::string(text).find("bumps.png"), std::string::npos) << text;
+        }
+        EXPECT_EQ(caller.count("encode 8 x 8"), 0u);
+        EXPECT_EQ(caller.count("decode bumps.png"), 1u);
+        caller.expectEachDoneWith();
+        cotan_bytes_free(glb);
+    }
+}
+
+TEST(CFiles, imagesAreRenderedWithTheWordsThatAreThere)
+{
+    Caller caller;
+    const cotan_model_files files = caller.files();
+    cotan_render_options options = COTAN_INIT(cotan_render_options);
+    const auto render = [&](cotan_image** image) {
+        text[0] = '\0';
+        return cotan_render(kModel, sizeof kModel - 1, &files, &options, image, nullptr, text, sizeof text);
+    };
+    cotan_image* image = nullptr;
+    options.word_count = 2;
+    EXPECT_EQ(render(&image), COTAN_USAGE);
+    EXPECT_STREQ(text, "options.words: expected an array, found null");
+    const char* words[] = {"--size", nullptr};
+    options.words = words;
+    EXPECT_EQ(render(&image), COTAN_USAGE);
+    EXPECT_NE(std::string(text).find("options.words"), std::string::npos) << text;
+    EXPECT_EQ(render(nullptr), COTAN_USAGE);
+    words[1] = "20x10";
+    ASSERT_EQ(render(&image), COTAN_OK) << text;
+    cotan_picture made = COTAN_INIT(cotan_picture);
+    ASSERT_EQ(cotan_image_picture(image, &made, text, sizeof text), COTAN_OK) << text;
+    EXPECT_EQ(made.width, 20);
+    EXPECT_EQ(made.height, 10);
+    EXPECT_EQ(made.bits, 8);
+    cotan_image_free(image);
+    options.floats = 1;
+    options.word_count = 0; // then no array is read
+    ASSERT_EQ(render(&image), COTAN_OK) << text;
+    ASSERT_EQ(cotan_image_picture(image, &made, text, sizeof text), COTAN_OK) << text;
+    EXPECT_EQ(made.bits, 32);
+    cotan_image_free(image);
+}
+
+// Slopes of waves that cross: the slope along x changes along y as that along y along x. With red and green exchanged
+// it does not.
+TEST(CFiles, exchangedRedAndGreenAreTold)
+{
+    constexpr int kWidth = 96, kHeight = 64;
+    for (const bool exchanged : {false, true}) {
+        std::vector<float> pixels;
+        for (int y = 0; y < kHeight; ++y)
+            for (int x = 0; x < kWidth; ++x) {
+                // Height: 2 sin(x/4 + y/7) + sin(x/9 - y/5) + sin(x/6); y counts down, green points up.
+                const double a = std::cos(x / 4.0 + y / 7.0), b = std::cos(x / 9.0 - y / 5.0), c = std::cos(x / 6.0);
+                double dx = -(2 * a / 4 + b / 9 + c / 6), dy = 2 * a / 7 - b / 5;
+                if (exchanged)
+                    std::swap(dx, dy);
+                const double length = std::sqrt(1 + dx * dx + dy * dy);
+                for (const double n : {dx / length, dy / length, 1 / length})
+                    pixels.push_back(float(0.5 * n + 0.5));
+                pixels.push_back(1);
+            }
+        const cotan_picture map{sizeof map, kWidth, kHeight, 32, pixels.data()};
+        cotan_green green = COTAN_INIT(cotan_green);
+        ASSERT_EQ(cotan_map_green(&map, &green, text, sizeof text), COTAN_OK) << text;
+        EXPECT_EQ(green.swapped, int(exchanged)) << green.reason;
+        if (!exchanged) {
+            EXPECT_EQ(green.direction, 1) << green.reason;
+        }
+    }
+}
+
+} // namespace
