@@ -40,7 +40,7 @@ public:
             return false;
         auto [row, isNew] = rows_.try_emplace(y);
         if (isNew)
-            raster_.row(y, UvReach::centres, row->second);
+            raster_.row(y, row->second);
         const auto first = row->second.places.begin() + row->second.first[std::size_t(x)];
         const auto last = row->second.places.begin() + row->second.first[std::size_t(x) + 1];
         const auto place = std::find_if(first, last, [](const UvSample& p) { return p.covers; });

@@ -53,9 +53,11 @@ void forTexels(const Pair& setup, const Baked& baked, const std::function<void(g
     const UvRaster raster({setup.low.texcoords, setup.low.indices}, baked.width, baked.height);
     UvRow row;
     for (int y = 0; y < baked.height; ++y) {
-        raster.row(y, UvReach::centres, row);
+        raster.row(y, row);
         for (int x = 0; x < baked.width; ++x)
             for (std::uint32_t k = row.first[std::size_t(x)]; k < row.first[std::size_t(x) + 1]; ++k) {
+                if (!row.places[k].covers)
+                    continue;
                 const LowPoint p =
                     pointOf(setup.low, row.places[k].triangle, double(row.places[k].b1), double(row.places[k].b2));
                 check(glm::vec3(p.position), glm::vec3(p.normal),

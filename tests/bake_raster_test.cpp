@@ -7,6 +7,7 @@
 #include <limits>
 #include <map>
 #include <set>
+#include <span>
 
 #include "bake/surface/uv_raster.hpp"
 #include "truth/random.hpp"
@@ -46,12 +47,40 @@ Layout jitteredGrid(int n)
     return l;
 }
 
+// Counts over a whole layout.
+struct Coverage {
+    std::size_t covered = 0;     // texels whose centre some triangle covers
+    std::size_t overlapping = 0; // ... more than one
+};
+
+Coverage coverageOf(const UvRaster& raster)
+{
+    Coverage c;
+    std::vector<int> begins; // how many more triangles cover a texel than the one before it
+    for (int block = 0; block < raster.blocks(); ++block) {
+        const std::size_t width = std::size_t(raster.width()) + 1;
+        begins.assign(width * UvRaster::kBlockRows, 0);
+        raster.eachSpan(block, [&](const UvSpan& span) {
+            int* const row = &begins[std::size_t(span.y % UvRaster::kBlockRows) * width];
+            ++row[span.first];
+            --row[span.last + 1];
+        });
+        int n = 0; // back at 0 behind each row
+        for (const int begin : begins) {
+            n += begin;
+            c.covered += n > 0;
+            c.overlapping += n > 1;
+        }
+    }
+    return c;
+}
+
 TEST(UvRaster, texelsOnSharedEdgesBelongToExactlyOneTriangle)
 {
     // Edges through texel centres: (0.5, 0.5) of an odd image, and diagonals of the square.
     for (int side : {1, 2, 7, 16, 33})
         for (const Layout& l : {fan({0.5f, 0.5f}), fan({0.25f, 0.625f}), jitteredGrid(5)}) {
-            const UvCoverage c = coverage(UvRaster(l.view(), side, side));
+            const Coverage c = coverageOf(UvRaster(l.view(), side, side));
             EXPECT_EQ(c.covered, std::size_t(side) * std::size_t(side)) << side;
             EXPECT_EQ(c.overlapping, 0u) << side;
         }
@@ -63,7 +92,7 @@ TEST(UvRaster, barycentricsLeadBackToTheTexelsCentre)
     const UvRaster raster(l.view(), 37, 23);
     UvRow row;
     for (int y = 0; y < 23; ++y) {
-        raster.row(y, UvReach::centres, row);
+        raster.row(y, row);
         for (int x = 0; x < 37; ++x) {
             ASSERT_EQ(row.first[std::size_t(x) + 1] - row.first[std::size_t(x)], 1u);
             const UvSample& p = row.places[row.first[std::size_t(x)]];
@@ -82,39 +111,48 @@ TEST(UvRaster, trianglesThatOnlyTouchATexelGiveTheirNearestPoint)
     const Layout l{{{0.26f, 0.26f}, {0.34f, 0.26f}, {0.3f, 0.3f}}, {0, 1, 2}};
     const UvRaster raster(l.view(), 4, 4);
     UvRow row;
-    raster.row(1, UvReach::centres, row);
-    EXPECT_TRUE(row.places.empty());
-    raster.row(1, UvReach::touching, row);
+    raster.row(1, row);
     ASSERT_EQ(row.first[2] - row.first[1], 1u); // texel (1, 1), whose centre is (0.375, 0.375)
     const UvSample& p = row.places[row.first[1]];
     EXPECT_FALSE(p.covers);
     EXPECT_NEAR(p.b1 * 0.08f + p.b2 * 0.04f + 0.26f, 0.32f, 0.021f); // on the edge from (0.34, 0.26) to (0.3, 0.3)
 }
 
-TEST(UvRaster, gapsAreWhatTouchingFindsWhereNoCentreIsCovered)
+TEST(UvRaster, placesThatOnlyTouchCountWhereNoCentreIsCovered)
 {
-    const Layout l = jitteredGrid(6);
+    Layout l = jitteredGrid(6);
+    l.indices.erase(l.indices.begin() + 3 * 20, l.indices.begin() + 3 * 29); // a hole in the middle
     const UvRaster raster(l.view(), 61, 43);
-    UvRow gaps, touching;
+    std::vector<UvRaster> alone; // each triangle by itself
+    for (std::size_t i = 0; i < l.indices.size(); i += 3)
+        alone.emplace_back(UvTriangles{l.texcoords, std::span(l.indices).subspan(i, 3)}, 61, 43);
+    std::size_t touched = 0;
     for (int y = 0; y < 43; ++y) {
-        raster.row(y, UvReach::gaps, gaps);
-        raster.row(y, UvReach::touching, touching);
+        UvRow together;
+        raster.row(y, together);
+        std::vector<UvRow> rows(alone.size());
+        for (std::size_t f = 0; f < alone.size(); ++f)
+            alone[f].row(y, rows[f]);
         for (std::size_t x = 0; x < 61; ++x) {
             std::vector<UvSample> expected;
             for (bool covers : {true, false})
-                if (expected.empty())
-                    for (std::uint32_t i = touching.first[x]; i < touching.first[x + 1]; ++i)
-                        if (touching.places[i].covers == covers)
-                            expected.push_back(touching.places[i]);
-            ASSERT_EQ(gaps.first[x + 1] - gaps.first[x], expected.size());
+                for (std::size_t f = 0; f < rows.size() && (covers || expected.empty() || !expected[0].covers); ++f)
+                    for (std::uint32_t i = rows[f].first[x]; i < rows[f].first[x + 1]; ++i)
+                        if (UvSample p = rows[f].places[i]; p.covers == covers) {
+                            p.triangle = std::uint32_t(f);
+                            expected.push_back(p);
+                        }
+            ASSERT_EQ(together.first[x + 1] - together.first[x], expected.size());
             for (std::size_t i = 0; i < expected.size(); ++i) {
-                const UvSample& p = gaps.places[gaps.first[x] + i];
+                const UvSample& p = together.places[together.first[x] + i];
                 EXPECT_EQ(p.triangle, expected[i].triangle);
                 EXPECT_EQ(p.b1, expected[i].b1);
                 EXPECT_EQ(p.covers, expected[i].covers);
+                touched += p.covers ? 0 : 1;
             }
         }
     }
+    EXPECT_GT(touched, 0u);
 }
 
 TEST(UvRaster, firstsAreTheFirstOfEachTexel)
@@ -140,7 +178,7 @@ TEST(UvRaster, firstsAreTheFirstOfEachTexel)
     }
     UvRow row;
     for (int y = 0; y < 43; ++y) {
-        raster.row(y, UvReach::gaps, row);
+        raster.row(y, row);
         for (int x = 0; x < 61; ++x) {
             const std::size_t i = row.first[std::size_t(x)], end = row.first[std::size_t(x) + 1];
             const auto found = firsts.find({x, y});
@@ -168,10 +206,11 @@ TEST(UvRaster, spansAreTheTexelsWhoseCentresAreCovered)
         });
     UvRow row;
     for (int y = 0; y < 43; ++y) {
-        raster.row(y, UvReach::centres, row);
+        raster.row(y, row);
         for (int x = 0; x < 61; ++x)
             for (std::uint32_t i = row.first[std::size_t(x)]; i < row.first[std::size_t(x) + 1]; ++i)
-                covered.insert({int(row.places[i].triangle), y, x});
+                if (row.places[i].covers)
+                    covered.insert({int(row.places[i].triangle), y, x});
     }
     EXPECT_EQ(spanned, covered);
 }
@@ -184,10 +223,10 @@ TEST(UvRaster, aFewPlacesAreSomeOfAllAndOneIsTheFirst)
     const UvRaster raster(l.view(), 61, 43);
     UvRow all, one, few, many;
     for (int y = 0; y < 43; ++y) {
-        raster.row(y, UvReach::gaps, all);
-        raster.row(y, UvReach::gaps, one, {.most = 1});
-        raster.row(y, UvReach::gaps, few, {.most = 4});
-        raster.row(y, UvReach::gaps, many, {.most = 20});
+        raster.row(y, all);
+        raster.row(y, one, {.most = 1});
+        raster.row(y, few, {.most = 4});
+        raster.row(y, many, {.most = 20});
         for (std::size_t x = 0; x < 61; ++x) {
             const auto of = [&](const UvRow& row) {
                 std::vector<std::uint32_t> triangles;
@@ -207,11 +246,11 @@ TEST(UvRaster, aFewPlacesAreSomeOfAllAndOneIsTheFirst)
 TEST(UvRaster, aTriangleOfThousandsOfCopiesIsDrawnInSixteenThatAreInsideIt)
 {
     const Layout l{{{0.3f, 0.1f}, {3000, 700}, {900, 2500}}, {0, 1, 2}};
-    const UvCoverage c = coverage(UvRaster(l.view(), 16, 16, {0, 0}, /*wrap*/ true));
+    const Coverage c = coverageOf(UvRaster(l.view(), 16, 16, {0, 0}, /*wrap*/ true));
     EXPECT_EQ(c.covered, 256u);
     UvRow row;
     const UvRaster raster(l.view(), 16, 16, {0, 0}, /*wrap*/ true);
-    raster.row(5, UvReach::centres, row);
+    raster.row(5, row);
     EXPECT_EQ(row.places.size(), 16u * 16u);
 }
 
@@ -220,9 +259,9 @@ TEST(UvRaster, overlapsAreCounted)
     Layout l = fan({0.5f, 0.5f});
     const std::vector<std::uint32_t> again = l.indices;
     l.indices.insert(l.indices.end(), again.begin(), again.begin() + 3); // the top quarter twice
-    const UvCoverage c = coverage(UvRaster(l.view(), 64, 64));
+    const Coverage c = coverageOf(UvRaster(l.view(), 64, 64));
     EXPECT_EQ(c.covered, 64u * 64u);
-    EXPECT_EQ(c.overlapping, coverage(UvRaster({l.texcoords, std::span(l.indices).first(3)}, 64, 64)).covered);
+    EXPECT_EQ(c.overlapping, coverageOf(UvRaster({l.texcoords, std::span(l.indices).first(3)}, 64, 64)).covered);
 }
 
 TEST(UvRaster, tilesShowTheirUnitSquareAndWrappingShowsAll)
@@ -230,9 +269,9 @@ TEST(UvRaster, tilesShowTheirUnitSquareAndWrappingShowsAll)
     Layout l = fan({0.5f, 0.5f});
     for (glm::vec2& uv : l.texcoords)
         uv += glm::vec2(1, 0);
-    EXPECT_EQ(coverage(UvRaster(l.view(), 8, 8)).covered, 0u);
-    EXPECT_EQ(coverage(UvRaster(l.view(), 8, 8, {1, 0})).covered, 64u);
-    EXPECT_EQ(coverage(UvRaster(l.view(), 8, 8, {0, 0}, true)).covered, 64u);
+    EXPECT_EQ(coverageOf(UvRaster(l.view(), 8, 8)).covered, 0u);
+    EXPECT_EQ(coverageOf(UvRaster(l.view(), 8, 8, {1, 0})).covered, 64u);
+    EXPECT_EQ(coverageOf(UvRaster(l.view(), 8, 8, {0, 0}, true)).covered, 64u);
 }
 
 TEST(UvRaster, uvThatAreNotFiniteOrHaveNoAreaShowNothing)
@@ -240,8 +279,8 @@ TEST(UvRaster, uvThatAreNotFiniteOrHaveNoAreaShowNothing)
     const float nan = std::numeric_limits<float>::quiet_NaN(), inf = std::numeric_limits<float>::infinity();
     for (glm::vec2 bad : {glm::vec2(nan, 0), {inf, 0}, {1e30f, 0}, {0, 0}, {-3e38f, 3e38f}}) {
         const Layout l{{{0, 0}, {1, 1}, bad}, {0, 1, 2}};
-        EXPECT_EQ(coverage(UvRaster(l.view(), 4, 4)).covered, 0u);
-        EXPECT_EQ(coverage(UvRaster(l.view(), 4, 4, {0, 0}, true)).covered, 0u);
+        EXPECT_EQ(coverageOf(UvRaster(l.view(), 4, 4)).covered, 0u);
+        EXPECT_EQ(coverageOf(UvRaster(l.view(), 4, 4, {0, 0}, true)).covered, 0u);
     }
 }
 

@@ -2,7 +2,6 @@
 #include <gtest/gtest.h>
 
 #include "bake/bake_surfaces.hpp"
-#include "bake/convert/drop_tangents.hpp"
 #include "bake/convert/map_jobs.hpp"
 #include "bake/ray_starts.hpp"
 #include "batch/record.hpp"

@@ -414,11 +414,9 @@ TEST(Texels, areFoundByColumnThenRowInEveryType)
     EXPECT_EQ(storedTexel(words, 0, 1), glm::dvec3(12000, 13000, 14000) / 65535.0);
     const Image floats = floatMap(3, 2, [](int x, int y) { return glm::dvec3(x, y, 7); });
     EXPECT_EQ(storedTexel(floats, 2, 1), glm::dvec3(2, 1, 7));
-    Texture texture;
-    texture.sampler.wrapV = Wrap::clamp;
     const auto asMeant = toFormat<f64::cotan_normal_format>(kAsMeant);
-    EXPECT_EQ(decodedAt(floats, texture, asMeant, {-0.1, 1.9}).x, 2); // repeats along u
-    EXPECT_EQ(decodedAt(floats, texture, asMeant, {-0.1, 1.9}).y, 1); // and stays in the last row
+    EXPECT_EQ(decodedAt(floats, Wrap::repeat, Wrap::clamp, asMeant, {-0.1, 1.9}).x, 2); // repeats along u
+    EXPECT_EQ(decodedAt(floats, Wrap::repeat, Wrap::clamp, asMeant, {-0.1, 1.9}).y, 1); // and stays in the last row
 }
 
 TEST(Texels, coordinatesWrapAsTheSamplerSays)

@@ -3,7 +3,7 @@
 
 #include <glm/geometric.hpp>
 
-#include "bake/report_words.hpp"
+#include "bake/reports.hpp"
 #include "common.hpp"
 #include "cotan/picture.hpp"
 #include "cotan/render.hpp"

@@ -5,8 +5,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "bake/convert_report.hpp"
-#include "bake/report_words.hpp"
+#include "bake/reports.hpp"
 #include "convert_lines.hpp"
 #include "cotan/scene.hpp"
 

@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "bake/lint_report.hpp"
+#include "bake/reports.hpp"
 #include "lint_lines.hpp"
 
 namespace cotan {

@@ -8,8 +8,8 @@
 #include <string>
 
 #include "cotan/shader_text.hpp"
+#include "languages.hpp"
 #include "parse.hpp"
-#include "print.hpp"
 #include "specialise.hpp"
 
 namespace cotan::shader_text {

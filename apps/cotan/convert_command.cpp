@@ -7,7 +7,7 @@
 
 #include <fmt/format.h>
 
-#include "bake/convert_report.hpp"
+#include "bake/reports.hpp"
 #include "convert_lines.hpp"
 #include "cotan/convert.hpp"
 #include "cotan/inspect.hpp"

@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include "bake/report_words.hpp"
+#include "bake/reports.hpp"
 #include "gltf/json/lookup.hpp"
 
 namespace cotan {

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "bake/lint_report.hpp"
+#include "bake/reports.hpp"
 #include "cotan/inspect.hpp"
 #include "cotan/lint.hpp"
 #include "cotan/render.hpp"

@@ -5,8 +5,7 @@
 #include <fmt/format.h>
 
 #include "bake/lint/map_fit.hpp"
-#include "bake/lint_report.hpp"
-#include "bake/report_words.hpp"
+#include "bake/reports.hpp"
 
 namespace cotan {
 

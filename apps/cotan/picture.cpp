@@ -1,6 +1,6 @@
 #include "picture.hpp"
 
-#include "bake/report_words.hpp"
+#include "bake/reports.hpp"
 #include "scene/geometry.hpp"
 
 namespace cotan::app {

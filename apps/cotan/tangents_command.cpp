@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "bake/report_words.hpp"
+#include "bake/reports.hpp"
 #include "cotan/gltf.hpp"
 #include "gltf_open.hpp"
 #include "smooth_report.hpp"

@@ -1,12 +1,242 @@
 #include "bake/bake_model.hpp"
 
+#include <algorithm>
+#include <cctype>
 #include <chrono>
+#include <cmath>
 
 #include <fmt/format.h>
+#include <glm/geometric.hpp>
+
+#include "cotan/covector.hpp"
+#include "scene/geometry.hpp"
+#include "scene/normal_maps.hpp"
+#include "scene/parts.hpp"
+#include "scene/scene_check.hpp"
 
 namespace cotan {
 
 namespace {
+
+constexpr int kLargestSide = 65535; // texels: the number of a texel has 32 bits
+constexpr int kMaxOcclusionRays = 1 << 16;
+constexpr float kFarthest = 1e17f; // model units: Embree ends the program for rays that start beyond 1.8e18
+
+Status checkRanges(const Scene& low, const HighModel& high, const BakeModelOptions& options)
+{
+    const BakeOptions& b = options.bake;
+    if (b.width < 1 || b.height < 1 || b.width > kLargestSide || b.height > kLargestSide)
+        return about("options.bake.width",
+                     usageError(fmt::format("expected a width and a height from 1 to {}; found {}x{}", kLargestSide,
+                                            b.width, b.height)));
+    if (b.samples != 1 && b.samples != 2 && b.samples != 4)
+        return about("options.bake.samples",
+                     usageError(fmt::format("expected 1, 2 or 4 samples a texel and axis; found {}", b.samples)));
+    for (const auto& [frame, what] :
+         {std::pair(b.frame, "options.bake.frame"), {options.highFrame, "options.highFrame"}})
+        if (!isFrame(int(frame)))
+            return about(what, usageError(fmt::format("expected 0 to {}; found {}", kFrameCount - 1, int(frame))));
+    if (options.tiles.empty())
+        return about("options.tiles", usageError("expected one tile or more; found none"));
+    if (b.occlusionRays < 1 || b.occlusionRays > kMaxOcclusionRays)
+        return about("options.bake.occlusionRays",
+                     usageError(fmt::format("expected 1 to {} rays for occlusion; found {}", kMaxOcclusionRays,
+                                            b.occlusionRays)));
+    for (const auto& [distance, what] : {std::pair(b.maxDistance, "options.maxDistance"),
+                                         {b.cageReach, "options.cageReach"},
+                                         {b.extrusion, "options.extrusion"}})
+        if (!(distance >= 0 && distance <= kFarthest))
+            return about(what, usageError(fmt::format("expected 0 to {:g}; found {:g}", kFarthest, distance)));
+    if (options.cage && (b.search == BakeSearch::nearest || b.extrusion > 0))
+        return about(b.extrusion > 0 ? "options.extrusion" : "options.search",
+                     usageError("a cage says already where rays start, and the first surface counts"));
+    if (b.search == BakeSearch::nearest && b.extrusion > 0)
+        return about("options.extrusion", usageError("the search nearest looks both ways from the low surface"));
+    if (options.material >= int(low.materials.size()))
+        return about(
+            "options.material",
+            usageError(fmt::format("expected 0 to {}; found {}", int(low.materials.size()) - 1, options.material)));
+    if (high.maps.size() > 1 && high.maps.size() != high.scenes.size())
+        return about("high.maps",
+                     usageError(fmt::format("expected none, one, or one for each of the {} scenes; found {}",
+                                            high.scenes.size(), high.maps.size())));
+    return Done{};
+}
+
+// Whether all of them hold together.
+Status checkScenes(const Scene& low, const HighModel& high, const BakeModelOptions& options)
+{
+    constexpr SceneRules rules{.pixels = false};
+    Status sound = checkScene(low, "low", rules);
+    for (std::size_t i = 0; sound && i < high.scenes.size(); ++i)
+        sound = checkScene(high.scenes[i], fmt::format("high.scenes[{}]", i), rules);
+    for (const auto& [scene, what] : {std::pair(options.cage, "options.cage"), {options.others, "options.others"}})
+        if (sound && scene)
+            sound = checkScene(*scene, what, rules);
+    return sound;
+}
+
+// The cage's corner positions, brought to the vertices of the low surface.
+Result<std::vector<glm::vec3>> cagePositions(const Scene& cage, const LowSurface& low)
+{
+    std::vector<glm::vec3> corners;
+    for (const Instance& instance : cage.instances) {
+        const Mesh& mesh = cage.meshes[std::size_t(instance.mesh)];
+        for (std::uint32_t i : mesh.indices)
+            corners.push_back(glm::vec3(instance.toWorld * glm::vec4(mesh.positions[i], 1)));
+    }
+    if (corners.size() != low.indices.size())
+        return about("options.cage",
+                     inputError(fmt::format("expected a cage of {} triangles, as the low mesh has; found {}",
+                                            low.triangleCount(), corners.size() / 3)));
+    std::vector<glm::vec3> positions(low.positions.size());
+    for (std::size_t i = 0; i < corners.size(); ++i)
+        positions[low.indices[i]] = corners[i];
+    return positions;
+}
+
+// Whether rays can start at these points.
+Status checkPlaces(const std::vector<glm::vec3>& points, const char* what)
+{
+    for (const glm::vec3& p : points)
+        for (const float x : {p.x, p.y, p.z})
+            if (!(std::abs(x) <= kFarthest))
+                return about(
+                    what,
+                    inputError(fmt::format("expected positions up to {:g} from the origin; found {:g}", kFarthest, x)));
+    return Done{};
+}
+
+// A transform of zero, for one, leaves none.
+Status checkArea(const LowSurface& low)
+{
+    for (std::size_t f = 0; f < low.triangleCount(); ++f)
+        if (const TriangleEdges edges = edgesOf(low, f); glm::cross(edges.p1, edges.p2) != glm::dvec3(0))
+            return Done{};
+    return inputError(
+        fmt::format("low: expected a triangle with an area; all {} have none as they are placed", low.triangleCount()));
+}
+
+// Refuses a high surface of which rays meet thousands of triangles one behind the other: each ray of a bake would.
+Status checkCrowded(const LowSurface& low, const HighSurface& high)
+{
+    constexpr std::size_t kTried = 256, kCrowded = 2000;
+    const float diagonal = glm::length(high.high() - high.low());
+    std::vector<std::size_t> met;
+    for (std::size_t f = 0; f < low.triangleCount(); f += 1 + low.triangleCount() / kTried) {
+        const std::uint32_t* const c = &low.indices[3 * f];
+        const glm::vec3 n = low.normals[c[0]];
+        const glm::vec3 point = (low.positions[c[0]] + low.positions[c[1]] + low.positions[c[2]]) / 3.0f;
+        if (glm::dot(n, n) > 0)
+            met.push_back(high.met({point + n * diagonal, -n, 0, 2 * diagonal}));
+    }
+    if (met.empty())
+        return Done{};
+    const auto middle = met.begin() + std::ptrdiff_t(met.size() / 2);
+    std::nth_element(met.begin(), middle, met.end());
+    if (*middle > kCrowded)
+        return inputError(fmt::format("high: rays meet about {} of its triangles one behind the other, expected at "
+                                      "most {}: leave out those that nobody sees",
+                                      *middle, kCrowded));
+    return Done{};
+}
+
+// Makes the materials say what HighModel::maps and highFormat say.
+void applyMaps(HighModel& high, const std::optional<Convention>& format)
+{
+    for (std::size_t i = 0; i < high.scenes.size() && !high.maps.empty(); ++i) {
+        Scene& scene = high.scenes[i];
+        for (Material& material : scene.materials)
+            material.normalMap = {}; // the image is read by uv set 0 as it is
+        putNormalMap(scene, high.maps.size() > 1 ? std::move(high.maps[i]) : high.maps.front(), {});
+    }
+    if (format)
+        for (Scene& scene : high.scenes) {
+            restoreDeclaredGreen(scene);
+            for (Material& material : scene.materials)
+                material.normalFormat = *format;
+        }
+}
+
+// The normal maps of the detailed scenes, whose images are moved out.
+Status readOwnMaps(HighModel& high, BakeSetup& setup)
+{
+    applyMaps(high, setup.options.highFormat);
+    auto maps = HighNormalMaps::make(high.scenes, setup.options.highFrame);
+    if (!maps)
+        return maps.error();
+    if (const std::size_t bare = maps->instanceCount() - maps->mappedCount(); bare > 0)
+        setup.warnings.push_back(fmt::format(
+            "{} of {} high meshes have no normal map or no texture coordinates for it: smooth normals there", bare,
+            maps->instanceCount()));
+    setup.options.bake.highMaps = std::make_shared<const HighNormalMaps>(std::move(*maps));
+    return Done{};
+}
+
+// An instance's triangles, in the world.
+void add(LowRest& rest, const Scene& scene, const Instance& instance, std::uint32_t number)
+{
+    const Mesh& mesh = scene.meshes[std::size_t(instance.mesh)];
+    const auto base = std::uint32_t(rest.positions.size());
+    const glm::mat3 covectors = LinearMap<float>(glm::mat3(instance.toWorld)).planeMatrix();
+    for (std::size_t v = 0; v < mesh.vertexCount(); ++v) {
+        rest.positions.push_back(glm::vec3(instance.toWorld * glm::vec4(mesh.positions[v], 1)));
+        rest.normals.push_back(covectors * mesh.normals[v]);
+    }
+    for (const std::uint32_t v : mesh.indices)
+        rest.indices.push_back(base + v);
+    rest.triangleInstance.insert(rest.triangleInstance.end(), mesh.triangleCount(), number);
+}
+
+// The triangles of the other materials, and those of options.others. By name a mesh sees its own detail alone: then
+// those do not matter.
+LowRest restOf(const Scene& low, const BakeModelOptions& options)
+{
+    LowRest rest;
+    for (std::size_t i = 0; i < low.instances.size() && options.material >= 0; ++i)
+        if (low.meshes[std::size_t(low.instances[i].mesh)].material != options.material)
+            add(rest, low, low.instances[i], std::uint32_t(i));
+    if (options.others && !options.matchByName)
+        for (const Instance& instance : options.others->instances)
+            add(rest, *options.others, instance, 0);
+    return rest;
+}
+
+// Whether what is baked has tangents everywhere and they count.
+bool hasStoredTangents(const Scene& low, const BakeModelOptions& options)
+{
+    return options.tangents == TangentOrigin::stored
+        && std::all_of(low.meshes.begin(), low.meshes.end(), [&](const Mesh& mesh) {
+               return (options.material >= 0 && mesh.material != options.material) || mesh.indices.empty()
+                   || !mesh.tangents.empty();
+           });
+}
+
+// "door_low" and "door_high" are of one name: what stands before the last low or high.
+std::string stem(std::string name)
+{
+    std::transform(name.begin(), name.end(), name.begin(), [](unsigned char c) { return char(std::tolower(c)); });
+    for (const char* word : {"low", "high"})
+        if (const std::size_t at = name.rfind(word); at != std::string::npos)
+            return name.substr(0, at);
+    return name;
+}
+
+Result<std::vector<std::int64_t>> matches(const Scene& low, const HighSurface& high)
+{
+    std::vector<std::int64_t> result;
+    for (const Instance& instance : low.instances) {
+        const std::string& name = objectName(low, instance);
+        const auto& names = high.names();
+        const auto found =
+            std::find_if(names.begin(), names.end(), [&](const std::string& n) { return stem(n) == stem(name); });
+        if (found == names.end())
+            return about("options.matchByName",
+                         inputError(fmt::format("no high mesh is named like the low mesh '{}'", name)));
+        result.push_back(found - names.begin());
+    }
+    return result;
+}
 
 constexpr int kFirstUdim = 1001; // 1001 + u + 10 v, v upwards
 constexpr int kUdimColumns = 10;
@@ -20,6 +250,58 @@ glm::ivec2 squareOf(int udim)
 }
 
 } // namespace
+
+Result<BakeSetup> prepareBake(const Scene& low, HighModel high, const BakeModelOptions& options)
+{
+    if (Status ok = checkRanges(low, high, options); !ok)
+        return ok.error();
+    if (Status ok = checkScenes(low, high, options); !ok)
+        return ok.error();
+    auto lowSurface = makeLowSurface(low, options.material, options.bake.frame, options.tangents);
+    if (!lowSurface)
+        return lowSurface.error();
+    std::vector<glm::vec3> cage;
+    if (options.cage) {
+        auto positions = cagePositions(*options.cage, *lowSurface);
+        if (!positions)
+            return positions.error();
+        cage = std::move(*positions);
+    }
+    for (Scene& scene : high.scenes)
+        if (!options.matchByName) // nobody asks for a part of it
+            joinParts(scene);
+    auto highSurface = HighSurface::make(high.scenes, options.bake.threads, options.matchByName);
+    if (!highSurface)
+        return highSurface.error();
+    for (const Status& placed :
+         {checkPlaces(lowSurface->positions, "low"), checkArea(*lowSurface), checkPlaces(cage, "options.cage"),
+          checkPlaces({highSurface->low(), highSurface->high()}, "high")})
+        if (!placed)
+            return placed.error();
+    if (Status fits = checkCrowded(*lowSurface, *highSurface); !fits) // by rays, which must be able to start there
+        return fits.error();
+    BakeSetup setup{std::move(*lowSurface), std::move(*highSurface), options, {}, hasStoredTangents(low, options)};
+    BakeOptions& bake = setup.options.bake;
+    setup.options.cage = setup.options.others = nullptr;
+    bake.cage = std::move(cage);
+    bake.highMaps = nullptr;
+    bake.matched.clear();
+    if (bake.highNormals == HighNormals::curved)
+        setup.high.curve(bake.threads);
+    if (options.ownMaps && showsNormals(bake.kind))
+        if (Status read = readOwnMaps(high, setup); !read)
+            return read.error();
+    if (options.matchByName) {
+        auto matched = matches(low, setup.high);
+        if (!matched)
+            return matched.error();
+        bake.matched = std::move(*matched);
+    }
+    bake.starts = nullptr;
+    if (Status ready = measureRayStarts(setup.low, setup.high, bake, restOf(low, options)); !ready)
+        return ready.error();
+    return setup;
+}
 
 Result<BakedMap> bakeTile(const BakeSetup& setup, int tile, const Progress& progress)
 {

@@ -221,7 +221,7 @@ void countTexels(const StateCounts& states, BakeStatistics& s)
 void countTriangles(const LowSurface& low, BakeStatistics& statistics)
 {
     for (std::size_t f = 0; f < low.triangleCount(); ++f) {
-        const double area = edgesOf(low.positions, low.texcoords, low.cornersOf(f)).uvArea2();
+        const double area = edgesOf(low, f).uvArea2();
         statistics.mirroredTriangles += area > 0; // v runs down: charts that are not mirrored turn the other way
         statistics.degenerateTriangles += !(std::abs(area) > 0);
     }

@@ -22,8 +22,7 @@ struct Baked {
     BakeStatistics statistics;
 };
 
-// Bakes. `progress` is called from several threads after each row. The result does not
-// depend on the number of threads.
+// Bakes. `progress` is called from several threads after each row. The result does not depend on the number of threads.
 // Errors: ErrorKind::input for a cage of another number of vertices.
 Result<Baked> bake(const LowSurface& low, const HighSurface& high, const BakeOptions& options,
                    const Progress& progress = {});

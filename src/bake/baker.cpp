@@ -4,7 +4,6 @@
 #include <cmath>
 #include <numbers>
 
-#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
 #include "core/other_axis.hpp"
@@ -30,14 +29,33 @@ void copyHit(const Hits& from, std::size_t i, Hits& to)
     to.away[i] = from.away[i];
 }
 
+// Where anything lies on the lines, up to farthest(i) away from their points either way; negative: not asked. Returns
+// how many rays that took.
+template<class Farthest>
+std::size_t anyAround(const HighSurface& high, const Probes& probes, Lanes<int>& any, const Farthest& farthest)
+{
+    any.fill(0);
+    Probes lines = probes;
+    std::size_t rays = 0;
+    for (std::size_t i = 0; i < probes.count; ++i)
+        if (const float length = farthest(i); length < 0) {
+            lines.direction.set(i, glm::vec3(0));
+        } else {
+            lines.before[i] = lines.reach[i] = length;
+            ++rays;
+        }
+    if (rays > 0)
+        high.anyBetween(lines, any);
+    return rays;
+}
+
 } // namespace
 
 Status measureRayStarts(const LowSurface& low, const HighSurface& high, BakeOptions& options, const LowRest& rest)
 {
     if (options.starts || !options.cage.empty() || options.search != BakeSearch::first)
         return Done{};
-    auto starts =
-        makeRayStarts(low, high, {options.extrusion, options.maxDistance, options.matched, options.threads}, rest);
+    auto starts = makeRayStarts(low, high, options, rest);
     if (!starts)
         return starts.error();
     options.starts = std::make_shared<const RayStarts>(std::move(*starts));
@@ -76,9 +94,7 @@ void Baker::aim(const LowPoints& points, std::span<const UvSample> places, Probe
 void Baker::aimFromCage(const UvSample& place, std::size_t i, Probes& probes) const
 {
     const std::uint32_t* v = &low_.indices[3 * std::size_t(place.triangle)];
-    const glm::vec3 cage = options_.cage[v[0]] * (1 - place.b1 - place.b2) + options_.cage[v[1]] * place.b1
-        + options_.cage[v[2]] * place.b2;
-    const glm::vec3 way = cage - probes.point.at(i);
+    const glm::vec3 way = atVertices(options_.cage, v, place.b1, place.b2) - probes.point.at(i);
     const float before = glm::length(way);
     probes.before[i] = before;
     probes.reach[i] = options_.cageReach > 0 && before > 0 ? options_.cageReach - before : before;
@@ -89,15 +105,12 @@ void Baker::aimFromStart(const LowPoints& points, const UvSample& place, std::si
 {
     const RayStarts& starts = *options_.starts;
     const std::uint32_t* v = &low_.indices[3 * std::size_t(place.triangle)];
-    const float b0 = 1 - place.b1 - place.b2;
-    glm::vec3 sum = points.from.raw.at(i); // of the normals
-    if (starts.bent)
-        sum = starts.directions[v[0]] * b0 + starts.directions[v[1]] * place.b1 + starts.directions[v[2]] * place.b2;
+    const glm::vec3 sum =
+        starts.bent ? atVertices(starts.directions, v, place.b1, place.b2) : points.from.raw.at(i); // of the normals
     const float length = std::sqrt(glm::dot(sum, sum));
     if (starts.bent && length > 0)
         probes.direction.set(i, sum / length);
-    probes.before[i] =
-        length * (starts.distances[v[0]] * b0 + starts.distances[v[1]] * place.b1 + starts.distances[v[2]] * place.b2);
+    probes.before[i] = length * atVertices(starts.distances, v, place.b1, place.b2);
     if (starts.crossed[place.triangle])
         probes.before[i] = openDistance(*starts.tree, place.triangle, probes.point.at(i), probes.direction.at(i),
                                         starts.skip, probes.before[i]);
@@ -157,21 +170,10 @@ std::size_t Baker::somethingNearer(const Probes& probes, const Hits& hits, Lanes
     if (!measured())
         return 0;
     // What was found behind the low surface has had nothing before it on the ray, which came from further out.
-    Probes between = probes;
-    std::size_t rays = 0;
-    for (std::size_t i = 0; i < probes.count; ++i) {
+    return anyAround(high_, probes, nearer, [&](std::size_t i) {
         const float off = hits.distance[i], skip = std::max(4 * lift_, 1e-3f * off);
-        if (hits.found(i) && off > 2 * skip) {
-            between.before[i] = off - skip;
-            between.reach[i] = off - skip;
-            ++rays;
-        } else {
-            between.direction.set(i, glm::vec3(0));
-        }
-    }
-    if (rays > 0)
-        high_.anyBetween(between, nearer);
-    return rays;
+        return hits.found(i) && off > 2 * skip ? off - skip : -1;
+    });
 }
 
 bool Baker::standsOff(const Hits& hits) const
@@ -184,21 +186,10 @@ bool Baker::standsOff(const Hits& hits) const
 
 std::size_t Baker::somethingFurther(const Probes& probes, const Hits& hits, Lanes<int>& further) const
 {
-    further.fill(0);
-    Probes line = probes;
-    std::size_t rays = 0;
     const glm::vec3 middle = (high_.low() + high_.high()) * 0.5f;
-    for (std::size_t i = 0; i < probes.count; ++i) {
-        if (hits.found(i)) {
-            line.direction.set(i, glm::vec3(0));
-            continue;
-        }
-        line.before[i] = line.reach[i] = glm::length(middle - probes.point.at(i)) + diagonalOf(high_);
-        ++rays;
-    }
-    if (rays > 0)
-        high_.anyBetween(line, further);
-    return rays;
+    return anyAround(high_, probes, further, [&](std::size_t i) {
+        return hits.found(i) ? -1 : glm::length(middle - probes.point.at(i)) + diagonalOf(high_);
+    });
 }
 
 std::size_t Baker::valuesOf(const LowPoints& points, const Probes& probes, const Hits& hits,

@@ -5,8 +5,6 @@
 
 #include <fmt/format.h>
 
-#include <glm/geometric.hpp>
-
 #include "cotan/vector.hpp"
 #include "scene/texture_sample.hpp"
 
@@ -90,10 +88,10 @@ glm::vec3 HighNormalMaps::normalAt(std::uint32_t instance, std::uint32_t triangl
     if (!part.image)
         return smooth;
     const LowSurface& s = part.surface;
-    const Corners at = s.cornersOf(triangle);
-    const TriangleEdges edges = edgesOf(s.positions, s.texcoords, at);
+    const TriangleEdges edges = edgesOf(s, triangle);
     const double area = std::abs(edges.uvArea2());
-    const glm::dvec2 uv = glm::dvec2(s.texcoords[at[0]]) + edges.uv1 * b1 + edges.uv2 * b2;
+    const glm::dvec2 uv =
+        glm::dvec2(s.texcoords[s.indices[3 * std::size_t(triangle)]]) + edges.uv1 * b1 + edges.uv2 * b2;
     const bool readable = area > 0 && area < double(kFarthestUv) && std::abs(uv.x) <= double(kFarthestUv)
         && std::abs(uv.y) <= double(kFarthestUv);
     if (!readable)

@@ -7,6 +7,7 @@
 #include <glm/geometric.hpp>
 
 #include "bake/high_surface.hpp"
+#include "bake/surface/surface_triangle.hpp"
 
 namespace cotan {
 
@@ -33,14 +34,13 @@ void pointsBetween(const HighSurface::Triangles& part, std::size_t triangle, flo
     if (cuts == 0)
         return;
     const std::uint32_t* c = &part.indices[3 * triangle];
-    const glm::vec3 p0 = part.positions[c[0]], p1 = part.positions[c[1]], p2 = part.positions[c[2]];
     for (int i = 0; i <= cuts; ++i)
         for (int j = 0; j <= cuts - i; ++j) {
-            const float b1 = float(i) / float(cuts), b2 = float(j) / float(cuts), b0 = 1 - b1 - b2;
-            const glm::vec3 n = part.normals[c[0]] * b0 + part.normals[c[1]] * b1 + part.normals[c[2]] * b2;
+            const float b1 = float(i) / float(cuts), b2 = float(j) / float(cuts);
+            const glm::vec3 n = atVertices(part.normals, c, b1, b2);
             const float length = glm::length(n);
             if (length > 0)
-                add(p0 * b0 + p1 * b1 + p2 * b2, n / length);
+                add(atVertices(part.positions, c, b1, b2), n / length);
         }
 }
 

@@ -1,19 +1,30 @@
 #include "bake/high_surface.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 #include <fmt/format.h>
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
-#include <glm/matrix.hpp>
 
+#include "bake/surface/surface_triangle.hpp"
 #include "cotan/covector.hpp"
-#include "high_state.hpp"
+#include "curved_normals.hpp"
+#include "packets.hpp"
 #include "scene/parts.hpp"
 
 namespace cotan {
+
+struct Part { // one instance, in world space
+    std::vector<glm::vec3> positions, normals;
+    std::vector<std::uint32_t> indices;
+    std::vector<std::uint8_t> repeated; // one a triangle: not 0 where it lies on an earlier one; empty: none does
+    std::vector<std::uint32_t> seen;    // indices as rays see them, where some are left out
+    std::vector<ShapeOperator> shapes;  // of the vertices; empty: not prepared
+};
 
 namespace {
 
@@ -46,7 +57,6 @@ Part placed(const Mesh& mesh, const glm::mat4& toWorld)
     if (map.determinant() < 0)
         for (std::size_t i = 0; i + 2 < part.indices.size(); i += 3)
             std::swap(part.indices[i + 1], part.indices[i + 2]);
-    part.front = frontOf(part);
     return part;
 }
 
@@ -73,18 +83,81 @@ void findRepeated(std::vector<Part>& parts)
 
 } // namespace
 
+struct HighSurface::State {
+    std::vector<Part> parts;
+    std::vector<float> fronts; // of the parts: -1 where most triangles are wound against their vertices' normals
+    std::vector<std::string> names;
+    std::size_t triangles = 0;
+    glm::vec3 low{1e30f}, high{-1e30f};
+    EmbreeScene embree; // shares arrays of the parts
+
+    // The interpolated normals of hits, of any length. Where the corners are is asked for all before the first is used,
+    // so that the waits for memory overlap.
+    void interpolateNormals(std::size_t count, Hits& hits) const
+    {
+        Lanes<const std::uint32_t*> corners;
+        Lanes<const glm::vec3*> normals;
+        for (std::size_t i = 0; i < count; ++i) {
+            const Part& part = parts[hits.found(i) ? hits.instance[i] : 0];
+            corners[i] = &part.indices[hits.found(i) ? 3 * std::size_t(hits.triangle[i]) : 0];
+            normals[i] = part.normals.data();
+            __builtin_prefetch(corners[i]);
+        }
+        for (std::size_t i = 0; i < count; ++i)
+            hits.normal.set(i, atVertices(normals[i], corners[i], hits.b1[i], hits.b2[i]));
+    }
+    // Zero where there is none.
+    glm::vec3 curvedNormal(std::uint32_t instance, std::uint32_t triangle, float b1, float b2,
+                           glm::vec3 direction) const
+    {
+        const Part& part = parts[instance];
+        if (part.shapes.empty())
+            return glm::vec3(0);
+        CurvedTriangle corners;
+        for (std::size_t i = 0; i < 3; ++i) {
+            const std::uint32_t v = part.indices[3 * std::size_t(triangle) + i];
+            corners.positions[i] = part.positions[v];
+            corners.normals[i] = part.normals[v];
+            corners.shapes[i] = part.shapes[v];
+        }
+        return cotan::curvedNormal(corners, b1, b2, direction);
+    }
+    // The normals of hits that are complete otherwise.
+    void findNormals(const Probes& probes, HighNormals normals, Hits& hits) const
+    {
+        if (normals != HighNormals::face)
+            interpolateNormals(probes.count, hits);
+        // Longer than this, the interpolated normal counts.
+        const float least = normals == HighNormals::face ? std::numeric_limits<float>::infinity() : 1e-6f;
+        // All lanes, so that they go side by side: nobody reads those where nothing was found.
+        for (std::size_t i = 0; i < kLanes; ++i) {
+            const glm::vec3 n = hits.normal.at(i), face = glm::normalize(hits.face.at(i));
+            const float length = glm::length(n);
+            hits.normal.set(i, length > least ? n / length : face);
+        }
+        if (normals == HighNormals::curved)
+            for (std::size_t i = 0; i < probes.count; ++i)
+                if (hits.found(i)) {
+                    const glm::vec3 n = curvedNormal(hits.instance[i], hits.triangle[i], hits.b1[i], hits.b2[i],
+                                                     probes.direction.at(i));
+                    if (glm::dot(n, n) > 0)
+                        hits.normal.set(i, n);
+                }
+    }
+};
+
 std::optional<Error> HighSurface::unavailable() { return std::nullopt; }
 
 Result<HighSurface> HighSurface::make(const std::vector<Scene>& scenes, int threads, bool byInstance)
 {
-    auto state = std::make_unique<State>();
+    auto state = std::make_shared<State>();
     for (const Scene& scene : scenes)
         for (const Instance& instance : scene.instances) {
             const Mesh& mesh = scene.meshes[std::size_t(instance.mesh)];
             if (mesh.indices.empty())
                 continue;
             state->parts.push_back(placed(mesh, instance.toWorld));
-            state->fronts.push_back(state->parts.back().front);
+            state->fronts.push_back(frontOf(state->parts.back()));
             state->names.push_back(!instance.name.empty() ? instance.name : mesh.name);
             state->triangles += mesh.triangleCount();
             for (const glm::vec3& p : state->parts.back().positions) {
@@ -94,26 +167,17 @@ Result<HighSurface> HighSurface::make(const std::vector<Scene>& scenes, int thre
         }
     if (state->triangles == 0)
         return inputError(fmt::format("{}: expected triangles; found none", scenes.empty() ? "" : scenes[0].name));
-    state->device = rtcNewDevice(threads > 0 ? fmt::format("threads={}", threads).c_str() : nullptr);
-    if (!state->device)
-        return unavailableError("Embree: no device");
-    state->scene = rtcNewScene(state->device);
     // Robust: rays along edges find one of the two triangles. Filters: packets.hpp.
-    rtcSetSceneFlags(state->scene, RTC_SCENE_FLAG_ROBUST | kFiltersInQueries);
+    if (Status opened = state->embree.open(threads, RTC_SCENE_FLAG_ROBUST | kFiltersInQueries); !opened)
+        return opened.error();
     if (!byInstance) // else each is asked for its own
         findRepeated(state->parts);
     for (Part& part : state->parts)
-        state->attach(part);
-    rtcCommitScene(state->scene);
-    if (rtcGetDeviceError(state->device) != RTC_ERROR_NONE)
-        return unavailableError(fmt::format("Embree: cannot hold {} triangles", state->triangles));
+        state->embree.add(part.positions, part.indices, part.repeated, part.seen);
+    if (Status held = state->embree.commit(state->triangles); !held)
+        return held.error();
     return HighSurface(std::move(state));
 }
-
-HighSurface::HighSurface(std::unique_ptr<State> state) : state_(std::move(state)) {}
-HighSurface::HighSurface(HighSurface&&) noexcept = default;
-HighSurface& HighSurface::operator=(HighSurface&&) noexcept = default;
-HighSurface::~HighSurface() = default;
 
 void HighSurface::curve(int threads)
 {
@@ -124,12 +188,138 @@ void HighSurface::curve(int threads)
 HighSurface::Triangles HighSurface::triangles(std::size_t instance) const
 {
     const Part& part = state_->parts[instance];
-    return {{part.positions.data(), part.normals.size()}, part.normals, part.indices, part.repeated, part.front};
+    return {{part.positions.data(), part.normals.size()}, part.normals, part.indices, part.repeated};
 }
 
 const std::vector<std::string>& HighSurface::names() const { return state_->names; }
 std::size_t HighSurface::triangleCount() const { return state_->triangles; }
 glm::vec3 HighSurface::low() const { return state_->low; }
 glm::vec3 HighSurface::high() const { return state_->high; }
+
+// ---- rays -----------------------------------------------------------------------------------
+
+glm::vec3 HighSurface::normalOf(const Hit& hit, HighNormals normals, glm::vec3 direction) const
+{
+    Probes probe;
+    probe.count = 1;
+    probe.direction.set(0, direction);
+    Hits hits;
+    hits.instance[0] = hit.instance;
+    hits.triangle[0] = hit.triangle;
+    hits.b1[0] = hit.b1;
+    hits.b2[0] = hit.b2;
+    hits.face.set(0, hit.faceNormal);
+    state_->findNormals(probe, normals, hits);
+    return hits.normal.at(0);
+}
+
+Hit HighSurface::trace(const Ray& ray) const
+{
+    RayQuery query(Coherence::incoherent);
+    RTCRayHit r = toEmbree(ray);
+    intersect(state_->embree.scene, query, r);
+    if (r.hit.geomID == RTC_INVALID_GEOMETRY_ID)
+        return {};
+    const glm::vec3 face = glm::normalize(glm::vec3(r.hit.Ng_x, r.hit.Ng_y, r.hit.Ng_z));
+    return {true, r.ray.tfar, face, face * state_->fronts[r.hit.geomID], r.hit.geomID, r.hit.primID, r.hit.u, r.hit.v};
+}
+
+void HighSurface::nearest(const Probes& probes, float lift, HighNormals normals, Hits& hits) const
+{
+    const Asked context = asked(state_->fronts, filterFor(probes));
+    Lanes<float> lifts, farthest;
+    for (std::size_t i = 0; i < kLanes; ++i) {
+        lifts[i] = lift;
+        farthest[i] = probes.reach[i] > 0 ? probes.reach[i] + lift : 0;
+    }
+    Packet outwards(probes, lifts, 1, farthest);
+    outwards.trace(state_->embree.scene, context);
+    for (std::size_t i = 0; i < kLanes; ++i) { // nothing further away than what is found already
+        const float found = std::abs(outwards.rays.ray.tfar[i] - lift) + lift;
+        farthest[i] = outwards.found(i) ? found : farthest[i];
+    }
+    Packet inwards(probes, lifts, -1, farthest);
+    inwards.trace(state_->embree.scene, context);
+    for (std::size_t i = 0; i < probes.count; ++i)
+        if (inwards.valid[i] && !inwards.found(i) && !outwards.found(i)) {
+            outwards.traceAlone(i, state_->embree.scene, context);
+            inwards.traceAlone(i, state_->embree.scene, context);
+        }
+    Lanes<std::uint32_t> behind;
+    for (std::size_t i = 0; i < kLanes; ++i) {
+        const float out = outwards.rays.ray.tfar[i] - lift, in = inwards.rays.ray.tfar[i] - lift;
+        const bool nearer = inwards.found(i) && (!outwards.found(i) || std::abs(in) < std::abs(out));
+        behind[i] = nearer ? ~0u : 0u;
+        hits.distance[i] = nearer ? -in : out;
+    }
+    pick(behind, outwards.rays.hit, inwards.rays.hit, hits);
+    state_->findNormals(probes, normals, hits);
+}
+
+void HighSurface::outermost(const Probes& probes, HighNormals normals, Hits& hits) const
+{
+    const Asked context = asked(state_->fronts, filterFor(probes));
+    Lanes<float> farthest;
+    for (std::size_t i = 0; i < kLanes; ++i)
+        farthest[i] = probes.before[i] + probes.reach[i];
+    Packet packet(probes, probes.before, -1, farthest);
+    packet.trace(state_->embree.scene, context);
+    for (std::size_t i = 0; i < probes.count; ++i) // nothing that is there is lost, whatever the neighbours do
+        if (packet.valid[i] && !packet.found(i))
+            packet.traceAlone(i, state_->embree.scene, context);
+    for (std::size_t i = 0; i < probes.count; ++i) {
+        const glm::vec3 normal = probes.normal.at(i);
+        hits.away[i] = packet.foundAway(i, state_->fronts, normal) ? 1 : 0;
+        if (!hits.away[i])
+            continue;
+        Asked facing = asked(state_->fronts, keepFacing); // what faces the low surface counts where there is any
+        facing.normal = normal;
+        packet.traceAlone(i, state_->embree.scene, facing);
+        hits.away[i] = packet.foundAway(i, state_->fronts, normal) ? 1 : 0;
+    }
+    for (std::size_t i = 0; i < kLanes; ++i)
+        hits.distance[i] = probes.before[i] - packet.rays.ray.tfar[i];
+    pick({}, packet.rays.hit, packet.rays.hit, hits);
+    state_->findNormals(probes, normals, hits);
+}
+
+void HighSurface::anyBetween(const Probes& probes, Lanes<int>& any) const
+{
+    Lanes<float> farthest;
+    for (std::size_t i = 0; i < kLanes; ++i)
+        farthest[i] = probes.before[i] + probes.reach[i];
+    Packet packet(probes, probes.before, -1, farthest);
+    Asked context = asked(state_->fronts, filterFor(probes));
+    occluded(packet.valid.data(), state_->embree.scene, context.query, packet.rays.ray);
+    for (std::size_t i = 0; i < kLanes; ++i)
+        any[i] = packet.valid[i] != 0 && packet.rays.ray.tfar[i] < 0; // Embree's mark for an occluded ray
+}
+
+std::size_t HighSurface::met(const Ray& ray) const
+{
+    struct Counting {
+        RayQuery query; // first, as Embree hands it to filters
+        std::size_t count = 0;
+    } counting{RayQuery(Coherence::incoherent,
+                        [](const RTCFilterFunctionNArguments* a) {
+                            for (unsigned i = 0; i < a->N; ++i)
+                                if (a->valid[i]) {
+                                    ++reinterpret_cast<Counting*>(a->context)->count;
+                                    a->valid[i] = 0; // and on
+                                }
+                        }),
+               0};
+    RTCRay r = toEmbree(ray).ray;
+    occluded(state_->embree.scene, counting.query, r);
+    return counting.count;
+}
+
+bool HighSurface::blocked(const Ray& ray) const
+{
+    RayQuery query(Coherence::incoherent);
+    RTCRay r = toEmbree(ray).ray;
+    occluded(state_->embree.scene, query, r);
+    return r.tfar < 0;
+}
 
 } // namespace cotan

@@ -59,7 +59,7 @@ struct Hits {
     bool found(std::size_t i) const { return instance[i] != kNothing; }
 };
 
-// All instances of some scenes in world space, in Embree's acceleration structure.
+// All instances of some scenes in world space, in Embree's acceleration structure. Copies share it.
 class HighSurface {
 public:
     // Why none can be made here, whatever the scenes are: not built with Embree. To be asked before files are read.
@@ -69,10 +69,6 @@ public:
     // triangles that lie on one another, the first is seen. Errors: ErrorKind::input where there is no triangle;
     // ErrorKind::unavailable where memory does not suffice.
     static Result<HighSurface> make(const std::vector<Scene>& scenes, int threads, bool byInstance = false);
-
-    HighSurface(HighSurface&&) noexcept;
-    HighSurface& operator=(HighSurface&&) noexcept;
-    ~HighSurface();
 
     // Prepares curved normals: fits how the normal turns around each vertex. 24 bytes a vertex. `threads`: 0 for all.
     void curve(int threads);
@@ -99,7 +95,6 @@ public:
         std::span<const glm::vec3> positions, normals; // normals unit, or zero where unknown
         std::span<const std::uint32_t> indices;
         std::span<const std::uint8_t> repeated; // one a triangle: not 0 where nothing sees it; empty: all are seen
-        float front = 1; // -1: the order of the corners contradicts most of the normals, which count
     };
     Triangles triangles(std::size_t instance) const;
     // Names of the instances, in order, for matching.
@@ -110,8 +105,8 @@ public:
 
 private:
     struct State;
-    explicit HighSurface(std::unique_ptr<State> state);
-    std::unique_ptr<State> state_;
+    explicit HighSurface(std::shared_ptr<State> state) : state_(std::move(state)) {}
+    std::shared_ptr<State> state_;
 };
 
 } // namespace cotan

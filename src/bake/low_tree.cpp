@@ -1,13 +1,7 @@
 #include "bake/low_tree.hpp"
 
-#include <algorithm>
 #include <cmath>
-#include <limits>
-#include <span>
 
-#include <fmt/format.h>
-
-#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
 #include "packets.hpp"
@@ -16,21 +10,11 @@
 namespace cotan {
 
 struct LowTree::State {
-    RTCDevice device = nullptr;
-    RTCScene scene = nullptr;
-    std::vector<glm::vec3> positions; // and two more: one not finite, one as Embree reads 16 bytes at every vertex
-    std::vector<std::uint32_t> indices;
-    std::vector<std::uint32_t> seen; // indices as Embree has them, where some triangles are left out
+    std::vector<glm::vec3> positions;
+    std::vector<std::uint32_t> indices, seen; // seen: as Embree has them, where some triangles are left out
     std::vector<glm::vec3> faces;
     std::vector<std::int64_t> shown;
-
-    ~State()
-    {
-        if (scene)
-            rtcReleaseScene(scene);
-        if (device)
-            rtcReleaseDevice(device);
-    }
+    EmbreeScene embree; // shares these arrays
 };
 
 namespace {
@@ -68,31 +52,12 @@ Coordinates nearestOn(glm::vec3 a, glm::vec3 b, glm::vec3 c, glm::vec3 p)
     return sum > 0 ? Coordinates{vb / sum, vc / sum} : Coordinates{0, 0};
 }
 
-// The indices with corners that are not finite, which Embree leaves out, for triangles that lie on earlier ones that
-// show the same: of equally near ones the first counts. Empty where few do.
-std::vector<std::uint32_t> indicesSeen(const std::vector<glm::vec3>& positions,
-                                       const std::vector<std::uint32_t>& indices, std::span<const std::int64_t> shown,
-                                       std::uint32_t notFinite)
-{
-    const std::vector<std::uint8_t> repeated = repeatedTriangles(indices.size() / 3, [&](std::size_t f) {
-        const std::uint32_t* const c = &indices[3 * f];
-        return CornersOfTriangle{{positions[c[0]], positions[c[1]], positions[c[2]]}, shown.empty() ? 0 : shown[f]};
-    });
-    if (repeated.empty())
-        return {};
-    std::vector<std::uint32_t> seen = indices;
-    for (std::size_t f = 0; f < repeated.size(); ++f)
-        if (repeated[f])
-            std::fill_n(seen.begin() + std::ptrdiff_t(3 * f), 3, notFinite);
-    return seen;
-}
-
 } // namespace
 
 Result<LowTree> LowTree::make(std::vector<glm::vec3> positions, std::vector<std::uint32_t> indices,
                               std::vector<std::int64_t> shown, int threads)
 {
-    auto state = std::make_unique<State>();
+    auto state = std::make_shared<State>();
     state->shown = std::move(shown);
     state->positions = std::move(positions);
     state->indices = std::move(indices);
@@ -103,33 +68,19 @@ Result<LowTree> LowTree::make(std::vector<glm::vec3> positions, std::vector<std:
         const float length = glm::length(area);
         state->faces.push_back(length > 0 ? area / length : glm::vec3(0));
     }
-    state->seen = indicesSeen(state->positions, state->indices, state->shown, std::uint32_t(state->positions.size()));
-    state->positions.emplace_back(std::numeric_limits<float>::quiet_NaN());
-    state->positions.emplace_back(0.0f);
-    const std::vector<std::uint32_t>& seen = state->seen.empty() ? state->indices : state->seen;
-    state->device = rtcNewDevice(threads > 0 ? fmt::format("threads={}", threads).c_str() : nullptr);
-    if (!state->device)
-        return unavailableError("Embree: no device");
-    state->scene = rtcNewScene(state->device);
-    rtcSetSceneFlags(state->scene, RTC_SCENE_FLAG_ROBUST);
-    RTCGeometry geometry = rtcNewGeometry(state->device, RTC_GEOMETRY_TYPE_TRIANGLE);
-    rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, state->positions.data(), 0,
-                               sizeof(glm::vec3), state->positions.size() - 1);
-    rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, seen.data(), 0,
-                               3 * sizeof(std::uint32_t), seen.size() / 3);
-    rtcCommitGeometry(geometry);
-    rtcAttachGeometry(state->scene, geometry);
-    rtcReleaseGeometry(geometry);
-    rtcCommitScene(state->scene);
-    if (rtcGetDeviceError(state->device) != RTC_ERROR_NONE)
-        return unavailableError(fmt::format("Embree: cannot hold {} triangles", state->indices.size() / 3));
+    // Of equally near triangles the first counts, so that those on earlier ones that show the same can be left out.
+    const std::vector<std::uint8_t> repeated = repeatedTriangles(state->faces.size(), [&](std::size_t f) {
+        const std::uint32_t* const c = &state->indices[3 * f];
+        const std::vector<glm::vec3>& p = state->positions;
+        return CornersOfTriangle{{p[c[0]], p[c[1]], p[c[2]]}, state->shown.empty() ? 0 : state->shown[f]};
+    });
+    if (Status opened = state->embree.open(threads, RTC_SCENE_FLAG_ROBUST); !opened)
+        return opened.error();
+    state->embree.add(state->positions, state->indices, repeated, state->seen);
+    if (Status held = state->embree.commit(state->faces.size()); !held)
+        return held.error();
     return LowTree(std::move(state));
 }
-
-LowTree::LowTree(std::unique_ptr<State> state) : state_(std::move(state)) {}
-LowTree::LowTree(LowTree&&) noexcept = default;
-LowTree& LowTree::operator=(LowTree&&) noexcept = default;
-LowTree::~LowTree() = default;
 
 LowTree::Nearest LowTree::nearestOf(glm::vec3 to, float radius, const void* accepts,
                                     bool (*call)(const void*, std::uint32_t)) const
@@ -150,7 +101,7 @@ LowTree::Nearest LowTree::nearestOf(glm::vec3 to, float radius, const void* acce
     RTCPointQueryContext context;
     rtcInitPointQueryContext(&context);
     rtcPointQuery(
-        state_->scene, &query, &context,
+        state_->embree.scene, &query, &context,
         [](RTCPointQueryFunctionArguments* a) {
             Question& q = *static_cast<Question*>(a->userPtr);
             ++q.best.asked;
@@ -165,7 +116,7 @@ LowTree::Nearest LowTree::nearestOf(glm::vec3 to, float radius, const void* acce
             Nearest& best = q.best;
             if (distance > best.distance || (best.found && distance == best.distance && a->primID > best.triangle))
                 return false;
-            best = {true, a->primID, on.b1, on.b2, point, distance, best.asked};
+            best = {{true, a->primID, on.b1, on.b2, distance}, point, best.asked};
             // A little more than the distance, so that all that are equally near are asked about.
             a->query->radius = distance * 1.00001f;
             return true;
@@ -178,7 +129,7 @@ LowTree::Met LowTree::first(const Ray& ray) const
 {
     RayQuery query(Coherence::incoherent);
     RTCRayHit r = toEmbree(ray);
-    intersect(state_->scene, query, r);
+    intersect(state_->embree.scene, query, r);
     if (r.hit.geomID == RTC_INVALID_GEOMETRY_ID)
         return {};
     return {true, r.hit.primID, r.hit.u, r.hit.v, r.ray.tfar};
@@ -196,11 +147,6 @@ LowTree::Met LowTree::firstBeside(std::uint32_t triangle, Ray ray) const
     return met;
 }
 
-glm::vec3 LowTree::corner(std::uint32_t triangle, std::size_t i) const
-{
-    return state_->positions[state_->indices[3 * std::size_t(triangle) + i]];
-}
 glm::vec3 LowTree::face(std::uint32_t triangle) const { return state_->faces[triangle]; }
-std::size_t LowTree::triangleCount() const { return state_->faces.size(); }
 
 } // namespace cotan

@@ -12,7 +12,7 @@
 
 namespace cotan {
 
-// Triangles in Embree's acceleration structure, for single questions from several threads.
+// Triangles in Embree's acceleration structure, for single questions from several threads. Copies share them.
 class LowTree {
 public:
     // positions, indices: of the triangles, copied. shown: one a triangle: the part of the high surface that it shows,
@@ -21,16 +21,14 @@ public:
     static Result<LowTree> make(std::vector<glm::vec3> positions, std::vector<std::uint32_t> indices,
                                 std::vector<std::int64_t> shown, int threads);
 
-    LowTree(LowTree&&) noexcept;
-    LowTree& operator=(LowTree&&) noexcept;
-    ~LowTree();
-
-    struct Nearest {
+    struct Met {
         bool found = false;
         std::uint32_t triangle = 0;
         float b1 = 0, b2 = 0; // barycentric coordinates of its corners 1 and 2
-        glm::vec3 point{0};
         float distance = 0;
+    };
+    struct Nearest : Met {
+        glm::vec3 point{0};
         std::size_t asked = 0; // triangles that were looked at
     };
     // The nearest point, at most `radius` away, of the triangles that `accepts` takes; of equally near ones that of the
@@ -42,27 +40,19 @@ public:
         });
     }
 
-    struct Met {
-        bool found = false;
-        std::uint32_t triangle = 0;
-        float b1 = 0, b2 = 0;
-        float distance = 0;
-    };
     // The first triangle on a ray.
     Met first(const Ray& ray) const;
     // The same, of those that show something that `triangle` shows too.
     Met firstBeside(std::uint32_t triangle, Ray ray) const;
 
-    glm::vec3 corner(std::uint32_t triangle, std::size_t i) const;
     // Unit, by the order of the corners; zero without area.
     glm::vec3 face(std::uint32_t triangle) const;
-    std::size_t triangleCount() const;
 
 private:
     struct State;
-    explicit LowTree(std::unique_ptr<State> state);
+    explicit LowTree(std::shared_ptr<const State> state) : state_(std::move(state)) {}
     Nearest nearestOf(glm::vec3 to, float radius, const void* accepts, bool (*call)(const void*, std::uint32_t)) const;
-    std::unique_ptr<State> state_;
+    std::shared_ptr<const State> state_;
 };
 
 } // namespace cotan

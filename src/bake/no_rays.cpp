@@ -12,11 +12,6 @@ struct HighSurface::State {
 std::optional<Error> HighSurface::unavailable() { return notBuiltWith("Embree", "libembree-dev"); }
 Result<HighSurface> HighSurface::make(const std::vector<Scene>&, int, bool) { return *unavailable(); }
 
-HighSurface::HighSurface(std::unique_ptr<State> state) : state_(std::move(state)) {}
-HighSurface::HighSurface(HighSurface&&) noexcept = default;
-HighSurface& HighSurface::operator=(HighSurface&&) noexcept = default;
-HighSurface::~HighSurface() = default;
-
 void HighSurface::curve(int) {}
 glm::vec3 HighSurface::normalOf(const Hit&, HighNormals, glm::vec3) const { return glm::vec3(0); }
 Hit HighSurface::trace(const Ray&) const { return {}; }
@@ -37,18 +32,12 @@ Result<LowTree> LowTree::make(std::vector<glm::vec3>, std::vector<std::uint32_t>
 {
     return *HighSurface::unavailable();
 }
-LowTree::LowTree(std::unique_ptr<State> state) : state_(std::move(state)) {}
-LowTree::LowTree(LowTree&&) noexcept = default;
-LowTree& LowTree::operator=(LowTree&&) noexcept = default;
-LowTree::~LowTree() = default;
 LowTree::Nearest LowTree::nearestOf(glm::vec3, float, const void*, bool (*)(const void*, std::uint32_t)) const
 {
     return {};
 }
 LowTree::Met LowTree::first(const Ray&) const { return {}; }
 LowTree::Met LowTree::firstBeside(std::uint32_t, Ray) const { return {}; }
-glm::vec3 LowTree::corner(std::uint32_t, std::size_t) const { return glm::vec3(0); }
 glm::vec3 LowTree::face(std::uint32_t) const { return glm::vec3(0); }
-std::size_t LowTree::triangleCount() const { return 0; }
 
 } // namespace cotan

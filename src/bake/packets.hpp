@@ -1,10 +1,12 @@
-// Rays of sixteen lanes as Embree takes them.
+// Triangles, rays and packets of sixteen rays as Embree takes them.
 #pragma once
 
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <limits>
 
+#include <fmt/format.h>
 #include <glm/geometric.hpp>
 
 #include "bake/high_surface.hpp"
@@ -12,25 +14,81 @@
 
 namespace cotan {
 
+// A scene of Embree's, on a device of its own. The arrays that are added must outlive it.
+struct EmbreeScene {
+    RTCDevice device = nullptr;
+    RTCScene scene = nullptr;
+
+    EmbreeScene() = default;
+    EmbreeScene(const EmbreeScene&) = delete;
+    EmbreeScene& operator=(const EmbreeScene&) = delete;
+    ~EmbreeScene()
+    {
+        if (scene)
+            rtcReleaseScene(scene);
+        if (device)
+            rtcReleaseDevice(device);
+    }
+
+    // threads: 0 for all.
+    Status open(int threads, RTCSceneFlags flags)
+    {
+        device = rtcNewDevice(threads > 0 ? fmt::format("threads={}", threads).c_str() : nullptr);
+        if (!device)
+            return unavailableError("Embree: no device");
+        scene = rtcNewScene(device);
+        rtcSetSceneFlags(scene, flags);
+        return Done{};
+    }
+
+    // Triangles; their ids count up from 0. Repeated ones (repeatedTriangles) get corners that are not finite, which
+    // Embree leaves out, so that the others keep their numbers: `seen` holds the indices then. Behind the positions
+    // comes what that needs, and one more, as Embree reads 16 bytes at every vertex.
+    void add(std::vector<glm::vec3>& positions, const std::vector<std::uint32_t>& indices,
+             const std::vector<std::uint8_t>& repeated, std::vector<std::uint32_t>& seen)
+    {
+        if (!repeated.empty()) {
+            seen = indices;
+            for (std::size_t f = 0; f < repeated.size(); ++f)
+                if (repeated[f])
+                    std::fill_n(seen.begin() + std::ptrdiff_t(3 * f), 3, std::uint32_t(positions.size()));
+            positions.emplace_back(std::numeric_limits<float>::quiet_NaN());
+        }
+        positions.emplace_back(0.0f);
+        const std::vector<std::uint32_t>& shared = repeated.empty() ? indices : seen;
+        RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
+        rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, positions.data(), 0,
+                                   sizeof(glm::vec3), positions.size() - 1);
+        rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, shared.data(), 0,
+                                   3 * sizeof(std::uint32_t), shared.size() / 3);
+        rtcCommitGeometry(geometry);
+        rtcAttachGeometry(scene, geometry);
+        rtcReleaseGeometry(geometry);
+    }
+
+    Status commit(std::size_t triangles)
+    {
+        rtcCommitScene(scene);
+        if (rtcGetDeviceError(device) != RTC_ERROR_NONE)
+            return unavailableError(fmt::format("Embree: cannot hold {} triangles", triangles));
+        return Done{};
+    }
+};
+
 // Embree clamps reciprocals of components below 1e-18, all to the positive side, while it sorts the rays of a coherent
 // packet by the signs as they were: a lane with -1e-18 beside lanes with +0.2 loses the hits of all of them. Components
 // that are this small against a unit vector move no hit by a unit in the last place.
 inline float flushed(float component) { return std::abs(component) < 1e-12f ? 0.0f : component; }
-inline glm::vec3 flushed(glm::vec3 direction)
-{
-    return {flushed(direction.x), flushed(direction.y), flushed(direction.z)};
-}
 
 inline RTCRayHit toEmbree(const Ray& ray)
 {
     RTCRayHit r{};
-    const glm::vec3 direction = flushed(ray.direction);
     r.ray.org_x = ray.origin.x;
     r.ray.org_y = ray.origin.y;
     r.ray.org_z = ray.origin.z;
-    r.ray.dir_x = direction.x;
-    r.ray.dir_y = direction.y;
-    r.ray.dir_z = direction.z;
+    r.ray.dir_x = flushed(ray.direction.x);
+    r.ray.dir_y = flushed(ray.direction.y);
+    r.ray.dir_z = flushed(ray.direction.z);
     r.ray.tnear = ray.nearest;
     r.ray.tfar = ray.farthest;
     r.ray.mask = ~0u;
@@ -85,10 +143,9 @@ inline void keepFacing(const RTCFilterFunctionNArguments* a)
 }
 
 // A filter costs a call for each candidate; most scenes need none: null.
-inline Asked asked(const std::vector<float>& fronts, RTCFilterFunctionN filter,
-                   Coherence coherence = Coherence::coherent)
+inline Asked asked(const std::vector<float>& fronts, RTCFilterFunctionN filter)
 {
-    return {RayQuery(coherence, filter), fronts.data()};
+    return {RayQuery(Coherence::coherent, filter), fronts.data()};
 }
 
 inline RTCFilterFunctionN filterFor(const Probes& probes)
@@ -140,10 +197,9 @@ struct Packet {
     void traceAlone(std::size_t i, RTCScene scene, Asked asked)
     {
         const RTCRay16& r = rays.ray;
-        RTCRayHit one{};
-        one.ray = {r.org_x[i], r.org_y[i], r.org_z[i], 0,   r.dir_x[i], r.dir_y[i],
-                   r.dir_z[i], 0,          length[i],  ~0u, r.id[i],    0};
-        one.hit.geomID = one.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+        RTCRayHit one =
+            toEmbree({{r.org_x[i], r.org_y[i], r.org_z[i]}, {r.dir_x[i], r.dir_y[i], r.dir_z[i]}, 0, length[i]});
+        one.ray.id = r.id[i];
         intersect(scene, asked.query, one);
         if (one.hit.geomID == RTC_INVALID_GEOMETRY_ID)
             return;

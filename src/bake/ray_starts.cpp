@@ -106,7 +106,7 @@ struct Body {
     float diagonal = 0, edge = 0;    // of the box; about that of a triangle
 };
 
-Result<Body> bodyOf(const LowSurface& low, const LowRest& rest, const RayStartOptions& options)
+Result<Body> bodyOf(const LowSurface& low, const LowRest& rest, const BakeOptions& options)
 {
     Body body;
     std::vector<glm::vec3> positions = low.positions, normals = low.normals;
@@ -151,7 +151,7 @@ struct Last {
 
 class Measuring {
 public:
-    Measuring(const LowSurface& low, const HighSurface& high, const RayStartOptions& options, const Body& body,
+    Measuring(const LowSurface& low, const HighSurface& high, const BakeOptions& options, const Body& body,
               const Groups& groups, const RayStarts& starts)
         : low_(low), high_(high), options_(options), body_(body), groups_(groups), starts_(starts),
           distances_(groups.count, 0), reached_(groups.count, 0)
@@ -243,9 +243,7 @@ private:
     }
     glm::vec3 directionAt(std::uint32_t triangle, float b1, float b2) const
     {
-        const std::uint32_t* v = &low_.indices[3 * std::size_t(triangle)];
-        const glm::vec3 sum =
-            starts_.directions[v[0]] * (1 - b1 - b2) + starts_.directions[v[1]] * b1 + starts_.directions[v[2]] * b2;
+        const glm::vec3 sum = atVertices(starts_.directions, &low_.indices[3 * std::size_t(triangle)], b1, b2);
         const float length = glm::length(sum);
         return length > 0 ? sum / length : sum;
     }
@@ -293,7 +291,7 @@ private:
 
     const LowSurface& low_;
     const HighSurface& high_;
-    const RayStartOptions& options_;
+    const BakeOptions& options_;
     const Body& body_;
     const Groups& groups_;
     const RayStarts& starts_;
@@ -383,16 +381,12 @@ bool isCrossed(const LowSurface& low, const RayStarts& starts, std::size_t trian
     for (int i = 0; i <= steps; ++i)
         for (int j = 0; j <= steps - i; ++j) {
             // A little inside the edges.
-            const float b1 = (float(i) + 0.1f) / (float(steps) + 0.3f), b2 = (float(j) + 0.1f) / (float(steps) + 0.3f),
-                        b0 = 1 - b1 - b2;
-            const glm::vec3 sum =
-                starts.directions[v[0]] * b0 + starts.directions[v[1]] * b1 + starts.directions[v[2]] * b2;
-            const float length = glm::length(sum);
-            const float wanted =
-                length * (starts.distances[v[0]] * b0 + starts.distances[v[1]] * b1 + starts.distances[v[2]] * b2);
+            const float b1 = (float(i) + 0.1f) / (float(steps) + 0.3f), b2 = (float(j) + 0.1f) / (float(steps) + 0.3f);
+            const glm::vec3 sum = atVertices(starts.directions, v, b1, b2);
+            const float length = glm::length(sum), wanted = length * atVertices(starts.distances, v, b1, b2);
             if (length > 0
-                && openDistance(*starts.tree, std::uint32_t(triangle), p[0] * b0 + p[1] * b1 + p[2] * b2, sum / length,
-                                starts.skip, wanted)
+                && openDistance(*starts.tree, std::uint32_t(triangle), atVertices(low.positions, v, b1, b2),
+                                sum / length, starts.skip, wanted)
                     < wanted)
                 return true;
         }
@@ -431,7 +425,7 @@ float openDistance(const LowTree& tree, std::uint32_t triangle, glm::vec3 point,
     return glm::dot(tree.face(met.triangle), direction) > 0 ? met.distance / 2 : met.distance;
 }
 
-Result<RayStarts> makeRayStarts(const LowSurface& low, const HighSurface& high, const RayStartOptions& options,
+Result<RayStarts> makeRayStarts(const LowSurface& low, const HighSurface& high, const BakeOptions& options,
                                 const LowRest& rest)
 {
     RayStarts starts;

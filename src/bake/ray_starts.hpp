@@ -37,13 +37,6 @@ struct LowRest {
     std::vector<std::uint32_t> triangleInstance; // of the scene, as in LowSurface
 };
 
-struct RayStartOptions {
-    float extrusion = 0;   // distance of all vertices, model units; 0: measured
-    float maxDistance = 0; // limit, model units; 0: 10 % of the diagonal of the low surface's box, LowRest included
-    std::vector<std::int64_t> matched; // as in BakeOptions
-    int threads = 0;
-};
-
 // Measures how far the high surface stands off. Each of its vertices (of more than 400,000 every second, third and so
 // on; and points between, where its triangles are large) belongs to the nearest point of the low surface whose front it
 // faces, at most the limit away; where that lies aside, to the point below it. The vertices of the triangle there get a
@@ -52,7 +45,9 @@ struct RayStartOptions {
 // counts, too. Rays start no further out than another part of the low surface that shows the same detail: measured
 // ones, not those with a given extrusion. The result does not depend on the number of threads. Errors: those of
 // LowTree::make; ErrorKind::input where thousands of triangles of the low surface lie over one another at most points.
-Result<RayStarts> makeRayStarts(const LowSurface& low, const HighSurface& high, const RayStartOptions& options,
+// options: extrusion is the distance of all vertices, 0 measures; maxDistance the limit, 0 for 10 % of the diagonal of
+// the low surface's box, LowRest included; matched and threads.
+Result<RayStarts> makeRayStarts(const LowSurface& low, const HighSurface& high, const BakeOptions& options,
                                 const LowRest& rest = {});
 
 // How far a ray may start in front of a point of `triangle`: `wanted`, or where another part of the low surface that

@@ -134,12 +134,9 @@ Result<SeenHigh> seeHigh(const LowSurface& low, const HighSurface& high, const B
             return made.error();
         tree = std::make_shared<const LowTree>(std::move(*made));
     }
-    SeenHigh seen{makeImage(view.width, view.height, PixelType::float32, "high surface"),
-                  makeImage(view.width, view.height, PixelType::float32, "expected normals"),
-                  {},
-                  0,
-                  0};
-    seen.other.assign(std::size_t(view.width) * std::size_t(view.height), 0);
+    SeenHigh seen{.normals = makeImage(view.width, view.height, PixelType::float32, "high surface"),
+                  .expected = makeImage(view.width, view.height, PixelType::float32, "expected normals"),
+                  .other = std::vector<std::uint8_t>(std::size_t(view.width) * std::size_t(view.height), 0)};
     const Looking looking(low, high, options, *tree);
     parallelFor(0, view.height, [&](int y) {
         for (int x = 0; x < view.width; ++x) {

@@ -1,10 +1,10 @@
+#include "bake/bake_surfaces.hpp"
+
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
-#include <glm/common.hpp>
-#include <glm/geometric.hpp>
-
-#include "bake/bake_surfaces.hpp"
+#include "bake/surface/nearest_texels.hpp"
 #include "core/loops.hpp"
 #include "scene/texture_sample.hpp"
 
@@ -46,6 +46,22 @@ struct Writer {
 };
 
 } // namespace
+
+void padCharts(Baked& baked, int radius)
+{
+    std::vector<std::uint32_t> owner(baked.values.size(), kNoTexel);
+    for (std::size_t i = 0; i < owner.size(); ++i)
+        if ((baked.states[i] & (texelCovered | texelTouched)) != 0 && baked.values[i] != glm::vec3(0))
+            owner[i] = std::uint32_t(i);
+    spreadNearest(owner, baked.width, baked.height, AskFirst::above);
+    const std::int64_t limit = radius > 0 ? std::int64_t(radius) * radius : std::numeric_limits<std::int64_t>::max();
+    for (std::size_t i = 0; i < owner.size(); ++i) {
+        if (owner[i] == kNoTexel || owner[i] == i || distance2(owner[i], std::uint32_t(i), baked.width) > limit)
+            continue;
+        baked.values[i] = baked.values[owner[i]];
+        baked.states[i] = std::uint8_t(baked.states[i] | texelPadded);
+    }
+}
 
 Convention storedFormat(BakeKind kind, Convention format)
 {

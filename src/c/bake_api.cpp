@@ -1,13 +1,12 @@
 // cotan.h: baking, from arrays and from models.
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstring>
 
 #include "call.hpp"
 #include "cotan/bake.hpp"
-#include "models_api.hpp"
+#include "meshes.hpp"
 #include "pictures.hpp"
 #include "scene/normal_maps.hpp"
 #include "scene/texture_sample.hpp"
@@ -17,29 +16,22 @@ using namespace cotan::c;
 
 namespace {
 
-BakeKind kindOf(std::string_view wanted)
-{
-    constexpr std::array<std::pair<std::string_view, BakeKind>, 4> kKinds = {{{"normal", BakeKind::normal},
-                                                                              {"object-normal", BakeKind::objectNormal},
-                                                                              {"height", BakeKind::height},
-                                                                              {"occlusion", BakeKind::occlusion}}};
-    for (const auto& [name, kind] : kKinds)
-        if (name == wanted)
-            return kind;
-    fail(ErrorKind::usage,
-         "options.kind: expected normal, object-normal, height or occlusion, found '" + std::string(wanted) + "'");
-}
+constexpr Named<BakeKind> kKinds[] = {{"normal", BakeKind::normal},
+                                      {"object-normal", BakeKind::objectNormal},
+                                      {"height", BakeKind::height},
+                                      {"occlusion", BakeKind::occlusion}};
+
+constexpr Named<HighNormals> kHighNormals[] = {{"smooth", HighNormals::smooth},
+                                               {"curved", HighNormals::curved},
+                                               {"face", HighNormals::face},
+                                               {"map", HighNormals::smooth}};
 
 // How normals of the detailed side are found.
 void readHigh(const cotan_bake_options& o, BakeModelOptions& options, HighModel& high)
 {
-    using N = HighNormals;
     const std::string_view wanted = o.high_normals ? o.high_normals : "smooth";
     options.ownMaps = wanted == "map";
-    options.bake.highNormals = wanted == "curved" ? N::curved : wanted == "face" ? N::face : N::smooth;
-    if (wanted != "smooth" && options.bake.highNormals == N::smooth && !options.ownMaps)
-        fail(ErrorKind::usage,
-             "options.high_normals: expected smooth, curved, face or map, found '" + std::string(wanted) + "'");
+    options.bake.highNormals = valueOf(kHighNormals, wanted, "options.high_normals");
     if (!options.ownMaps && (o.high_map_count > 0 || o.high_frame || o.high_convention))
         fail(ErrorKind::usage,
              "options.high_normals: expected map where a map, frame or convention is given, found '"
@@ -67,7 +59,7 @@ BakeModelOptions bakeOptionsOf(const cotan_bake_options& o, const cotan_picture&
     const std::string_view tangents = o.tangents ? o.tangents : "generated";
     require(tangents == "stored" || tangents == "generated", "options.tangents: expected stored or generated");
     BakeOptions& b = options.bake;
-    b.kind = kindOf(o.kind ? o.kind : "normal");
+    b.kind = valueOf(kKinds, o.kind ? o.kind : "normal", "options.kind");
     b.frame = frameOr(o.frame, Frame::mikktspace, "options.frame");
     b.width = map.width;
     b.height = map.height;
@@ -102,7 +94,7 @@ void checkMask(const cotan_picture& mask, const cotan_picture& map)
 // An error of bakeModel, about the field of C that this is: of its own structs the message begins with another.
 Error aboutFieldOfC(Error error)
 {
-    constexpr std::pair<std::string_view, std::string_view> kFields[] = {
+    constexpr Named<std::string_view> kFields[] = {
         {"options.bake.width", "map"},
         {"options.bake.samples", "options.samples"},
         {"options.bake.frame", "options.frame"},
@@ -114,12 +106,10 @@ Error aboutFieldOfC(Error error)
         {"options.tiles", "options.tile"},
         {"high.maps", "options.high_maps"},
     };
-    for (const auto& [theirs, ours] : kFields)
-        if (error.field == theirs) {
-            error.message.replace(0, theirs.size(), ours);
-            error.field = ours;
-            break;
-        }
+    if (const auto ours = cotan::valueOf(kFields, error.field)) {
+        error.message.replace(0, error.field.size(), *ours);
+        error.field = *ours;
+    }
     return error;
 }
 

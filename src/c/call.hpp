@@ -14,6 +14,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/named_values.hpp"
 #include "cotan.h"
 #include "cotan/result.hpp"
 
@@ -106,6 +107,16 @@ template<class T> T valueOf(Result<T> result)
     if (!result)
         throw Failure{result.error()};
     return *std::move(result);
+}
+
+// What a word stands for; another one is refused: "options.kind: expected normal or height, found 'x'".
+template<class Value, std::size_t count>
+Value valueOf(const Named<Value> (&all)[count], std::string_view wanted, const char* name)
+{
+    if (const auto value = cotan::valueOf(all, wanted))
+        return *value;
+    fail(ErrorKind::usage,
+         std::string(name) + ": expected " + eitherOf(wordsOf(all)) + ", found '" + std::string(wanted) + "'");
 }
 
 // Cut to the place that there is, with a zero at its end.

@@ -1,11 +1,10 @@
 // cotan.h: a model's maps made for another frame, in memory, in one step or in two.
 #include <algorithm>
 
-#include "bake/convert_report.hpp"
+#include "bake/reports.hpp"
 #include "cotan/convert.hpp"
 #include "cotan/gltf.hpp"
 #include "gltf/json/lookup.hpp"
-#include "json_text.hpp"
 #include "model_files.hpp"
 
 using namespace cotan;
@@ -84,11 +83,13 @@ ConvertModelOptions optionsFor(const cotan_convert_options& o, const ModelFiles&
     return convert;
 }
 
-// Where the caller names none: the frame that the document names.
-void chooseFrom(const cotan_convert_options& o, const GltfDocument& document, ConvertModelOptions& convert)
+// The document of a model; it says what frame it is in where the caller names none.
+GltfDocument opened(const ModelFiles& source, const cotan_convert_options& o, ConvertModelOptions& convert)
 {
+    GltfDocument document = valueOf(openGltfDocument(source.name(), convert.limits));
     if (!o.from)
         convert.frames.from = valueOf(namedFrame(document)).value_or(convert.frames.from);
+    return document;
 }
 
 // Bytes that no file has twice.
@@ -126,16 +127,6 @@ void replacePlaceholder(GltfDocument& document, const Bytes& placeholder, const 
             replaceGltfImage(document, i, png, "image/png");
 }
 
-// Those that have new pictures, in their order.
-std::vector<ConvertedMap*> convertedMaps(ConvertModelReport& report)
-{
-    std::vector<ConvertedMap*> converted;
-    for (ConvertedMap& map : report.maps)
-        if (!map.kept)
-            converted.push_back(&map);
-    return converted;
-}
-
 } // namespace
 
 cotan_status cotan_convert_gltf(const void* model, size_t model_size, const cotan_model_files* files,
@@ -149,8 +140,7 @@ cotan_status cotan_convert_gltf(const void* model, size_t model_size, const cota
             checked(result, "result");
         const ModelFiles source(model, model_size, files);
         ConvertModelOptions convert = optionsFor(o, source);
-        GltfDocument document = valueOf(openGltfDocument(source.name(), convert.limits));
-        chooseFrom(o, document, convert);
+        GltfDocument document = opened(source, o, convert);
         const ConvertModelReport report = valueOf(convertModel(document, convert));
         auto made = std::make_unique<cotan_bytes>(cotan_bytes{valueOf(glbBytes(std::move(document), convert.limits))});
         giveText("cotan-convert-result", convertJson(report), json);
@@ -176,8 +166,7 @@ cotan_status cotan_convert_begin(const void* model, size_t model_size, const cot
             made->pictures.push_back({image, placeholderOf(made->pictures.size())});
             return made->pictures.back().placeholder;
         };
-        made->document = valueOf(openGltfDocument(source.name(), convert.limits));
-        chooseFrom(o, made->document, convert);
+        made->document = opened(source, o, convert);
         made->report = valueOf(convertModel(made->document, convert));
         made->document = closedDocument(made->document, convert.limits);
         if (result)
@@ -208,7 +197,10 @@ cotan_status cotan_conversion_set(cotan_conversion* conversion, size_t number, c
         require(png && png_size > 0, "png: expected bytes, found none");
         require(!picture.given, "number: expected a picture that has no PNG file yet");
         replacePlaceholder(conversion->document, picture.placeholder, copied(png, png_size));
-        convertedMaps(conversion->report)[number]->bytesAfter = png_size;
+        std::size_t converted = 0; // maps so far: each has one of the pictures, in their order
+        for (ConvertedMap& map : conversion->report.maps)
+            if (!map.kept && converted++ == number)
+                map.bytesAfter = png_size;
         picture.given = true;
     });
 }
@@ -218,8 +210,7 @@ cotan_status cotan_convert_end(cotan_conversion* conversion, cotan_bytes** glb, 
 {
     return call(message, message_size, [&] {
         require(conversion && glb, "conversion and glb: expected both, found null");
-        require(std::all_of(conversion->pictures.begin(), conversion->pictures.end(),
-                            [](const auto& p) { return p.given; }),
+        require(std::ranges::all_of(conversion->pictures, &cotan_conversion::Picture::given),
                 "conversion: expected the PNG files of all pictures");
         auto made = std::make_unique<cotan_bytes>(cotan_bytes{valueOf(glbBytes(conversion->document))});
         giveText("cotan-convert-result", convertJson(conversion->report), json);

@@ -2,7 +2,7 @@
 #include "cotan/image.hpp"
 #include "cotan/model.hpp"
 #include "cotan/picture.hpp"
-#include "models_api.hpp"
+#include "meshes.hpp"
 #include "pictures.hpp"
 
 using namespace cotan;
@@ -58,8 +58,5 @@ cotan_status cotan_image_read(const char* file, int memory, cotan_image** image,
 
 cotan_status cotan_image_write(const char* file, const cotan_picture* picture, char* message, size_t message_size)
 {
-    return call(message, message_size, [&] {
-        if (const Status written = writeImage(word(file, "file"), imageOf(picture, "picture")); !written)
-            throw Failure{written.error()};
-    });
+    return call(message, message_size, [&] { valueOf(writeImage(word(file, "file"), imageOf(picture, "picture"))); });
 }

@@ -18,18 +18,12 @@ std::span<const glm::vec3> vectors(const float* array, std::size_t count, const 
 
 template<class T> std::vector<T> copied(std::span<const T> values) { return {values.begin(), values.end()}; }
 
-template<class Packed, class Out> void give(const std::vector<Packed>& packed, Out* out, std::size_t count)
-{
-    require(out || count == 0, "packed: expected an array, found null");
-    if (count != 0)
-        std::memcpy(out, packed.data(), count * sizeof(Packed));
-}
-
-template<class T> void put(const std::vector<T>& values, T* out, const char* name)
+template<class Value, class Out> void put(const std::vector<Value>& values, Out* out, const char* name)
 {
     if (!out && !values.empty())
         fail(ErrorKind::usage, std::string(name) + ": expected an array, found null");
-    std::copy(values.begin(), values.end(), out);
+    if (!values.empty())
+        std::memcpy(out, values.data(), values.size() * sizeof(Value));
 }
 
 void put(const VertexSplit& split, uint32_t* indices, uint32_t* sources, size_t* count)
@@ -83,7 +77,7 @@ cotan_status cotan_pack_triangles(size_t count, const float* u, const float* v, 
         std::vector<TriangleVectors> triangles(count);
         for (std::size_t f = 0; f < count; ++f)
             triangles[f] = {us[f], vs[f]};
-        give(packTriangles(triangles), words, count);
+        put(packTriangles(triangles), words, "packed");
     });
 }
 
@@ -92,7 +86,7 @@ cotan_status cotan_pack_smooth8(size_t count, const float* normals, const float*
 {
     return call(message, message_size, [&] {
         const Cotangents cotangents{copied(vectors(u, count, "u")), copied(vectors(v, count, "v"))};
-        give(packSmooth8(vectors(normals, count, "normals"), cotangents), packed, count);
+        put(packSmooth8(vectors(normals, count, "normals"), cotangents), packed, "packed");
     });
 }
 
@@ -101,7 +95,7 @@ cotan_status cotan_pack_smooth4(size_t count, const float* normals, const float*
 {
     return call(message, message_size, [&] {
         const Cotangents cotangents{copied(vectors(u, count, "u")), copied(vectors(v, count, "v"))};
-        give(packSmooth4(vectors(normals, count, "normals"), cotangents), packed, count);
+        put(packSmooth4(vectors(normals, count, "normals"), cotangents), packed, "packed");
     });
 }
 
@@ -110,8 +104,8 @@ cotan_status cotan_pack_tangents(size_t count, const float* normals, const float
 {
     return call(message, message_size, [&] {
         require(tangents || count == 0, "tangents: expected an array, found null");
-        give(packTangents2(vectors(normals, count, "normals"), {reinterpret_cast<const glm::vec4*>(tangents), count}),
-             packed, count);
+        put(packTangents2(vectors(normals, count, "normals"), {reinterpret_cast<const glm::vec4*>(tangents), count}),
+            packed, "packed");
     });
 }
 

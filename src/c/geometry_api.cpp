@@ -1,12 +1,5 @@
 // cotan.h: frames and tangents.
-
-#include <glm/vec2.hpp>
-#include <glm/vec3.hpp>
-#include <glm/vec4.hpp>
-
-#include "call.hpp"
 #include "cotan/frame.hpp"
-#include "cotan/tangents.hpp"
 #include "meshes.hpp"
 
 using namespace cotan;
@@ -16,68 +9,64 @@ namespace {
 
 glm::vec3 vec3At(const float* array, std::size_t i) { return {array[3 * i], array[3 * i + 1], array[3 * i + 2]}; }
 
-Frame frameFromDifferences(const char* name)
-{
-    const auto frame = frameFromName(word(name, "frame"));
-    if (!frame || readsVertices(*frame))
-        fail(ErrorKind::usage, "frame: expected one that is made from differences, found '" + std::string(name) + "'");
-    return *frame;
-}
-
-// Calls work(i, frame there) for every place.
-template<class Work> void forEachPlace(const char* frame, const cotan_places* given, Work work)
-{
-    const Frame kind = frameFromDifferences(frame);
-    const cotan_places& p = checked(given, "places");
-    require(p.count == 0 || (p.normals && p.dpdx && p.dpdy && p.duvdx && p.duvdy),
-            "places: expected five arrays, found null");
-    for (std::size_t i = 0; i < p.count; ++i) {
-        Differences<float> d;
-        d.dpdx = Vector3f(vec3At(p.dpdx, i));
-        d.dpdy = Vector3f(vec3At(p.dpdy, i));
-        d.duvdx = {p.duvdx[2 * i], p.duvdx[2 * i + 1]};
-        d.duvdy = {p.duvdy[2 * i], p.duvdy[2 * i + 1]};
-        work(i, makeFrame(kind, Covector3f(vec3At(p.normals, i)), d));
-    }
-}
-
 void store(float* array, std::size_t i, const glm::vec3& v)
 {
     array[3 * i] = v.x, array[3 * i + 1] = v.y, array[3 * i + 2] = v.z;
 }
 
-// A frame of the vertices at a place.
-class VertexFrames {
-public:
-    VertexFrames(const char* frame, const cotan_vertex_places* given) : p_(checked(given, "places"))
-    {
-        const auto kind = frameFromName(word(frame, "frame"));
-        if (!kind || !readsVertices(*kind))
-            fail(ErrorKind::usage,
-                 "frame: expected one that is made at the vertices, found '" + std::string(frame) + "'");
-        kind_ = *kind;
-        const bool smooth = readsCotangents(kind_);
-        require(p_.count == 0 || (p_.normals && (smooth ? p_.cotangents_u && p_.cotangents_v : p_.tangents != nullptr)),
-                smooth ? "places: expected normals and two arrays of cotangents, found null"
-                       : "places: expected normals and tangents, found null");
-    }
+// Calls work(i, frame there) for every place.
+void forEachPlace(const char* frame, const cotan_places* given, const auto& work)
+{
+    const auto kind = frameFromName(word(frame, "frame"));
+    if (!kind || readsVertices(*kind))
+        fail(ErrorKind::usage, "frame: expected one that is made from differences, found '" + std::string(frame) + "'");
+    const cotan_places& p = checked(given, "places");
+    require(p.count == 0 || (p.normals && p.dpdx && p.dpdy && p.duvdx && p.duvdy),
+            "places: expected five arrays, found null");
+    const auto uv = [](const float* array, std::size_t i) { return glm::vec2(array[2 * i], array[2 * i + 1]); };
+    for (std::size_t i = 0; i < p.count; ++i)
+        work(i,
+             evaluate(*kind, vec3At(p.normals, i), vec3At(p.dpdx, i), vec3At(p.dpdy, i), uv(p.duvdx, i),
+                      uv(p.duvdy, i)));
+}
 
-    std::size_t count() const { return p_.count; }
-
-    f32::cotan_frame at(std::size_t i) const
-    {
-        const glm::vec3 n = vec3At(p_.normals, i);
-        if (readsCotangents(kind_))
-            return evaluateCotangents(kind_, n, vec3At(p_.cotangents_u, i), vec3At(p_.cotangents_v, i));
-        const float* t = p_.tangents + 4 * i;
+void forEachPlace(const char* frame, const cotan_vertex_places* given, const auto& work)
+{
+    const cotan_vertex_places& p = checked(given, "places");
+    const auto kind = frameFromName(word(frame, "frame"));
+    if (!kind || !readsVertices(*kind))
+        fail(ErrorKind::usage, "frame: expected one that is made at the vertices, found '" + std::string(frame) + "'");
+    const bool smooth = readsCotangents(*kind);
+    require(p.count == 0 || (p.normals && (smooth ? p.cotangents_u && p.cotangents_v : p.tangents != nullptr)),
+            smooth ? "places: expected normals and two arrays of cotangents, found null"
+                   : "places: expected normals and tangents, found null");
+    for (std::size_t i = 0; i < p.count; ++i) {
+        const glm::vec3 n = vec3At(p.normals, i);
+        if (smooth) {
+            work(i, evaluateCotangents(*kind, n, vec3At(p.cotangents_u, i), vec3At(p.cotangents_v, i)));
+            continue;
+        }
+        const float* t = p.tangents + 4 * i;
         const glm::vec4 tangent = tangentAlongV({t[0], t[1], t[2], t[3]});
-        return evaluateTangents(kind_, n, glm::vec3(tangent), tangent.w);
+        work(i, evaluateTangents(*kind, n, glm::vec3(tangent), tangent.w));
     }
+}
 
-private:
-    const cotan_vertex_places& p_;
-    Frame kind_ = Frame::smooth;
-};
+void applyFrames(const char* frame, const auto* places, const float* texels, float* normals)
+{
+    require(texels && normals, "texels and normals: expected arrays, found null");
+    forEachPlace(frame, places, [&](std::size_t i, const f32::cotan_frame& f) {
+        store(normals, i, f32::cotan_apply(f, vec3At(texels, i)));
+    });
+}
+
+void encodeByFrames(const char* frame, const auto* places, const float* normals, float* texels)
+{
+    require(texels && normals, "texels and normals: expected arrays, found null");
+    forEachPlace(frame, places, [&](std::size_t i, const f32::cotan_frame& f) {
+        store(texels, i, f32::cotan_encode(f, vec3At(normals, i)));
+    });
+}
 
 // The words of the kinds are not asked of the table of frames, which cotan/tangents would have to carry.
 Frame tangentKind(const char* kind)
@@ -122,45 +111,25 @@ const char* cotan_frame_name(int frame)
 cotan_status cotan_frame_apply(const char* frame, const cotan_places* places, const float* texels, float* normals,
                                char* message, size_t message_size)
 {
-    return call(message, message_size, [&] {
-        require(texels && normals, "texels and normals: expected arrays, found null");
-        forEachPlace(frame, places, [&](std::size_t i, const CotangentFrame<float>& f) {
-            store(normals, i, perturb(f, vec3At(texels, i)).raw());
-        });
-    });
+    return call(message, message_size, [&] { applyFrames(frame, places, texels, normals); });
 }
 
 cotan_status cotan_frame_encode(const char* frame, const cotan_places* places, const float* normals, float* texels,
                                 char* message, size_t message_size)
 {
-    return call(message, message_size, [&] {
-        require(texels && normals, "texels and normals: expected arrays, found null");
-        forEachPlace(frame, places, [&](std::size_t i, const CotangentFrame<float>& f) {
-            store(texels, i, encode(f, Covector3f(vec3At(normals, i))));
-        });
-    });
+    return call(message, message_size, [&] { encodeByFrames(frame, places, normals, texels); });
 }
 
 cotan_status cotan_vertex_frame_apply(const char* frame, const cotan_vertex_places* places, const float* texels,
                                       float* normals, char* message, size_t message_size)
 {
-    return call(message, message_size, [&] {
-        require(texels && normals, "texels and normals: expected arrays, found null");
-        const VertexFrames frames(frame, places);
-        for (std::size_t i = 0; i < frames.count(); ++i)
-            store(normals, i, f32::cotan_apply(frames.at(i), vec3At(texels, i)));
-    });
+    return call(message, message_size, [&] { applyFrames(frame, places, texels, normals); });
 }
 
 cotan_status cotan_vertex_frame_encode(const char* frame, const cotan_vertex_places* places, const float* normals,
                                        float* texels, char* message, size_t message_size)
 {
-    return call(message, message_size, [&] {
-        require(texels && normals, "texels and normals: expected arrays, found null");
-        const VertexFrames frames(frame, places);
-        for (std::size_t i = 0; i < frames.count(); ++i)
-            store(texels, i, f32::cotan_encode(frames.at(i), vec3At(normals, i)));
-    });
+    return call(message, message_size, [&] { encodeByFrames(frame, places, normals, texels); });
 }
 
 cotan_status cotan_tangents(const char* kind, const cotan_mesh* mesh, int threads, float* tangents, char* message,

@@ -3,13 +3,12 @@
 #include <set>
 
 #include "bake/convert/map_jobs.hpp"
-#include "bake/lint_report.hpp"
+#include "bake/reports.hpp"
 #include "cotan/gltf.hpp"
 #include "cotan/lint.hpp"
 #include "gltf/json/lookup.hpp"
-#include "json_text.hpp"
+#include "meshes.hpp"
 #include "model_files.hpp"
-#include "models_api.hpp"
 
 using namespace cotan;
 using namespace cotan::c;

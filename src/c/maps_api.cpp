@@ -1,5 +1,4 @@
 // cotan.h: normal maps as pixel buffers.
-#include <array>
 #include <cmath>
 
 #include "call.hpp"
@@ -11,21 +10,11 @@ using namespace cotan::c;
 
 namespace {
 
-maps::BlendMode modeOf(const char* text)
-{
-    using M = maps::BlendMode;
-    constexpr std::array<std::pair<std::string_view, M>, 5> kModes = {{{"reoriented", M::reoriented},
-                                                                       {"whiteout", M::whiteout},
-                                                                       {"udn", M::udn},
-                                                                       {"slopes", M::slopes},
-                                                                       {"linear", M::linear}}};
-    const std::string_view wanted = word(text, "mode");
-    for (const auto& [name, mode] : kModes)
-        if (name == wanted)
-            return mode;
-    fail(ErrorKind::usage,
-         "mode: expected reoriented, whiteout, udn, slopes or linear, found '" + std::string(wanted) + "'");
-}
+constexpr Named<maps::BlendMode> kModes[] = {{"reoriented", maps::BlendMode::reoriented},
+                                             {"whiteout", maps::BlendMode::whiteout},
+                                             {"udn", maps::BlendMode::udn},
+                                             {"slopes", maps::BlendMode::slopes},
+                                             {"linear", maps::BlendMode::linear}};
 
 } // namespace
 
@@ -118,7 +107,7 @@ cotan_status cotan_map_blend(const cotan_picture* base, const cotan_picture* det
         maps::BlendSettings settings;
         settings.type = typeOf(out, "map");
         settings.base = settings.detail = settings.to = storableAs(convention, "convention", settings.type);
-        settings.mode = modeOf(mode);
+        settings.mode = valueOf(kModes, word(mode, "mode"), "mode");
         settings.strength = float(strength);
         std::size_t invalid = 0;
         put(maps::blend(under, over, settings, invalid), out);

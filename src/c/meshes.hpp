@@ -1,4 +1,4 @@
-// Meshes of cotan.h, looked at before they are used.
+// Meshes and models of cotan.h, looked at before they are used.
 #pragma once
 
 #include <cmath>
@@ -8,7 +8,13 @@
 #include <glm/vec4.hpp>
 
 #include "call.hpp"
+#include "cotan/scene.hpp"
 #include "cotan/tangents.hpp"
+
+struct cotan_model {
+    cotan::Scene scene;
+    std::string warnings; // of it, as cotan_model_warnings gives them
+};
 
 namespace cotan::c {
 
@@ -53,6 +59,15 @@ inline void checkFinite(const std::string& name, const float* numbers, std::size
                                                : "-inf"));
 }
 
+// The arrays of a checked mesh; those that are left out are empty.
+inline MeshView arraysOf(const cotan_mesh& m)
+{
+    return {{reinterpret_cast<const glm::vec3*>(m.positions), m.vertex_count},
+            {reinterpret_cast<const glm::vec3*>(m.normals), m.normals ? m.vertex_count : 0},
+            {reinterpret_cast<const glm::vec2*>(m.texcoords), m.texcoords ? m.vertex_count : 0},
+            {m.indices, m.index_count}};
+}
+
 // A mesh with uv as the library takes it.
 inline MeshView viewOf(const cotan_mesh* given)
 {
@@ -60,10 +75,39 @@ inline MeshView viewOf(const cotan_mesh* given)
     checkFinite("mesh.positions", m.positions, 3, m.vertex_count);
     checkFinite("mesh.normals", m.normals, 3, m.vertex_count);
     checkFinite("mesh.texcoords", m.texcoords, 2, m.vertex_count);
-    return {{reinterpret_cast<const glm::vec3*>(m.positions), m.vertex_count},
-            {reinterpret_cast<const glm::vec3*>(m.normals), m.vertex_count},
-            {reinterpret_cast<const glm::vec2*>(m.texcoords), m.vertex_count},
-            {m.indices, m.index_count}};
+    return arraysOf(m);
+}
+
+// One mesh, checked, as the library has it; its material is the first.
+inline Mesh meshOf(const cotan_mesh& m)
+{
+    const MeshView view = arraysOf(m);
+    Mesh mesh;
+    mesh.positions.assign(view.positions.begin(), view.positions.end());
+    mesh.normals.assign(view.normals.begin(), view.normals.end());
+    mesh.texcoords[0].assign(view.texcoords.begin(), view.texcoords.end());
+    mesh.indices.assign(view.indices.begin(), view.indices.end());
+    return mesh;
+}
+
+// A scene of such meshes, each placed once. name: for messages.
+inline Scene sceneOf(std::vector<Mesh> meshes, const std::string& name)
+{
+    Scene scene;
+    scene.name = name;
+    scene.materials.resize(1);
+    scene.instances.resize(meshes.size());
+    for (std::size_t i = 0; i < meshes.size(); ++i)
+        scene.instances[i].mesh = int(i);
+    scene.meshes = std::move(meshes);
+    return scene;
+}
+
+inline const Scene& sceneOf(const cotan_model* model, const char* name)
+{
+    if (!model)
+        fail(ErrorKind::usage, std::string(name) + ": expected a model, found null");
+    return model->scene;
 }
 
 } // namespace cotan::c

@@ -1,4 +1,4 @@
-// The caller's files and pictures of cotan.h as the library takes them.
+// The caller's files and pictures of cotan.h as the library takes them, and reports on models as text.
 #pragma once
 
 #include <cstring>
@@ -7,6 +7,7 @@
 
 #include "call.hpp"
 #include "cotan/files.hpp"
+#include "files/report/json.hpp"
 #include "pictures.hpp"
 
 namespace cotan::c {
@@ -107,5 +108,12 @@ private:
     std::size_t size_;
     cotan_model_files f_;
 };
+
+// format: of files/report/json.hpp.
+inline void giveText(std::string_view format, const Json& json, cotan_bytes** to)
+{
+    if (to)
+        giveText(std::string_view(toText(versioned(format, json))), to);
+}
 
 } // namespace cotan::c

@@ -1,6 +1,7 @@
-// cotan.h: models as such.
-#include "models_api.hpp"
+// cotan.h: models and pictures as such.
+#include "meshes.hpp"
 
+#include "pictures.hpp"
 #include "scene/geometry.hpp"
 
 using namespace cotan;
@@ -14,11 +15,9 @@ cotan_status cotan_model_up(cotan_model* model, const char* up, char* message, s
 {
     return call(message, message_size, [&] {
         require(model, "model: expected one, found null");
-        const std::string_view axis = word(up, "up");
-        if (axis == "z")
+        constexpr Named<bool> kTurned[] = {{"y", false}, {"z", true}};
+        if (valueOf(kTurned, word(up, "up"), "up"))
             turnZUp(model->scene);
-        else if (axis != "y")
-            fail(ErrorKind::usage, "up: expected y or z, found '" + std::string(axis) + "'");
     });
 }
 
@@ -40,5 +39,16 @@ cotan_status cotan_model_of_meshes(size_t count, const cotan_mesh* const* meshes
         }
         const std::string name = made.empty() || made[0].name.empty() ? "meshes" : made[0].name;
         *model = new cotan_model{sceneOf(std::move(made), name), {}};
+    });
+}
+
+void cotan_image_free(cotan_image* image) { delete image; }
+
+cotan_status cotan_image_picture(const cotan_image* image, cotan_picture* picture, char* message, size_t message_size)
+{
+    return call(message, message_size, [&] {
+        require(image, "image: expected one, found null");
+        checked(picture, "picture");
+        *picture = pictureOf(image->image);
     });
 }

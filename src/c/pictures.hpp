@@ -95,8 +95,8 @@ inline Convention storableAs(const char* words, const char* name, PixelType type
 
 inline cotan_picture pictureOf(const Image& image)
 {
-    const int bits = image.type == PixelType::unorm8 ? 8 : image.type == PixelType::unorm16 ? 16 : 32;
-    return {sizeof(cotan_picture), image.width, image.height, bits, const_cast<std::byte*>(image.data.data())};
+    return {sizeof(cotan_picture), image.width, image.height, bitsPerComponent(image.type),
+            const_cast<std::byte*>(image.data.data())};
 }
 
 } // namespace cotan::c

@@ -1,9 +1,8 @@
 // cotan.h: the picture that `cotan render` draws.
-#include "bake/report_words.hpp"
+#include "bake/reports.hpp"
 #include "core/loops.hpp"
 #include "cotan/picture.hpp"
 #include "inspect/statistics.hpp"
-#include "json_text.hpp"
 #include "model_files.hpp"
 #include "picture/option_words.hpp"
 #include "scene/normal_maps.hpp"
@@ -26,8 +25,7 @@ Wanted readWords(const cotan_render_options& o)
     std::vector<std::string> words;
     for (std::size_t i = 0; i < o.word_count; ++i)
         words.emplace_back(word(o.words[i], "options.words"));
-    if (const Status read = readPictureWords(words, wanted.picture, wanted.frame); !read)
-        throw Failure{read.error()};
+    valueOf(readPictureWords(words, wanted.picture, wanted.frame));
     wanted.picture.use = wanted.picture.show != "shaded" ? PictureUse::data
         : o.floats != 0                                  ? PictureUse::radiance
                                                          : PictureUse::shown;
@@ -49,8 +47,7 @@ void readFrom(const ModelFiles& source, PictureOptions& options)
 Image draw(const Wanted& wanted, const cotan_render_options& o, Json& report)
 {
     const FrameChoice frame = valueOf(parseFrameChoice(wanted.frame));
-    if (const Status fits = checkLighting(wanted.picture, frame); !fits)
-        throw Failure{fits.error()};
+    valueOf(checkLighting(wanted.picture, frame));
     Picture picture = valueOf(openPicture(wanted.picture, o.threads, {frame, Frame::exact}));
     picture.view.frame = picture.frames.front();
     picture.view.output = outputOf(wanted.picture.show);
@@ -65,8 +62,7 @@ Image draw(const Wanted& wanted, const cotan_render_options& o, Json& report)
     Image image =
         valueOf(drawShow(*renderer, picture.scene, picture.view, wanted.picture.show, o.floats != 0,
                          [&](const AngleStatistics& degrees) { report["error_against_exact"] = toJson(degrees); }));
-    if (const Status laid = layEdges(*renderer, picture.view, wanted.picture, picture.edges, image); !laid)
-        throw Failure{laid.error()};
+    valueOf(layEdges(*renderer, picture.view, wanted.picture, picture.edges, image));
     return image;
 }
 

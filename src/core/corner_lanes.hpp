@@ -66,10 +66,10 @@ struct CornerLanes {
 
     void put(std::size_t lane, const CornerEdges& e)
     {
-        put(dp1, lane, e.dp1);
-        put(dp2, lane, e.dp2);
-        put(normal, lane, e.normal);
-        put(unit, lane, e.unit);
+        tangents::put(dp1, lane, e.dp1);
+        tangents::put(dp2, lane, e.dp2);
+        tangents::put(normal, lane, e.normal);
+        tangents::put(unit, lane, e.unit);
         duv1[0][lane] = e.duv1.x;
         duv1[1][lane] = e.duv1.y;
         duv2[0][lane] = e.duv2.x;
@@ -77,13 +77,14 @@ struct CornerLanes {
     }
     CornerEdges edges(std::size_t lane) const
     {
-        return {vector(dp1, lane),    vector(dp2, lane), {duv1[0][lane], duv1[1][lane]}, {duv2[0][lane], duv2[1][lane]},
-                vector(normal, lane), vector(unit, lane)};
+        return {
+            vectorAt(dp1, lane),    vectorAt(dp2, lane), {duv1[0][lane], duv1[1][lane]}, {duv2[0][lane], duv2[1][lane]},
+            vectorAt(normal, lane), vectorAt(unit, lane)};
     }
     void put(std::size_t lane, const CornerGradients& g)
     {
-        put(u, lane, g.u);
-        put(v, lane, g.v);
+        tangents::put(u, lane, g.u);
+        tangents::put(v, lane, g.v);
         weight[lane] = g.weight;
         mirrored[lane] = g.mirrored;
         usual[lane] = g.usual;
@@ -102,19 +103,7 @@ struct CornerLanes {
     }
     CornerGradients gradients(std::size_t lane) const
     {
-        return {vector(u, lane), vector(v, lane), weight[lane], mirrored[lane] != 0, usual[lane] != 0};
-    }
-
-private:
-    static glm::vec3 vector(const Lane (&axes)[3], std::size_t lane)
-    {
-        return {axes[0][lane], axes[1][lane], axes[2][lane]};
-    }
-    static void put(Lane (&axes)[3], std::size_t lane, glm::vec3 v)
-    {
-        axes[0][lane] = v.x;
-        axes[1][lane] = v.y;
-        axes[2][lane] = v.z;
+        return {vectorAt(u, lane), vectorAt(v, lane), weight[lane], mirrored[lane] != 0, usual[lane] != 0};
     }
 };
 

@@ -12,7 +12,7 @@
 #include <emmintrin.h>
 #endif
 
-#include "mikktspace_corners.hpp"
+#include "mikktspace.hpp"
 
 namespace cotan {
 

@@ -1,7 +1,7 @@
-#include "mikktspace_corners.hpp"
-
 #include <algorithm>
 #include <utility>
+
+#include "mikktspace.hpp"
 
 namespace cotan::mikktspace {
 
@@ -62,8 +62,10 @@ void Ring::pair()
     sorted(coming, byComing);
     for (std::size_t i = 0, j = 0; i < byLeaving.size() && j < byComing.size();) {
         const std::uint32_t a = leaving[byLeaving[i]], b = coming[byComing[j]];
-        if (a == b)
-            join(byLeaving[i], byComing[j]);
+        if (a == b) {
+            left[byLeaving[i]] = byComing[j];
+            right[byComing[j]] = byLeaving[i];
+        }
         i += a <= b;
         j += b <= a;
     }

@@ -1,15 +1,16 @@
-#include "mikktspace_triangles.hpp"
-
 #include <algorithm>
+
+#include "mikktspace.hpp"
 
 namespace cotan::mikktspace {
 
 namespace {
 
 using tangents::fastArcCosine;
-using tangents::kNone;
 using tangents::projectedAngle;
 using tangents::projectedUnit;
+using tangents::put;
+using tangents::vectorAt;
 
 // What follows is written without branches, so that compilers do it for several triangles at once.
 
@@ -69,17 +70,6 @@ struct Batch {
     Lane contribution[3][3];
     std::int32_t flags[kLanes], sound[kLanes];
 
-    static glm::vec3 vector(const Lane (&axes)[3], std::size_t lane)
-    {
-        return {axes[0][lane], axes[1][lane], axes[2][lane]};
-    }
-    static void put(Lane (&axes)[3], std::size_t lane, glm::vec3 v)
-    {
-        axes[0][lane] = v.x;
-        axes[1][lane] = v.y;
-        axes[2][lane] = v.z;
-    }
-
     [[gnu::always_inline]] inline void derive()
     {
         std::fill_n(sound, kLanes, 1);
@@ -93,7 +83,7 @@ private:
     {
         for (std::size_t l = 0; l < kLanes; ++l) {
             const Directions d =
-                directionsOf(vector(position[0], l), vector(position[1], l), vector(position[2], l),
+                directionsOf(vectorAt(position[0], l), vectorAt(position[1], l), vectorAt(position[2], l),
                              {texcoord[0][0][l], texcoord[0][1][l]}, {texcoord[1][0][l], texcoord[1][1][l]},
                              {texcoord[2][0][l], texcoord[2][1][l]});
             put(u, l, d.u);
@@ -107,8 +97,8 @@ private:
     {
         const auto &p = position[k], &next = position[(k + 1) % 3], &previous = position[(k + 2) % 3], &n = normal[k];
         for (std::size_t l = 0; l < kLanes; ++l) {
-            const Contribution c =
-                contributionOf(vector(u, l), vector(n, l), vector(p, l), vector(previous, l), vector(next, l));
+            const Contribution c = contributionOf(vectorAt(u, l), vectorAt(n, l), vectorAt(p, l), vectorAt(previous, l),
+                                                  vectorAt(next, l));
             put(contribution[k], l, select((flags[l] & kJoinsAny) == 0, c.value));
             sound[l] &= c.sound ? 1 : 0;
         }
@@ -133,12 +123,20 @@ void gather(const Triangles& t, std::size_t first, std::size_t lanes, Batch& bat
     for (std::size_t l = 0; l < lanes; ++l)
         for (std::size_t k = 0; k < 3; ++k) {
             const std::size_t corner = 3 * (first + l) + k;
-            Batch::put(batch.position[k], l, t.position(corner));
-            Batch::put(batch.normal[k], l, t.normal(corner));
+            put(batch.position[k], l, t.position(corner));
+            put(batch.normal[k], l, t.normal(corner));
             const glm::vec2 uv = t.texcoord(corner);
             batch.texcoord[k][0][l] = uv.x;
             batch.texcoord[k][1][l] = uv.y;
         }
+}
+
+// The angle with which a corner's triangle counts; 0 for one without a direction.
+float weightOf(const Triangles& t, std::size_t c)
+{
+    if (t.has(c / 3, kJoinsAny))
+        return 0;
+    return projectedAngle(t.position(c), t.position(previousCorner(c)), t.position(nextCorner(c)), t.normal(c));
 }
 
 void scatter(const Batch& batch, std::size_t first, std::size_t lanes, Triangles& t, std::span<glm::vec4> contributions)
@@ -146,13 +144,12 @@ void scatter(const Batch& batch, std::size_t first, std::size_t lanes, Triangles
     for (std::size_t l = 0; l < lanes; ++l) {
         const std::size_t f = first + l;
         t.flags[f] = static_cast<std::uint8_t>(batch.flags[l]);
-        t.alongV[f] = Batch::vector(batch.v, l);
+        t.alongV[f] = vectorAt(batch.v, l);
         for (std::size_t k = 0; k < 3; ++k)
-            contributions[3 * f + k] =
-                glm::vec4(batch.sound[l] != 0
-                              ? Batch::vector(batch.contribution[k], l)
-                              : projectedUnit(Batch::vector(batch.u, l), t.normal(3 * f + k)) * weightOf(t, 3 * f + k),
-                          0);
+            contributions[3 * f + k] = glm::vec4(
+                batch.sound[l] != 0 ? vectorAt(batch.contribution[k], l)
+                                    : projectedUnit(vectorAt(batch.u, l), t.normal(3 * f + k)) * weightOf(t, 3 * f + k),
+                0);
     }
 }
 
@@ -211,13 +208,6 @@ glm::vec3 alongU(const Triangles& t, std::size_t f)
     return directionsOf(t.position(3 * f), t.position(3 * f + 1), t.position(3 * f + 2), t.texcoord(3 * f),
                         t.texcoord(3 * f + 1), t.texcoord(3 * f + 2))
         .u;
-}
-
-float weightOf(const Triangles& t, std::size_t c)
-{
-    if (t.has(c / 3, kJoinsAny))
-        return 0;
-    return projectedAngle(t.position(c), t.position(previousCorner(c)), t.position(nextCorner(c)), t.normal(c));
 }
 
 } // namespace cotan::mikktspace

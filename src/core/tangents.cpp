@@ -4,8 +4,14 @@
 #include <algorithm>
 #include <array>
 #include <numeric>
+#include <optional>
+#include <string>
+
+#include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
 
 #include "corner_groups.hpp"
+#include "mikktspace.hpp"
 #include "tangents_mesh.hpp"
 
 namespace cotan {
@@ -24,6 +30,18 @@ glm::vec3 alongU(const Edges& e)
 {
     const glm::dvec3 t = (e.dp1 * e.duv2.y - e.dp2 * e.duv1.y) * (e.uvArea() < 0 ? -1.0 : 1.0);
     return unitOrZero(t);
+}
+
+// A unit vector perpendicular to n; n may be zero or not finite.
+glm::vec3 anyPerpendicular(glm::vec3 n)
+{
+    // Crossed with the axis that n is farthest from.
+    const glm::vec3 a = glm::abs(n);
+    const glm::vec3 axis = a.x <= a.y && a.x <= a.z ? glm::vec3(1, 0, 0)
+        : a.y <= a.z                                ? glm::vec3(0, 1, 0)
+                                                    : glm::vec3(0, 0, 1);
+    const glm::vec3 t = tangents::normalizeOrZero(axis - n * (glm::dot(axis, n) / glm::dot(n, n)));
+    return glm::dot(t, t) > 0.5f ? t : glm::vec3(1, 0, 0);
 }
 
 } // namespace
@@ -46,8 +64,8 @@ std::vector<glm::vec4> vertexTangents(const MeshView& mesh)
         const glm::vec3 n = mesh.normals[vertex];
         const Side side = tangents::sideOrNearest(sides[c], vertex, isEmpty);
         const glm::vec3 t = tangents::projectedUnit(sums[slot(vertex, side)], n);
-        out[c] = glm::dot(t, t) > 0.5f ? glm::vec4(t, side == Side::mirrored ? -1 : 1)
-                                       : glm::vec4(tangents::anyPerpendicular(n), 1);
+        out[c] =
+            glm::dot(t, t) > 0.5f ? glm::vec4(t, side == Side::mirrored ? -1 : 1) : glm::vec4(anyPerpendicular(n), 1);
     }
     return out;
 }
@@ -89,8 +107,7 @@ VertexSplit splitVertices(std::size_t vertexCount, std::span<const std::uint32_t
                           tangents::bitsOf(x.w)};
     });
     VertexSplit split{std::vector<std::uint32_t>(vertexCount), {indices.begin(), indices.end()}};
-    for (std::uint32_t i = 0; i < vertexCount; ++i)
-        split.sources[i] = i;
+    std::iota(split.sources.begin(), split.sources.end(), 0u);
     std::vector<bool> claimed(vertexCount); // by the first value met, which stays where it is
     for (std::uint32_t c = 0; c < indices.size(); ++c) {
         if (first[c] != c) {
@@ -179,6 +196,132 @@ SplitCotangents splitSmoothCotangents(const MeshView& mesh, int threads)
     tangents::groupCorners(mesh, all, {&made.cotangents, shared.keepers, shared.copies});
     made.split = splitOf(mesh, shared); // now that the memory of the groups is free
     return made;
+}
+
+// ---- with progress -------------------------------------------------------------------------
+
+namespace {
+
+Error expected(const std::string& array, const std::string& what, std::size_t found)
+{
+    return usageError(array + ": expected " + what + ", found " + std::to_string(found));
+}
+
+// Why a mesh is not usable; none where it is.
+std::optional<Error> problemOf(const MeshView& mesh)
+{
+    const std::size_t count = mesh.positions.size(), indices = mesh.indices.size();
+    const std::string oneEach = "one a position (" + std::to_string(count) + ")";
+    if (count >= tangents::kNone)
+        return expected("positions", "less than 4294967295", count);
+    if (mesh.normals.size() != count)
+        return expected("normals", oneEach, mesh.normals.size());
+    if (mesh.texcoords.size() != count)
+        return expected("texcoords", oneEach, mesh.texcoords.size());
+    if (indices % 3 != 0 || indices >= tangents::kNone)
+        return expected("indices", "three a triangle, less than 4294967295", indices);
+    const auto outside = std::find_if(mesh.indices.begin(), mesh.indices.end(), [&](auto i) { return i >= count; });
+    if (outside != mesh.indices.end())
+        return expected("indices[" + std::to_string(outside - mesh.indices.begin()) + "]",
+                        "a number below " + std::to_string(count), *outside);
+    return std::nullopt;
+}
+
+Listener listenerOf(const Progress& progress)
+{
+    if (!progress)
+        return {};
+    return {[](const void* who, double share) { return (*static_cast<const Progress*>(who))(share); }, &progress};
+}
+
+template<class Made, class Make> Result<Made> made(const MeshView& mesh, const Progress& progress, const Make& make)
+{
+    if (const auto problem = problemOf(mesh))
+        return *problem;
+    Made all;
+    if (!make(listenerOf(progress), all))
+        return stoppedError();
+    return all;
+}
+
+} // namespace
+
+Result<std::vector<glm::vec4>> mikktspaceTangents(const MeshView& mesh, int threads, const Progress& progress)
+{
+    return made<std::vector<glm::vec4>>(mesh, progress, [&](const Listener& listener, auto& all) {
+        return mikktspace::makeTangents(mesh, threads, listener, all);
+    });
+}
+
+Result<Cotangents> smoothCotangents(const MeshView& mesh, int threads, const Progress& progress)
+{
+    return made<Cotangents>(mesh, progress, [&](const Listener& listener, auto& all) {
+        return tangents::averageCotangents(mesh, threads, listener, all);
+    });
+}
+
+// ---- compared ------------------------------------------------------------------------------
+
+namespace {
+
+bool isDegenerate(const MeshView& mesh, std::size_t corner)
+{
+    const auto i = mesh.indices.subspan(corner / 3 * 3, 3);
+    const glm::dvec2 origin(mesh.texcoords[i[0]]);
+    const glm::dvec2 a = glm::dvec2(mesh.texcoords[i[1]]) - origin;
+    const glm::dvec2 b = glm::dvec2(mesh.texcoords[i[2]]) - origin;
+    const glm::vec3 p = mesh.positions[i[0]], q = mesh.positions[i[1]], r = mesh.positions[i[2]];
+    return a.x * b.y == a.y * b.x || p == q || q == r || p == r;
+}
+
+double share(std::size_t part, std::size_t whole) { return whole == 0 ? 0 : double(part) / double(whole); }
+
+} // namespace
+
+double turnedShare(const TangentDifference& d)
+{
+    const auto turned = std::count_if(d.degrees.begin(), d.degrees.end(), [](float degrees) { return degrees > 90; });
+    return share(std::size_t(turned), d.degrees.size());
+}
+
+double invertedShare(const TangentDifference& d) { return share(d.handedness, d.degrees.size()); }
+
+TangentDifference tangentDifference(const MeshView& mesh, std::span<const glm::vec4> stored,
+                                    std::span<const glm::vec4> generated)
+{
+    TangentDifference d;
+    d.corners = generated.size();
+    for (std::size_t c = 0; c < generated.size(); ++c) {
+        const glm::vec4 a = stored[mesh.indices[c]], b = generated[c];
+        const glm::dvec3 from(a), to(b);
+        if (isDegenerate(mesh, c) || !(glm::length(from) > 0) || !(glm::length(to) > 0)) {
+            ++d.degenerate;
+            continue;
+        }
+        d.degrees.push_back(float(glm::degrees(angleBetween(from, to))));
+        d.handedness += (a.w < 0) != (b.w < 0);
+    }
+    return d;
+}
+
+void append(TangentDifference& to, const TangentDifference& more)
+{
+    to.degrees.insert(to.degrees.end(), more.degrees.begin(), more.degrees.end());
+    to.corners += more.corners;
+    to.degenerate += more.degenerate;
+    to.handedness += more.handedness;
+}
+
+TangentVerdict verdictOf(const TangentDifference& d)
+{
+    if (d.degrees.empty())
+        return TangentVerdict::nothing;
+    if (d.handedness == 0 && *std::max_element(d.degrees.begin(), d.degrees.end()) <= kEqualTangents)
+        return TangentVerdict::equal;
+    if (invertedShare(d) >= 0.9)
+        return TangentVerdict::inverted;
+    const double turned = turnedShare(d);
+    return turned >= 0.4 && turned <= 0.6 ? TangentVerdict::turned : TangentVerdict::off;
 }
 
 } // namespace cotan

@@ -32,15 +32,4 @@ LargeArray<std::uint32_t> weld(const MeshView& mesh, std::size_t threads, const 
     return firstEqual(static_cast<std::uint32_t>(mesh.positions.size()), key, threads, beside);
 }
 
-glm::vec3 anyPerpendicular(glm::vec3 n)
-{
-    // Crossed with the axis that n is farthest from.
-    const glm::vec3 a = glm::abs(n);
-    const glm::vec3 axis = a.x <= a.y && a.x <= a.z ? glm::vec3(1, 0, 0)
-        : a.y <= a.z                                ? glm::vec3(0, 1, 0)
-                                                    : glm::vec3(0, 0, 1);
-    const glm::vec3 t = normalizeOrZero(axis - n * (glm::dot(axis, n) / glm::dot(n, n)));
-    return glm::dot(t, t) > 0.5f ? t : glm::vec3(1, 0, 0);
-}
-
 } // namespace cotan::tangents

@@ -113,8 +113,17 @@ LargeArray<std::uint32_t> firstEqual(std::uint32_t count, const KeyOf& key, std:
 // For every vertex the first vertex that equals it in position, normal and texcoord. beside: as firstEqual has it.
 LargeArray<std::uint32_t> weld(const MeshView& mesh, std::size_t threads = 1, const Task& beside = {});
 
-// A unit vector perpendicular to n; n may be zero or not finite.
-glm::vec3 anyPerpendicular(glm::vec3 n);
+// Vectors side by side, one a lane, as arrays by axis.
+template<std::size_t kLanes> inline glm::vec3 vectorAt(const float (&axes)[3][kLanes], std::size_t lane)
+{
+    return {axes[0][lane], axes[1][lane], axes[2][lane]};
+}
+template<std::size_t kLanes> inline void put(float (&axes)[3][kLanes], std::size_t lane, glm::vec3 v)
+{
+    axes[0][lane] = v.x;
+    axes[1][lane] = v.y;
+    axes[2][lane] = v.z;
+}
 
 inline bool isZero(glm::vec3 v)
 {

@@ -25,17 +25,6 @@ std::vector<TriangleVectors> triangleVectors(const MeshView& mesh, int threads)
     return out;
 }
 
-std::vector<std::array<std::uint32_t, 3>> packTriangles(std::span<const TriangleVectors> triangles)
-{
-    std::vector<std::array<std::uint32_t, 3>> out;
-    out.reserve(triangles.size());
-    for (const TriangleVectors& t : triangles) {
-        const f32::cotan_packed_triangle p = f32::cotan_pack_triangle(t.u, t.v);
-        out.push_back({p.a, p.b, p.c});
-    }
-    return out;
-}
-
 namespace {
 
 bool fit(std::span<const glm::vec3> normals, const Cotangents& c)
@@ -43,7 +32,25 @@ bool fit(std::span<const glm::vec3> normals, const Cotangents& c)
     return c.u.size() == normals.size() && c.v.size() == normals.size();
 }
 
+// What pack(i) gives for all i < count.
+template<class Pack> auto packedAll(std::size_t count, const Pack& pack)
+{
+    std::vector<decltype(pack(count))> out;
+    out.reserve(count);
+    for (std::size_t i = 0; i < count; ++i)
+        out.push_back(pack(i));
+    return out;
+}
+
 } // namespace
+
+std::vector<std::array<std::uint32_t, 3>> packTriangles(std::span<const TriangleVectors> triangles)
+{
+    return packedAll(triangles.size(), [&](std::size_t i) {
+        const f32::cotan_packed_triangle p = f32::cotan_pack_triangle(triangles[i].u, triangles[i].v);
+        return std::array{p.a, p.b, p.c};
+    });
+}
 
 Cotangents unitCotangents(const Cotangents& cotangents)
 {
@@ -58,41 +65,27 @@ Cotangents unitCotangents(const Cotangents& cotangents)
 
 std::vector<std::array<std::int16_t, 4>> packSmooth8(std::span<const glm::vec3> normals, const Cotangents& cotangents)
 {
-    if (!fit(normals, cotangents))
-        return {};
-    std::vector<std::array<std::int16_t, 4>> out;
-    out.reserve(normals.size());
-    for (std::size_t i = 0; i < normals.size(); ++i) {
+    const auto number = [](float x) {
+        return static_cast<std::int16_t>(std::lround(std::clamp(x, -1.0f, 1.0f) * 32767));
+    };
+    return packedAll(fit(normals, cotangents) ? normals.size() : 0, [&](std::size_t i) {
         const glm::vec4 q = f32::cotan_pack_smooth8(normals[i], cotangents.u[i], cotangents.v[i]);
-        const auto number = [](float x) {
-            return static_cast<std::int16_t>(std::lround(std::clamp(x, -1.0f, 1.0f) * 32767));
-        };
-        out.push_back({number(q.x), number(q.y), number(q.z), number(q.w)});
-    }
-    return out;
+        return std::array{number(q.x), number(q.y), number(q.z), number(q.w)};
+    });
 }
 
 std::vector<std::uint32_t> packSmooth4(std::span<const glm::vec3> normals, const Cotangents& cotangents)
 {
-    if (!fit(normals, cotangents))
-        return {};
-    std::vector<std::uint32_t> out;
-    out.reserve(normals.size());
-    for (std::size_t i = 0; i < normals.size(); ++i)
-        out.push_back(f32::cotan_pack_smooth4(normals[i], cotangents.u[i], cotangents.v[i]));
-    return out;
+    return packedAll(fit(normals, cotangents) ? normals.size() : 0, [&](std::size_t i) -> std::uint32_t {
+        return f32::cotan_pack_smooth4(normals[i], cotangents.u[i], cotangents.v[i]);
+    });
 }
 
 std::vector<std::uint16_t> packTangents2(std::span<const glm::vec3> normals, std::span<const glm::vec4> tangents)
 {
-    if (normals.size() != tangents.size())
-        return {};
-    std::vector<std::uint16_t> out;
-    out.reserve(normals.size());
-    for (std::size_t i = 0; i < normals.size(); ++i)
-        out.push_back(
-            static_cast<std::uint16_t>(f32::cotan_pack_tangent2(normals[i], glm::vec3(tangents[i]), tangents[i].w)));
-    return out;
+    return packedAll(normals.size() == tangents.size() ? normals.size() : 0, [&](std::size_t i) {
+        return static_cast<std::uint16_t>(f32::cotan_pack_tangent2(normals[i], glm::vec3(tangents[i]), tangents[i].w));
+    });
 }
 
 } // namespace cotan

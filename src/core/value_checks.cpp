@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cstdlib>
 #include <sstream>
-#include <utility>
 
 #include "core/named_values.hpp"
 
@@ -11,14 +10,18 @@ namespace cotan {
 
 namespace {
 
-// CLI11's own range checks let NaN pass.
-std::string aboveZero(const std::string& text)
+// expected: "a whole number from 0 to 8". read: as std::strtod. CLI11's own range checks let NaN pass.
+template<class Read, class IsGood> ValueCheck numberThat(const std::string& expected, Read read, IsGood isGood)
 {
-    char* end = nullptr;
-    const float value = std::strtof(text.c_str(), &end);
-    const bool good = end != text.c_str() && *end == '\0' && value > 0 && value <= 1e6f;
-    return good ? "" : "expected a number above 0 and at most 1e6; found '" + text + "'";
+    return [=](const std::string& text) -> std::string {
+        char* end = nullptr;
+        const auto value = read(text.c_str(), &end);
+        const bool good = end != text.c_str() && *end == '\0' && isGood(value);
+        return good ? std::string() : "expected " + expected + "; found '" + text + "'";
+    };
 }
+
+long long readWhole(const char* text, char** end) { return std::strtoll(text, end, 0); }
 
 std::string textOf(double value)
 {
@@ -27,44 +30,32 @@ std::string textOf(double value)
     return text.str();
 }
 
-// what: "a whole number from 0 to 8"
-ValueCheck wholeNumber(const std::string& what, std::function<bool(long long)> isGood)
-{
-    return [what, isGood = std::move(isGood)](const std::string& text) -> std::string {
-        char* end = nullptr;
-        const long long value = std::strtoll(text.c_str(), &end, 0);
-        const bool good = end != text.c_str() && *end == '\0' && isGood(value);
-        return good ? std::string() : "expected " + what + "; found '" + text + "'";
-    };
-}
-
 } // namespace
 
-ValueCheck numberAbove0() { return aboveZero; }
+ValueCheck numberAbove0()
+{
+    return numberThat("a number above 0 and at most 1e6", std::strtof,
+                      [](float value) { return value > 0 && value <= 1e6f; });
+}
 
 ValueCheck numberAbove0Or(const std::string& word)
 {
-    return [word](const std::string& text) {
-        const std::string wrong = text == word ? "" : aboveZero(text);
+    return [word, number = numberAbove0()](const std::string& text) {
+        const std::string wrong = text == word ? "" : number(text);
         return wrong.empty() ? "" : "expected " + word + " or " + wrong.substr(wrong.find(' ') + 1);
     };
 }
 
 ValueCheck numberWithin(double least, double most)
 {
-    return [least, most](const std::string& text) -> std::string {
-        char* end = nullptr;
-        const double value = std::strtod(text.c_str(), &end);
-        if (end != text.c_str() && *end == '\0' && value >= least && value <= most)
-            return {};
-        return "expected a number from " + textOf(least) + " to " + textOf(most) + "; found '" + text + "'";
-    };
+    return numberThat("a number from " + textOf(least) + " to " + textOf(most), std::strtod,
+                      [=](double value) { return value >= least && value <= most; });
 }
 
 ValueCheck wholeNumberWithin(long long least, long long most)
 {
-    return wholeNumber("a whole number from " + std::to_string(least) + " to " + std::to_string(most),
-                       [=](long long value) { return value >= least && value <= most; });
+    return numberThat("a whole number from " + std::to_string(least) + " to " + std::to_string(most), readWhole,
+                      [=](long long value) { return value >= least && value <= most; });
 }
 
 ValueCheck wholeNumberOf(const std::vector<long long>& numbers)
@@ -72,8 +63,8 @@ ValueCheck wholeNumberOf(const std::vector<long long>& numbers)
     std::vector<std::string> words;
     for (const long long number : numbers)
         words.push_back(std::to_string(number));
-    return wholeNumber(eitherOf(words),
-                       [numbers](long long value) { return std::ranges::find(numbers, value) != numbers.end(); });
+    return numberThat(eitherOf(words), readWhole,
+                      [numbers](long long value) { return std::ranges::find(numbers, value) != numbers.end(); });
 }
 
 ValueCheck wordOf(const std::vector<std::string>& words)

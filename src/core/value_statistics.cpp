@@ -33,19 +33,19 @@ void ValueStatistics::add(double value, double weight)
     total_ += weight;
     sum_ += value * weight;
     maximum_ = std::max(maximum_, value);
-    if (!bins_.empty())
-        return addToBins(value, weight);
+    if (!bins_.empty()) {
+        bins_[binOf(value)] += weight;
+        return;
+    }
     exact_.emplace_back(value, weight);
     sorted_ = false;
     if (exact_.size() <= kExactValues)
         return;
     bins_.resize(kBins);
     for (const auto& [v, w] : exact_)
-        addToBins(v, w);
+        bins_[binOf(v)] += w;
     exact_ = {};
 }
-
-void ValueStatistics::addToBins(double value, double weight) { bins_[binOf(value)] += weight; }
 
 double ValueStatistics::mean() const { return count_ > 0 ? sum_ / total_ : kNothing; }
 

@@ -25,8 +25,6 @@ public:
     double percentile(double part);
 
 private:
-    void addToBins(double value, double weight);
-
     std::vector<std::pair<double, double>> exact_;
     std::vector<double> bins_; // weights; empty while `exact_` holds everything
     bool sorted_ = true;       // `exact_`

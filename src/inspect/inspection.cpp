@@ -120,7 +120,7 @@ Values degreesOf(const Scene& scene, Inspection inspection)
         const MappedSurface surface = makeSurface(held, mapOf(material), linearOf(scene, m), {});
         values[m].assign(mesh.triangleCount(), kNone);
         for (std::size_t i = 0; surface.hasUv() && i < mesh.triangleCount(); ++i) {
-            const TriangleUv t = triangleUv(surface, i);
+            const TriangleUv t = triangleUv(surface, i, edgesOf(surface, i));
             if (!t.usable || t.degenerate)
                 continue;
             values[m][i] = inspection == Inspection::stretch ? asDegrees(t.stretch, {1, 1.1, 1.4, 2, 4, 10})

@@ -10,7 +10,6 @@
 #include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
 
-#include "bake/lint/stored_corner.hpp"
 #include "bake/lint/triangle_uv.hpp"
 #include "cotan/lint.hpp"
 #include "cotan/maps.hpp"

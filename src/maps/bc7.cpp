@@ -29,8 +29,7 @@ Texels texelsOf(const Image& map, int left, int top, const CodeScale& scale, boo
     t.zero = scale.zero;
     t.directions = !lengths;
     for (std::size_t i = 0; i < 16; ++i) {
-        const int column = std::min(left + int(i) % 4, map.width - 1), row = std::min(top + int(i) / 4, map.height - 1);
-        const float* const texel = map.floats() + 4 * (std::size_t(row) * std::size_t(map.width) + std::size_t(column));
+        const float* const texel = texelAt(map, left, top, int(i));
         std::array<float, 3> n{};
         float square = 0;
         for (std::size_t c = 0; c < 3; ++c) {
@@ -130,9 +129,7 @@ Line principal(const Texels& t)
     for (std::size_t c = 0; c < 4; ++c) {
         const Values& v = t.codes[c];
         mean[c] = sumOf(v[0] + v[1] + v[2] + v[3]) / 16;
-        const Four low = least(least(v[0], v[1]), least(v[2], v[3])), high = most(most(v[0], v[1]), most(v[2], v[3]));
-        way[c] = std::max(std::max(high[0], high[1]), std::max(high[2], high[3]))
-            - std::min(std::min(low[0], low[1]), std::min(low[2], low[3]));
+        way[c] = most(v) - least(v);
     }
     std::array<Color, 4> covariance{};
     for (std::size_t a = 0; a < 4; ++a)
@@ -172,8 +169,8 @@ Line principal(const Texels& t)
         last = most(last, place);
     }
     for (std::size_t c = 0; c < 4; ++c) {
-        line.ends[0][c] += way[c] * std::min(std::min(first[0], first[1]), std::min(first[2], first[3]));
-        line.ends[1][c] += way[c] * std::max(std::max(last[0], last[1]), std::max(last[2], last[3]));
+        line.ends[0][c] += way[c] * least(first);
+        line.ends[1][c] += way[c] * most(last);
     }
     return line;
 }

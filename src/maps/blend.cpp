@@ -114,7 +114,6 @@ Image blend(const Image& base, const Image& detail, const BlendSettings& s, std:
     Image out = makeImage(base.width, base.height, s.type, base.name);
     const int height = s.pictureHeight > 0 ? s.pictureHeight : base.height;
     const DetailRows details(detail, s.detail, base.width, height, s.tilesX, s.tilesY);
-    const float steps = s.type == PixelType::unorm8 ? 255.0f : s.type == PixelType::unorm16 ? 65535.0f : 0.0f;
     std::atomic<std::size_t> bad = 0;
     forRowBands(base.height, [&](int first, int last) {
         const std::size_t width = std::size_t(base.width);
@@ -136,7 +135,7 @@ Image blend(const Image& base, const Image& detail, const BlendSettings& s, std:
                     n = blendTexels(b, d, s.mode);
                 texels[x] = encodeTexel(n, s.to, s.type);
                 if (s.dither)
-                    texels[x] = dithered(texels[x], steps, int(x), s.firstRow + y);
+                    texels[x] = dithered(texels[x], stepsOf(s.type), int(x), s.firstRow + y);
             }
             storeRow(out, y, texels);
         }

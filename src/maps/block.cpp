@@ -2,10 +2,8 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstdint>
 #include <cstring>
-#include <utility>
 
 #include "block_texels.hpp"
 
@@ -94,10 +92,7 @@ void descend(Ends& best, float& error, const Values& values, const Values& weigh
 
 Ends fit(const Values& values, const Values& weights)
 {
-    const Four low4 = least(least(values[0], values[1]), least(values[2], values[3])),
-               high4 = most(most(values[0], values[1]), most(values[2], values[3]));
-    const float low = std::min(std::min(low4[0], low4[1]), std::min(low4[2], low4[3])),
-                high = std::max(std::max(high4[0], high4[1]), std::max(high4[2], high4[3]));
+    const float low = least(values), high = most(values);
     if (high - low < 1e-3f)
         return aroundOne(low);
     Ends best{codeOf(high), codeOf(low)};
@@ -135,13 +130,11 @@ struct Texels {
 // Of vectors that lie flat the angle grows with the root of the step; this is where that begins.
 constexpr float kMinZ = 0.08f;
 
-// Codes of a block's red and green: what a component of 0 is, and how many more one of 1. Texels beyond the edges are
-// those on it.
+// Codes of a block's red and green: what a component of 0 is, and how many more one of 1.
 void takeCodes(const Image& map, int left, int top, float none, float one, Values& x, Values& y)
 {
     for (int i = 0; i < 16; ++i) {
-        const int column = std::min(left + i % 4, map.width - 1), row = std::min(top + i / 4, map.height - 1);
-        const float* const texel = map.floats() + 4 * (std::size_t(row) * std::size_t(map.width) + std::size_t(column));
+        const float* const texel = texelAt(map, left, top, i);
         at(x, std::size_t(i)) = none + texel[0] * one;
         at(y, std::size_t(i)) = none + texel[1] * one;
     }
@@ -206,7 +199,7 @@ bool steep(const Texels& t)
     Four square{};
     for (std::size_t i = 0; i < 4; ++i)
         square = most(square, t.u[i] * t.u[i] + t.v[i] * t.v[i]);
-    return std::max(std::max(square[0], square[1]), std::max(square[2], square[3])) > kFrom;
+    return most(square) > kFrom;
 }
 
 // Moves each end of both channels by one where that makes the angles smaller.

@@ -1,6 +1,7 @@
 // What encoders of blocks of 4 x 4 texels share.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -27,6 +28,10 @@ inline float& at(Values& values, std::size_t i) { return reinterpret_cast<float*
 
 inline Four most(Four a, Four b) { return a > b ? a : b; }
 inline Four least(Four a, Four b) { return a < b ? a : b; }
+inline float most(Four f) { return std::max(std::max(f[0], f[1]), std::max(f[2], f[3])); }
+inline float least(Four f) { return std::min(std::min(f[0], f[1]), std::min(f[2], f[3])); }
+inline float most(const Values& v) { return most(most(most(v[0], v[1]), most(v[2], v[3]))); }
+inline float least(const Values& v) { return least(least(least(v[0], v[1]), least(v[2], v[3]))); }
 inline float sumOf(Four f) { return (f[0] + f[1]) + (f[2] + f[3]); }
 
 inline Four rootOf(Four f)
@@ -43,6 +48,13 @@ inline Four rounded(Four f)
 }
 
 inline constexpr Four kNone{};
+
+// Texel number i of a block; beyond the edges of the map those on it.
+inline const float* texelAt(const Image& map, int left, int top, int i)
+{
+    const int column = std::min(left + i % 4, map.width - 1), row = std::min(top + i / 4, map.height - 1);
+    return map.floats() + 4 * (std::size_t(row) * std::size_t(map.width) + std::size_t(column));
+}
 
 // Rows of blocks from the top. encode(left, top, to): writes the block of those texels.
 template<class Encode> std::vector<std::byte> encodeBlocks(const Image& map, std::size_t bytes, const Encode& encode)

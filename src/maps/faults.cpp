@@ -28,17 +28,9 @@ std::string longOnAverage(double length)
 
 const char* name(Fault::Kind kind)
 {
-    switch (kind) {
-    case Fault::Kind::srgb: return "srgb";
-    case Fault::Kind::linearised: return "linearised";
-    case Fault::Kind::redAndBlue: return "bgr";
-    case Fault::Kind::redAndGreen: return "grb";
-    case Fault::Kind::tooShort: return "washed_out";
-    case Fault::Kind::tooLong: return "too_strong";
-    case Fault::Kind::eightBitsIn16: return "8_in_16";
-    case Fault::Kind::greenDown: break;
-    }
-    return "green_down";
+    constexpr const char* kNames[] = {"srgb",       "linearised", "bgr",     "grb",
+                                      "washed_out", "too_strong", "8_in_16", "green_down"};
+    return kNames[int(kind)];
 }
 
 std::vector<Fault> faultsOf(const NormalStatistics& s, const GreenVerdict* green)

@@ -5,12 +5,12 @@
 #include <cmath>
 #include <cstring>
 #include <numbers>
+#include <utility>
 #include <vector>
 
 #include <glm/geometric.hpp>
 
 #include "maps/texels.hpp"
-#include "srgb.hpp"
 
 namespace cotan::maps {
 
@@ -42,33 +42,24 @@ struct Sums {
     std::size_t between = 0;            // not a step of 8 bits
     ChannelRange range;
 
-    void repeat(std::size_t times)
-    {
-        all *= times, allGrey *= times, finite *= times, grey *= times, strange *= times, signedUnit *= times,
-            between *= times;
-        for (std::size_t& a : above)
-            a *= times;
-        for (std::size_t i = 0; i < 4; ++i)
-            error2[i] *= double(times), length[i] *= double(times), counted[i] *= times;
-    }
-
-    void add(const Sums& o)
+    // times: so many equal ones.
+    void add(const Sums& o, std::size_t times = 1)
     {
         range.add(o.range);
-        all += o.all, allGrey += o.allGrey;
-        finite += o.finite;
-        strange += o.strange;
-        grey += o.grey;
-        signedUnit += o.signedUnit;
-        between += o.between;
+        all += times * o.all, allGrey += times * o.allGrey;
+        finite += times * o.finite;
+        strange += times * o.strange;
+        grey += times * o.grey;
+        signedUnit += times * o.signedUnit;
+        between += times * o.between;
         for (std::size_t i = 0; i < 3; ++i)
-            above[i] += o.above[i];
+            above[i] += times * o.above[i];
         for (std::size_t i = 0; i < 4; ++i) {
             lowest[i] = std::min(lowest[i], o.lowest[i]);
             highest[i] = std::max(highest[i], o.highest[i]);
-            error2[i] += o.error2[i];
-            length[i] += o.length[i];
-            counted[i] += o.counted[i];
+            error2[i] += double(times) * o.error2[i];
+            length[i] += double(times) * o.length[i];
+            counted[i] += times * o.counted[i];
         }
     }
 };
@@ -99,8 +90,7 @@ template<class Band, class Work> void sumBands(const Image& image, Band& all, Wo
         loadRow(image, 0, row);
         Band band;
         work(band, row[0], row[0]);
-        band.repeat(image.pixelCount());
-        all.add(band);
+        all.add(band, image.pixelCount());
         return;
     }
     std::vector<Band> bands(std::size_t(image.height + 15) / 16);
@@ -202,23 +192,15 @@ struct Directions {
     std::array<double, 3> sum{};
     std::array<std::size_t, 9> histogram{};
 
-    void repeat(std::size_t times)
+    void add(const Directions& o, std::size_t times = 1)
     {
-        valid *= times, below *= times, outside *= times, shortened *= times, background *= times;
-        length *= double(times), error2 *= double(times), tilt *= double(times);
-        for (double& s : sum)
-            s *= double(times);
-        for (std::size_t& h : histogram)
-            h *= times;
-    }
-    void add(const Directions& o)
-    {
-        valid += o.valid, below += o.below, outside += o.outside, shortened += o.shortened, background += o.background;
-        length += o.length, error2 += o.error2, tilt += o.tilt;
+        valid += times * o.valid, below += times * o.below, outside += times * o.outside;
+        shortened += times * o.shortened, background += times * o.background;
+        length += double(times) * o.length, error2 += double(times) * o.error2, tilt += double(times) * o.tilt;
         for (std::size_t i = 0; i < 3; ++i)
-            sum[i] += o.sum[i];
+            sum[i] += double(times) * o.sum[i];
         for (std::size_t i = 0; i < 9; ++i)
-            histogram[i] += o.histogram[i];
+            histogram[i] += times * o.histogram[i];
     }
 };
 
@@ -374,7 +356,8 @@ NormalStatistics MapSurvey::finish()
 {
     if (!state_->between && oneColour()) { // the second pass would tell what this texel tells
         second(state_->texel);
-        state_->d.repeat(state_->s.texels);
+        const Directions one = std::exchange(state_->d, {});
+        state_->d.add(one, state_->s.texels);
     }
     NormalStatistics& s = state_->s;
     const Directions& d = state_->d;
@@ -409,17 +392,15 @@ NormalStatistics statisticsOfMap(const Image& image)
 
 std::string describe(Content content)
 {
-    switch (content) {
-    case Content::tangentSpace: return "tangent space";
-    case Content::objectSpace: return "object space (directions on both sides)";
-    case Content::twoChannel: return "two channels (x and y; z is to be rebuilt)";
-    case Content::slopes: return "two channels outside the unit disc: a slope map";
-    case Content::signedValues: return "tangent space, stored signed";
-    case Content::flat: return "one value everywhere";
-    case Content::grey: return "grey: a height map, not a normal map";
-    case Content::other: break;
-    }
-    return "not a normal map: lengths far from 1";
+    constexpr const char* kTexts[] = {"tangent space",
+                                      "object space (directions on both sides)",
+                                      "two channels (x and y; z is to be rebuilt)",
+                                      "two channels outside the unit disc: a slope map",
+                                      "tangent space, stored signed",
+                                      "one value everywhere",
+                                      "grey: a height map, not a normal map",
+                                      "not a normal map: lengths far from 1"};
+    return kTexts[int(content)];
 }
 
 } // namespace cotan::maps

@@ -4,6 +4,7 @@
 #include <atomic>
 #include <cmath>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include <glm/geometric.hpp>
@@ -60,24 +61,9 @@ Tables tablesOf(const RecodeSettings& s)
     return t;
 }
 
-void recodeRow(const Image& map, int y, const Tables& t, const std::array<std::uint8_t, 3>& flat, Image& out,
-               std::size_t& invalid)
-{
-    const std::size_t start = std::size_t(y) * std::size_t(map.width) * 4, count = std::size_t(map.width);
-    const std::uint8_t* from = map.bytes8() + start;
-    std::uint8_t* to = out.bytes8() + start;
-    for (std::size_t i = 0; i < count; ++i, from += 4, to += 4) {
-        const bool valid = t.square[0][from[0]] + t.square[1][from[1]] + t.square[2][from[2]] >= 1e-6f;
-        invalid += !valid;
-        for (std::size_t k = 0; k < 3; ++k)
-            to[k] = valid ? t.stored[k][from[k]] : flat[k];
-        to[3] = from[3];
-    }
-}
-
 Image recodeByComponent(const Image& map, const RecodeSettings& s, RecodeCounts& counts)
 {
-    const Tables tables = tablesOf(s);
+    const Tables t = tablesOf(s);
     Image flatTexel = makeImage(1, 1, PixelType::unorm8);
     const glm::vec4 encoded = encodeTexel(glm::vec3(0), s.to, PixelType::unorm8, true);
     storeRow(flatTexel, 0, std::span(&encoded, 1));
@@ -86,17 +72,24 @@ Image recodeByComponent(const Image& map, const RecodeSettings& s, RecodeCounts&
     Image out = makeImage(map.width, map.height, s.type, map.name);
     std::atomic<std::size_t> invalid = 0;
     forRowBands(map.height, [&](int first, int last) {
+        const std::size_t width = std::size_t(map.width), start = 4 * std::size_t(first) * width;
+        const std::uint8_t* from = map.bytes8() + start;
+        std::uint8_t* to = out.bytes8() + start;
         std::size_t here = 0;
-        for (int y = first; y < last; ++y)
-            recodeRow(map, y, tables, flat, out, here);
+        for (std::size_t i = 0; i < std::size_t(last - first) * width; ++i, from += 4, to += 4) {
+            const bool valid = t.square[0][from[0]] + t.square[1][from[1]] + t.square[2][from[2]] >= 1e-6f;
+            here += !valid;
+            for (std::size_t k = 0; k < 3; ++k)
+                to[k] = valid ? t.stored[k][from[k]] : flat[k];
+            to[3] = from[3];
+        }
         invalid += here;
     });
     counts = {invalid, 0};
     return out;
 }
 
-} // namespace
-
+// In [-0.5,0.5) for a component of a texel, the same on every run.
 float ditherNoise(std::uint32_t x, std::uint32_t y, std::uint32_t component)
 {
     std::uint32_t h = x * 0x9e3779b1u ^ y * 0x85ebca77u ^ component * 0xc2b2ae3du;
@@ -105,6 +98,8 @@ float ditherNoise(std::uint32_t x, std::uint32_t y, std::uint32_t component)
     h ^= h >> 15;
     return float(h >> 8) * (1.0f / 16777216.0f) - 0.5f;
 }
+
+} // namespace
 
 glm::vec4 dithered(glm::vec4 texel, float steps, int x, int y)
 {
@@ -122,7 +117,6 @@ Image recode(const Image& map, const RecodeSettings& s, RecodeCounts& counts)
         return recodeByComponent(map, s, counts);
     Image out = makeImage(map.width, map.height, s.type, map.name);
     const bool keepAlpha = s.from.channels == Channels::xyz && s.to.channels == Channels::xyz;
-    const float most = stepsOf(s.type);
     std::atomic<std::size_t> invalid = 0, clamped = 0;
     forRowBands(map.height, [&](int first, int last) {
         const std::size_t width = std::size_t(map.width);
@@ -144,7 +138,7 @@ Image recode(const Image& map, const RecodeSettings& s, RecodeCounts& counts)
                 texels[x] = encodeTexel(n, s.to, s.type, keepLength);
                 texels[x].w = alpha;
                 if (s.dither)
-                    texels[x] = dithered(texels[x], most, int(x), s.firstRow + y);
+                    texels[x] = dithered(texels[x], stepsOf(s.type), int(x), s.firstRow + y);
             }
             storeRow(out, y, texels);
         }
@@ -153,6 +147,47 @@ Image recode(const Image& map, const RecodeSettings& s, RecodeCounts& counts)
     });
     counts = {invalid, clamped};
     return out;
+}
+
+Result<Convention> conventionOf(const StatedConvention& stated, const std::string& file, int channels,
+                                const std::string& option)
+{
+    if (channels == 1)
+        return inputError(file + ": expected a normal map of two or three channels; found one (grey)");
+    Convention convention = stated.convention;
+    if (channels != 2 || convention.channels != Channels::xyz)
+        return convention;
+    if (stated.channels)
+        return about(
+            option,
+            usageError(file + " stores two channels; found "
+                       + (convention.kind == MapKind::objectSpace ? "object, which needs three"
+                                                                  : "xyz, which are three; leave the word out")));
+    convention.channels = Channels::orthographic;
+    return convention;
+}
+
+void undo(const Damage& damage, Image& image)
+{
+    if (!damage.any())
+        return;
+    forRowBands(image.height, [&](int first, int last) {
+        std::vector<glm::vec4> row(std::size_t(image.width));
+        for (int y = first; y < last; ++y) {
+            loadRow(image, y, row);
+            for (glm::vec4& t : row) {
+                if (damage.curve == Damage::Curve::srgb)
+                    t = {fromSrgb(t.x), fromSrgb(t.y), fromSrgb(t.z), t.w};
+                else if (damage.curve == Damage::Curve::linearised)
+                    t = {toSrgb(t.x), toSrgb(t.y), toSrgb(t.z), t.w};
+                if (damage.order == Damage::Order::bgr)
+                    std::swap(t.x, t.z);
+                else if (damage.order == Damage::Order::grb)
+                    std::swap(t.x, t.y);
+            }
+            storeRow(image, y, row);
+        }
+    });
 }
 
 } // namespace cotan::maps

@@ -4,6 +4,7 @@
 // map of any convention decodes into it; which way v runs does not matter here.
 #pragma once
 
+#include <cmath>
 #include <functional>
 #include <span>
 
@@ -25,6 +26,10 @@ constexpr float stepsOf(PixelType type)
 {
     return type == PixelType::unorm8 ? 255.0f : type == PixelType::unorm16 ? 65535.0f : 0.0f;
 }
+
+// The curve of sRGB, on stored values.
+inline float fromSrgb(float c) { return c <= 0.04045f ? c / 12.92f : std::pow((c + 0.055f) / 1.055f, 2.4f); }
+inline float toSrgb(float c) { return c <= 0.0031308f ? c * 12.92f : 1.055f * std::pow(c, 1 / 2.4f) - 0.055f; }
 
 // Grey pixels with an alpha that varies: greyAlpha. Red constant with an alpha that varies, green
 // varying: alphaGreen. Otherwise rg.
@@ -66,11 +71,8 @@ glm::vec4 encodeTexel(glm::vec3 normal, const Convention& convention, PixelType 
 // must depend on the rows only.
 void forRowBands(int height, const std::function<void(int first, int last)>& work);
 
-// A number in [-0.5,0.5) for a component of a texel, the same on every run: for dithering.
-float ditherNoise(std::uint32_t x, std::uint32_t y, std::uint32_t component);
-
-// A texel with that noise, in steps of 1/steps, on its first three components; those that are a step
-// already (within 0.001) stay: dithering must not make noise of what is exact, such as flat. steps 0: as it is.
+// A texel with noise of half a step of 1/steps, the same on every run, on its first three components; those that are a
+// step already (within 0.001) stay: dithering must not make noise of what is exact, such as flat. steps 0: as it is.
 glm::vec4 dithered(glm::vec4 texel, float steps, int x, int y);
 
 } // namespace cotan::maps

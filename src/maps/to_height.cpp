@@ -60,23 +60,31 @@ double frequency(std::size_t k, std::size_t n)
 
 using Grid = std::vector<std::complex<float>>; // stored in single precision, transformed in double
 
-void transformRows(Grid& grid, int width, int height, bool inverse)
+// Calls work(row) for every row of a grid, as numbers of double precision.
+template<class Number, class Stored, class Work>
+void eachRow(std::vector<Stored>& grid, int width, int height, const Work& work)
 {
-    const Fft fft{std::size_t(width)};
     forRowBands(height, [&](int first, int last) {
-        std::vector<Complex> row(std::size_t(width), 0);
+        std::vector<Number> row(std::size_t(width), 0);
         for (int y = first; y < last; ++y) {
             const auto at = grid.begin() + std::ptrdiff_t(y) * width;
             std::copy_n(at, width, row.begin());
-            inverse ? fft.inverse(row) : fft.forward(row);
-            std::ranges::transform(row, at, [](Complex c) { return std::complex<float>(c); });
+            work(std::span(row));
+            std::ranges::transform(row, at, [](Number number) { return Stored(number); });
         }
     });
 }
 
-// Calls work(column as doubles) for every column of a grid, several at a time for the cache's sake.
-template<class Stored, class Number, class Work>
-void eachColumn(std::vector<Stored>& grid, int width, int height, Work work)
+void transformRows(Grid& grid, int width, int height, bool inverse)
+{
+    const Fft fft{std::size_t(width)};
+    eachRow<Complex>(grid, width, height,
+                     [&](std::span<Complex> row) { inverse ? fft.inverse(row) : fft.forward(row); });
+}
+
+// The same for every column, several at a time for the cache's sake.
+template<class Number, class Stored, class Work>
+void eachColumn(std::vector<Stored>& grid, int width, int height, const Work& work)
 {
     forRowBands(width, [&](int first, int last) {
         const std::size_t count = std::size_t(last - first), rows = std::size_t(height);
@@ -95,8 +103,8 @@ void eachColumn(std::vector<Stored>& grid, int width, int height, Work work)
 void transformColumns(Grid& grid, int width, int height, bool inverse)
 {
     const Fft fft{std::size_t(height)};
-    eachColumn<std::complex<float>, Complex>(
-        grid, width, height, [&](std::span<Complex> column) { inverse ? fft.inverse(column) : fft.forward(column); });
+    eachColumn<Complex>(grid, width, height,
+                        [&](std::span<Complex> column) { inverse ? fft.inverse(column) : fft.forward(column); });
 }
 
 struct Power {
@@ -171,16 +179,8 @@ void transformCosine(std::vector<float>& grid, int width, int height, bool inver
     const auto one = [inverse](const Fft& fft, std::span<double> x) {
         inverse ? cosineInverse(fft, x) : cosineForward(fft, x);
     };
-    forRowBands(height, [&](int first, int last) {
-        std::vector<double> row(std::size_t(width), 0);
-        for (int y = first; y < last; ++y) {
-            const auto at = grid.begin() + std::ptrdiff_t(y) * width;
-            std::copy_n(at, width, row.begin());
-            one(across, row);
-            std::ranges::transform(row, at, [](double v) { return float(v); });
-        }
-    });
-    eachColumn<float, double>(grid, width, height, [&](std::span<double> column) { one(down, column); });
+    eachRow<double>(grid, width, height, [&](std::span<double> row) { one(across, row); });
+    eachColumn<double>(grid, width, height, [&](std::span<double> column) { one(down, column); });
 }
 
 // Calls work(x, y, slopes of the row above, of this row, of the row below). Bands of rows run side by

@@ -1,6 +1,5 @@
 #include "entry.hpp"
 
-#include "fill.hpp"
 #include "godot.hpp"
 
 namespace cotan::shader_text {
@@ -34,10 +33,10 @@ std::string fromVertices(Frame frame, Form form)
                                   what, entryOf(frame), arguments);
     const std::string attributes = covectors ? "cotangent, cobitangent" : "tangent, -w";
     if (form == Form::fused)
-        return fill("{}    return cotan_perturb_{}(normal, {}, m);\n}}\n", head, functionWord(frame), attributes);
+        return fill("{}    return cotan_perturb_{}(normal, {}, m);\n}}\n", head, info(frame).word, attributes);
     return fill("{}    cotan_frame frame = cotan_frame_{}(normal, {});\n"
                 "    return cotan_apply(frame, m);\n}}\n",
-                head, functionWord(frame), attributes);
+                head, info(frame).word, attributes);
 }
 
 // What makes U and V of a triangle, for another stage than the pixel's.
@@ -93,17 +92,17 @@ std::string fromDifferences(Frame frame, Form form)
     if (form == Form::fused && edges)
         return fill("{}    cotan_triangle vectors = cotan_triangle_of_sound_edges(dpdx, dpdy, duvdx, duvdy, normal);\n"
                     "    return cotan_perturb_{}(normal, vectors.u, vectors.v, m);\n}}\n",
-                    head, functionWord(frame));
+                    head, info(frame).word);
     if (form != Form::total)
         return fill("{}    return cotan_perturb_{}{}(normal, dpdx, dpdy, duvdx, duvdy, m{});\n}}\n", head,
-                    functionWord(frame),
+                    info(frame).word,
                     seen                     ? "_seen"
                         : form == Form::area ? "_area"
                                              : "",
                     seen ? ", side" : "");
     return fill("{}    cotan_frame frame = cotan_frame_{}({}, dpdx, dpdy, duvdx, duvdy);\n"
                 "    return cotan_apply(frame, m);\n}}\n",
-                head, functionWord(frame), normalFor(frame));
+                head, info(frame).word, normalFor(frame));
 }
 
 // The same where the language cannot unpack.
@@ -121,9 +120,9 @@ std::string ofTriangle(const Choice& choice)
     const std::string fromEdges = fromDifferences(choice.frame, Form::fused);
     if (choice.language == Language::godot) {
         const bool pixelOnly = isGodotShader(choice) || choice.stage == Stage::fragment;
-        return fill(kTriangleVectorsPixel, functionWord(choice.frame)) + (pixelOnly ? "" : "\n" + fromEdges);
+        return fill(kTriangleVectorsPixel, info(choice.frame).word) + (pixelOnly ? "" : "\n" + fromEdges);
     }
-    const std::string pixel = fill(kTrianglePixel, functionWord(choice.frame));
+    const std::string pixel = fill(kTrianglePixel, info(choice.frame).word);
     switch (choice.stage) {
     case Stage::fragment: return pixel;
     case Stage::vertex:
@@ -174,7 +173,7 @@ std::string fromSeveralSets(Frame frame, Form form, int sets)
         text += fill("    cotan_frame frame{0} = cotan_frame_{1}(n, dpdx, dpdy, duv{0}dx, duv{0}dy);\n"
                      "    cotan_vec3 gradient{0} = cotan_gradient_of_slope(frame{0}, "
                      "cotan_slope_of_texel(cotan_decode(texel{0})));\n",
-                     k, functionWord(frame));
+                     k, info(frame).word);
     return text + fill("    return cotan_resolve_gradient(frame0.n, {});\n}}\n", sumOfSets(sets, "gradient"));
 }
 
@@ -208,8 +207,6 @@ const char* const kDirectionOfU =
     "    return along * cotan_copy_sign(scale, duvdx.x * duvdy.y - duvdx.y * duvdy.x);\n}\n";
 
 } // namespace
-
-std::string functionWord(Frame frame) { return std::string(info(frame).word); }
 
 std::string entryOf(Frame frame)
 {

@@ -1,5 +1,9 @@
-// The function that a caller uses, as portable text; and the comment at the top.
+// The function that a caller uses, as portable text; the comment at the top; and what both are written with.
 #pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
 
 #include "cotan/shader_text.hpp"
 
@@ -16,9 +20,6 @@ std::string entryOf(Frame frame);
 // And for a choice, which may leave that one out.
 std::string entryOf(const Choice& choice);
 
-// What a frame is called in function names: '-' is '_'.
-std::string functionWord(Frame frame);
-
 // The entry, and with screen derivatives where the choice and the language have them the short
 // function over it.
 std::string entryText(const Choice& choice, Form form);
@@ -28,5 +29,34 @@ bool hasScreenEntry(const Choice& choice);
 
 // The comment at the top: what it is, what it needs, how it is called, its limits, whom to thank.
 std::string introduction(const Choice& choice, Form form);
+
+// ---- text with gaps -------------------------------------------------------------------------
+
+// Not fmt: this part builds with a compiler and GLM.
+inline std::string textOf(std::string_view text) { return std::string(text); }
+inline std::string textOf(int number) { return std::to_string(number); }
+
+// The pattern with its gaps filled: each "{}" by the next value, each "{N}" by value N below 10. "{{" and "}}" are
+// braces.
+template<class... Values> std::string fill(std::string_view pattern, const Values&... values)
+{
+    const std::vector<std::string> texts{textOf(values)...};
+    std::string filled;
+    std::size_t next = 0;
+    for (std::size_t i = 0; i < pattern.size(); ++i) {
+        const char c = pattern[i], after = i + 1 < pattern.size() ? pattern[i + 1] : '\0';
+        if (c == '{' && after == '}') {
+            filled += texts.at(next++);
+            ++i;
+        } else if (c == '{' && after >= '0' && after <= '9') {
+            filled += texts.at(std::size_t(after - '0'));
+            i += 2;
+        } else {
+            filled += c;
+            i += (c == '{' || c == '}') && after == c;
+        }
+    }
+    return filled;
+}
 
 } // namespace cotan::shader_text

@@ -1,7 +1,7 @@
-#include "flatten.hpp"
-
 #include <map>
 #include <stdexcept>
+
+#include "specialise.hpp"
 
 namespace cotan::shader_text {
 
@@ -88,13 +88,8 @@ private:
 
     void declare(Body& into, const std::string& type, const std::string& name)
     {
-        for (const Variable& part : partsOf(type, name)) {
-            Statement s;
-            s.type = part.type;
-            s.name = part.name;
-            s.hasValue = false;
-            into.push_back(s);
-        }
+        for (const Variable& part : partsOf(type, name))
+            into.push_back({.type = part.type, .name = part.name, .hasValue = false});
     }
 
     // name = value, of structs.

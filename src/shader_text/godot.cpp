@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "entry.hpp"
-#include "fill.hpp"
 
 namespace cotan::shader_text {
 

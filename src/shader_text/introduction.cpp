@@ -1,7 +1,6 @@
 #include <algorithm>
 
 #include "entry.hpp"
-#include "fill.hpp"
 #include "godot.hpp"
 #include "languages.hpp"
 
@@ -9,93 +8,72 @@ namespace cotan::shader_text {
 
 namespace {
 
-std::string_view channelsText(Channels c)
-{
-    switch (c) {
-    case Channels::xyz: return "three channels";
-    case Channels::orthographic: return "two channels, z = sqrt(1 - x^2 - y^2)";
-    case Channels::stereographic: return "two channels, (x, y)/(1 + z)";
-    case Channels::slope: break;
-    }
-    return "two channels, slopes";
-}
-
-std::string_view expansionText(Expansion e)
-{
-    switch (e) {
-    case Expansion::exact: return "(255c - 128)/127";
-    case Expansion::exact16: return "(65535c - 32768)/32767";
-    case Expansion::biased: return "2c - 1";
-    case Expansion::signedValues: break;
-    }
-    return "signed values as sampled";
-}
-
-std::string declared(Language language, const std::string& value)
-{
-    const LanguageInfo& info = infoOf(language);
-    return (info.grammar.typesAfterNames ? "let" : std::string(info.scope) + wordOf(language, "cotan_vec3"))
-        + " n = " + value + ";";
-}
+// In the order of Channels, Expansion and Form.
+constexpr std::string_view kChannelTexts[] = {"three channels", "two channels, z = sqrt(1 - x^2 - y^2)",
+                                              "two channels, (x, y)/(1 + z)", "two channels, slopes"};
+constexpr std::string_view kExpansionTexts[] = {"(255c - 128)/127", "2c - 1", "signed values as sampled",
+                                                "(65535c - 32768)/32767"};
+constexpr std::string_view kFormTexts[] = {"fused", "total form", "fused, normal on the side that is seen",
+                                           "fused, for square texels"};
 
 std::string call(const Choice& choice, Form form)
 {
-    const Language l = choice.language;
-    const std::string scope(infoOf(l).scope), sample(infoOf(l).sample);
+    const LanguageInfo& language = infoOf(choice.language);
+    const std::string type =
+        language.grammar.typesAfterNames ? "let" : std::string(language.scope) + wordOf(choice.language, "cotan_vec3");
+    // arguments: what stands before the sampled texel.
+    const auto calling = [&](std::string_view function, std::string_view arguments, std::string_view behind = "") {
+        return fill("{} n = {}{}({}, {}{});", type, language.scope, function, arguments, language.sample, behind);
+    };
     if (readsVertices(choice.frame))
-        return declared(l,
-                        scope + entryOf(choice.frame)
-                            + (readsCotangents(choice.frame) ? "(normal, cotangent, cobitangent, "
-                                                             : "(normal, tangent.xyz, tangent.w, ")
-                            + sample + ")");
-    if (readsTriangleVectors(choice.frame) && l == Language::godot && form == Form::fused)
-        return declared(l, "cotan_perturb_normal_on_triangle(normal, u, v, " + sample + ")");
-    if (readsTriangleVectors(choice.frame) && form == Form::fused && choice.stage != Stage::compute) {
-        const std::string make = "words = " + scope + "cotan_make_triangle(p0, p1, p2, uv0, uv1, uv2, n0, n1, n2);";
-        const std::string pixel =
-            declared(l, scope + "cotan_perturb_normal_on_triangle(normal, words, " + sample + ")");
+        return calling(entryOf(choice.frame),
+                       readsCotangents(choice.frame) ? "normal, cotangent, cobitangent"
+                                                     : "normal, tangent.xyz, tangent.w");
+    const bool vectors = readsTriangleVectors(choice.frame) && form == Form::fused;
+    if (vectors && choice.language == Language::godot)
+        return calling("cotan_perturb_normal_on_triangle", "normal, u, v");
+    if (vectors && choice.stage != Stage::compute) {
+        const std::string make =
+            fill("words = {}cotan_make_triangle(p0, p1, p2, uv0, uv1, uv2, n0, n1, n2);", language.scope);
+        const std::string pixel = calling("cotan_perturb_normal_on_triangle", "normal, words");
         return choice.stage == Stage::fragment ? pixel
             : choice.stage == Stage::all       ? make + "   (vertex or mesh stage)\n//   " + pixel + "   (pixels)"
                                                : make;
     }
     if (info(choice.frame).source == FrameSource::triangle)
-        return declared(l, scope + kEdgeEntry + "(normal, p1 - p0, p2 - p0, uv1 - uv0, uv2 - uv0, " + sample + ")");
+        return calling(kEdgeEntry, "normal, p1 - p0, p2 - p0, uv1 - uv0, uv2 - uv0");
     const bool screen = hasScreenEntry(choice);
+    const char* const entry = screen ? kScreenEntry : kEntry;
     std::string arguments = screen ? "normal, position" : "normal, dpdx, dpdy";
-    for (int k = 0; k < choice.uvSets; ++k) {
-        const std::string set = choice.uvSets == 1 ? "" : std::to_string(k);
-        arguments += screen ? ", uv" + set : ", duv" + set + "dx, duv" + set + "dy";
-        arguments += choice.uvSets == 1 ? ", " + sample : ", texel" + set;
-    }
-    if (form == Form::seen)
-        arguments += ", side";
-    return declared(l, scope + (screen ? kScreenEntry : kEntry) + "(" + arguments + ")");
+    if (choice.uvSets == 1)
+        return calling(entry, arguments + (screen ? ", uv" : ", duvdx, duvdy"), form == Form::seen ? ", side" : "");
+    for (int k = 0; k < choice.uvSets; ++k)
+        arguments += fill(screen ? ", uv{0}, texel{0}" : ", duv{0}dx, duv{0}dy, texel{0}", k);
+    return fill("{} n = {}{}({});", type, language.scope, entry, arguments);
 }
 
 std::string needs(const Choice& choice)
 {
     if (choice.language == Language::godot)
         return godotNeeds(choice);
+    std::string text = "// Needs from the caller:\n";
     if (choice.stage == Stage::vertex)
-        return std::string(
-                   "// Needs from the caller:\n"
-                   "//   the corners of the triangle that this vertex provokes: its own position, uv and normal, "
+        return text
+            + fill("//   the corners of the triangle that this vertex provokes: its own position, uv and normal, "
                    "and those\n"
-                   "//   of the other two, read from ")
-            + std::string(infoOf(choice.language).cornersIn)
-            + ". Hand the three words on without interpolation (flat).\n"
-              "//   An index buffer in which every triangle owns its provoking vertex, the first (in OpenGL and WebGL\n"
-              "//   the last): cotan convert --provoking, or provokingMesh of cotan/gpu_meshes.hpp.\n";
+                   "//   of the other two, read from {}. Hand the three words on without interpolation (flat).\n"
+                   "//   An index buffer in which every triangle owns its provoking vertex, the first (in OpenGL and "
+                   "WebGL\n"
+                   "//   the last): cotan convert --provoking, or provokingMesh of cotan/gpu_meshes.hpp.\n",
+                   infoOf(choice.language).cornersIn);
     if (choice.stage == Stage::mesh)
-        return "// Needs from the caller:\n"
-               "//   the corners of the primitive. Hand the three words on for each primitive.\n";
+        return text + "//   the corners of the primitive. Hand the three words on for each primitive.\n";
     if (choice.stage == Stage::fragment)
-        return "// Needs from the caller:\n"
-               "//   normal     interpolated surface normal, in the space that the triangle was made in\n"
-               "//   words      from the stage before, not interpolated (flat, or for each primitive), or read from a\n"
-               "//              buffer by the number of the triangle\n";
-    std::string text = "// Needs from the caller:\n"
-                       "//   normal     interpolated surface normal; any space, the same for all vectors\n";
+        return text
+            + "//   normal     interpolated surface normal, in the space that the triangle was made in\n"
+              "//   words      from the stage before, not interpolated (flat, or for each primitive), or read from a\n"
+              "//              buffer by the number of the triangle\n";
+    text += "//   normal     interpolated surface normal; any space, the same for all vectors\n";
     if (readsVertices(choice.frame))
         return text + "//   the vertex attributes named at the function below, interpolated\n";
     if (readsTriangleVectors(choice.frame) && choice.stage == Stage::all)
@@ -110,21 +88,10 @@ std::string needs(const Choice& choice)
     if (hasScreenEntry(choice))
         return text
             + fill("//   derivatives of position and uv: taken here by {} and {}\n",
-                   infoOf(choice.language).grammar.ddx, infoOf(choice.language).grammar.ddy);
+                   wordOf(choice.language, "cotan_ddx"), wordOf(choice.language, "cotan_ddy"));
     return text
         + "//   derivatives of position and uv: yours, along any two directions, the same for both\n"
           "//              (screen derivatives, ray differentials, neighbours in a raster)\n";
-}
-
-std::string_view formText(Form form)
-{
-    switch (form) {
-    case Form::fused: return "fused";
-    case Form::total: return "total form";
-    case Form::seen: return "fused, normal on the side that is seen";
-    case Form::area: return "fused, for square texels";
-    }
-    return {};
 }
 
 std::string_view sidesOf(Frame frame)
@@ -237,8 +204,8 @@ std::string introduction(const Choice& choice, Form form)
                 "//\n"
                 "// Normal map: {}, {}, green {} increasing v.\n"
                 "//\n{}//\n// Call:\n//   {}\n// It returns {}.\n//\n{}//\n{}{}\n",
-                name(choice.frame), formText(form), halfs ? language.titleWithHalfs : language.title,
-                channelsText(c.channels), expansionText(c.expansion), greenAlongV(c) ? "along" : "against",
+                name(choice.frame), kFormTexts[int(form)], halfs ? language.titleWithHalfs : language.title,
+                kChannelTexts[int(c.channels)], kExpansionTexts[int(c.expansion)], greenAlongV(c) ? "along" : "against",
                 needs(choice), call(choice, form),
                 choice.stage == Stage::vertex || choice.stage == Stage::mesh
                     ? "three words, the same for the whole triangle"

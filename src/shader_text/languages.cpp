@@ -2,6 +2,8 @@
 
 #include <array>
 
+#include "core/named_values.hpp"
+
 namespace cotan::shader_text {
 
 namespace {
@@ -129,56 +131,25 @@ inline cotan_vec2 cotan_unpack_half(cotan_uint word)
 
 )";
 
-constexpr Word kGlslWords[] = {{"cotan_real", "float"},
-                               {"cotan_vec2", "vec2"},
-                               {"cotan_vec3", "vec3"},
-                               {"cotan_vec4", "vec4"},
-                               {"cotan_uint", "uint"},
-                               {"cotan_inversesqrt", "inversesqrt"},
-                               {"cotan_mix", "mix"},
-                               {"cotan_float_bits", "floatBitsToUint"},
-                               {"cotan_bits_float", "uintBitsToFloat"},
-                               {"cotan_real_of", "float"},
-                               {"cotan_pack_half", "packHalf2x16"},
-                               {"cotan_unpack_half", "unpackHalf2x16"},
-                               {"cotan_ddx", "dFdx"},
-                               {"cotan_ddy", "dFdy"}};
-
-constexpr Word kHlslWords[] = {
-    {"cotan_real", "float"},    {"cotan_vec2", "float2"},       {"cotan_vec3", "float3"},
-    {"cotan_vec4", "float4"},   {"cotan_uint", "uint"},         {"cotan_inversesqrt", "rsqrt"},
-    {"cotan_mix", "lerp"},      {"cotan_float_bits", "asuint"}, {"cotan_bits_float", "asfloat"},
-    {"cotan_real_of", "float"}, {"cotan_ddx", "ddx_fine"},      {"cotan_ddy", "ddy_fine"}};
-
-constexpr Word kWgslWords[] = {{"cotan_real", "f32"},
-                               {"cotan_vec2", "vec2f"},
-                               {"cotan_vec3", "vec3f"},
-                               {"cotan_vec4", "vec4f"},
-                               {"cotan_uint", "u32"},
-                               {"int", "i32"},
-                               {"cotan_inversesqrt", "inverseSqrt"},
-                               {"cotan_mix", "mix"},
-                               {"cotan_float_bits", "bitcast<u32>"},
-                               {"cotan_bits_float", "bitcast<f32>"},
-                               {"cotan_real_of", "f32"},
-                               {"cotan_pack_half", "pack2x16float"},
-                               {"cotan_unpack_half", "unpack2x16float"},
-                               {"cotan_ddx", "dpdxFine"},
-                               {"cotan_ddy", "dpdyFine"},
-                               {"target", "target_normal"}}; // a reserved word
-
-constexpr Word kMslWords[] = {{"cotan_real", "float"},
-                              {"cotan_vec2", "float2"},
-                              {"cotan_vec3", "float3"},
-                              {"cotan_vec4", "float4"},
-                              {"cotan_uint", "uint"},
-                              {"cotan_inversesqrt", "rsqrt"},
-                              {"cotan_mix", "mix"},
-                              {"cotan_float_bits", "as_type<uint>"},
-                              {"cotan_bits_float", "as_type<float>"},
-                              {"cotan_real_of", "float"},
-                              {"cotan_ddx", "dfdx"},
-                              {"cotan_ddy", "dfdy"}};
+constexpr Word kWords[] = {
+    // portable, GLSL, HLSL, WGSL, MSL
+    {"cotan_real", "float", "float", "f32", "float"},
+    {"cotan_vec2", "vec2", "float2", "vec2f", "float2"},
+    {"cotan_vec3", "vec3", "float3", "vec3f", "float3"},
+    {"cotan_vec4", "vec4", "float4", "vec4f", "float4"},
+    {"cotan_uint", "uint", "uint", "u32", "uint"},
+    {"int", "", "", "i32", ""},
+    {"cotan_inversesqrt", "inversesqrt", "rsqrt", "inverseSqrt", "rsqrt"},
+    {"cotan_mix", "mix", "lerp", "mix", "mix"},
+    {"cotan_float_bits", "floatBitsToUint", "asuint", "bitcast<u32>", "as_type<uint>"},
+    {"cotan_bits_float", "uintBitsToFloat", "asfloat", "bitcast<f32>", "as_type<float>"},
+    {"cotan_real_of", "float", "float", "f32", "float"},
+    {"cotan_pack_half", "packHalf2x16", "", "pack2x16float", ""},
+    {"cotan_unpack_half", "unpackHalf2x16", "", "unpack2x16float", ""},
+    {"cotan_ddx", "dFdx", "ddx_fine", "dpdxFine", "dfdx"},
+    {"cotan_ddy", "dFdy", "ddy_fine", "dpdyFine", "dfdy"},
+    {"target", "", "", "target_normal", ""}, // a reserved word
+};
 
 // In the order of Language.
 constexpr std::array<LanguageInfo, std::size(kLanguages)> kInfos = [] {
@@ -187,9 +158,7 @@ constexpr std::array<LanguageInfo, std::size(kLanguages)> kInfos = [] {
     glsl.title = "GLSL 3.30 and later";
     glsl.titleWithHalfs = "GLSL 4.20 and later"; // packHalf2x16
     glsl.sample = "texture(normal_map, uv).xyz";
-    glsl.grammar.words = kGlslWords;
-    glsl.grammar.ddx = "dFdx";
-    glsl.grammar.ddy = "dFdy";
+    glsl.grammar.words = &Word::glsl;
 
     LanguageInfo essl = glsl;
     essl.name = "essl";
@@ -203,9 +172,7 @@ constexpr std::array<LanguageInfo, std::size(kLanguages)> kInfos = [] {
     hlsl.title = "HLSL, shader model 5 and later";
     hlsl.sample = "normal_map.Sample(map_sampler, uv).xyz";
     hlsl.halfs = kHlslHalfs;
-    hlsl.grammar.words = kHlslWords;
-    hlsl.grammar.ddx = "ddx_fine";
-    hlsl.grammar.ddy = "ddy_fine";
+    hlsl.grammar.words = &Word::hlsl;
 
     LanguageInfo wgsl;
     wgsl.name = "wgsl";
@@ -213,9 +180,7 @@ constexpr std::array<LanguageInfo, std::size(kLanguages)> kInfos = [] {
     wgsl.sample = "textureSample(normal_map, map_sampler, uv).xyz";
     wgsl.limits = "//   WGSL lets an implementation assume that no number is NaN or infinite: the guards against\n"
                   "//   non-finite input are then not sure to hold. Those against zeros and empty areas do.\n";
-    wgsl.grammar.words = kWgslWords;
-    wgsl.grammar.ddx = "dpdxFine";
-    wgsl.grammar.ddy = "dpdyFine";
+    wgsl.grammar.words = &Word::wgsl;
     wgsl.grammar.typesAfterNames = true;
 
     LanguageInfo msl;
@@ -226,11 +191,9 @@ constexpr std::array<LanguageInfo, std::size(kLanguages)> kInfos = [] {
                  "//   with -fno-fast-math where these matter. Those against zeros and empty areas stay.\n";
     msl.prelude = kMslPrelude;
     msl.halfs = kMslHalfs;
-    msl.grammar.words = kMslWords;
+    msl.grammar.words = &Word::msl;
     msl.grammar.floatSuffix = "f";
     msl.grammar.functionPrefix = "inline ";
-    msl.grammar.ddx = "dfdx";
-    msl.grammar.ddy = "dfdy";
 
     LanguageInfo cpp;
     cpp.name = "cpp";
@@ -268,12 +231,10 @@ std::string_view name(Language language) { return infoOf(language).name; }
 
 std::string languageNames()
 {
-    std::string text;
-    for (const LanguageInfo& info : kInfos) {
-        text += text.empty() ? "" : &info == &kInfos.back() ? " or " : ", ";
-        text += info.name;
-    }
-    return text;
+    std::vector<std::string> names;
+    for (const LanguageInfo& info : kInfos)
+        names.emplace_back(info.name);
+    return eitherOf(names);
 }
 
 std::optional<Language> languageFromName(std::string_view text)
@@ -286,14 +247,8 @@ std::optional<Language> languageFromName(std::string_view text)
 
 std::string_view name(Stage stage)
 {
-    switch (stage) {
-    case Stage::fragment: return "fragment";
-    case Stage::vertex: return "vertex";
-    case Stage::mesh: return "mesh";
-    case Stage::compute: return "compute";
-    case Stage::all: break;
-    }
-    return "all";
+    constexpr std::string_view kStageNames[] = {"all", "fragment", "vertex", "mesh", "compute"};
+    return kStageNames[int(stage)];
 }
 
 std::optional<Stage> stageFromName(std::string_view text)
@@ -306,9 +261,10 @@ std::optional<Stage> stageFromName(std::string_view text)
 
 std::string wordOf(Language language, const std::string& portable)
 {
-    for (const Word& word : infoOf(language).grammar.words)
-        if (word.portable == portable)
-            return std::string(word.own);
+    const auto own = infoOf(language).grammar.words;
+    for (const Word& word : kWords)
+        if (own && word.portable == portable && !(word.*own).empty())
+            return std::string(word.*own);
     return portable;
 }
 

@@ -1,30 +1,29 @@
-// What is peculiar to a language. The table in languages.cpp is the only place that a further one needs, beside its
-// name in Language.
+// What is peculiar to a language, and a tree as its text. The table in languages.cpp is the only place that a further
+// one needs, beside its name in Language.
 #pragma once
 
-#include <span>
 #include <string>
 #include <string_view>
 
 #include "cotan/shader_text.hpp"
+#include "syntax.hpp"
 
 namespace cotan::shader_text {
 
-// What a language calls a type or function of the portable text.
+// What languages call a type or function of the portable text; empty: the same.
 struct Word {
-    std::string_view portable, own;
+    std::string_view portable, glsl, hlsl, wgsl, msl;
 };
 
 // Words and grammar.
 struct Grammar {
-    std::span<const Word> words;
-    std::string_view floatSuffix;    // after a literal, such as 1.0f
-    std::string_view functionPrefix; // before a function, such as "inline "
-    std::string_view ddx, ddy;       // screen derivatives; empty where there are none
-    bool realCalls = false;          // literals stay in cotan_real(...)
-    bool braces = false;             // vectors are made with {} instead of ()
-    bool typesAfterNames = false;    // declarations the other way round, no ?:
-    bool structs = true;             // else their parts are variables of their own
+    std::string_view Word::*words = nullptr; // its column; null: the portable ones
+    std::string_view floatSuffix;            // after a literal, such as 1.0f
+    std::string_view functionPrefix;         // before a function, such as "inline "
+    bool realCalls = false;                  // literals stay in cotan_real(...)
+    bool braces = false;                     // vectors are made with {} instead of ()
+    bool typesAfterNames = false;            // declarations the other way round, no ?:
+    bool structs = true;                     // else their parts are variables of their own
 };
 
 struct LanguageInfo {
@@ -46,5 +45,7 @@ const LanguageInfo& infoOf(Language language);
 
 // The word of the language for a portable name; the name itself if it has none.
 std::string wordOf(Language language, const std::string& portable);
+
+std::string print(const Module& module, Language language);
 
 } // namespace cotan::shader_text

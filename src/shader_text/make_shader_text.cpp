@@ -4,12 +4,9 @@
 #include <set>
 
 #include "entry.hpp"
-#include "fill.hpp"
 #include "godot.hpp"
 #include "languages.hpp"
 #include "parse.hpp"
-#include "portable_parts.hpp"
-#include "print.hpp"
 #include "specialise.hpp"
 
 namespace cotan::shader_text {
@@ -31,22 +28,22 @@ Module parseAll(Language language, std::string_view extra)
 // cotan_decode for one way of storing a map.
 void bindConvention(Module& module, const Convention& c)
 {
-    for (Function& f : module.functions) {
-        if (f.name == "cotan_expand")
-            f.comments = {"// The signed number that a stored component stands for, in [-1,1]."};
-        if (f.name == "cotan_decode")
-            f.comments = {"// The decoded texel: normal along (+u, +v, outwards). Not unit in general.",
-                          "// texel: as sampled; two-channel maps use x and y only."};
-    }
     bindArgument(module, "cotan_decode", "format", "expansion", std::to_string(int(c.expansion)));
     bindArgument(module, "cotan_decode", "format", "channels", std::to_string(int(c.channels)));
     bindArgument(module, "cotan_decode", "format", "green", greenAlongV(c) ? "1.0" : "-1.0");
     bindArgument(module, "cotan_decode", "format", "strength", "1.0");
     dropParameter(module, "cotan_decode", "format");
     bindArgument(module, "cotan_expand", "expansion", "", std::to_string(int(c.expansion)));
-    for (Function& f : module.functions)
-        if (f.name == "cotan_expand" || f.name == "cotan_decode")
-            simplify(f);
+    for (Function& f : module.functions) {
+        if (f.name == "cotan_expand")
+            f.comments = {"// The signed number that a stored component stands for, in [-1,1]."};
+        else if (f.name == "cotan_decode")
+            f.comments = {"// The decoded texel: normal along (+u, +v, outwards). Not unit in general.",
+                          "// texel: as sampled; two-channel maps use x and y only."};
+        else
+            continue;
+        simplify(f);
+    }
 }
 
 std::vector<std::string> rootsOf(const Module& module, const Choice& choice)

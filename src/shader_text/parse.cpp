@@ -1,11 +1,26 @@
 #include "parse.hpp"
 
+#include <algorithm>
 #include <cctype>
+#include <sstream>
 #include <stdexcept>
 
 namespace cotan::shader_text {
 
 namespace {
+
+// The macro asked for in "#if defined(NAME)", "#elif defined(NAME)".
+std::string askedFor(const std::string& line)
+{
+    const std::size_t open = line.find('('), close = line.find(')');
+    return open == std::string::npos || close == std::string::npos ? std::string()
+                                                                   : line.substr(open + 1, close - open - 1);
+}
+
+struct Branch {
+    bool active = false; // this branch is read
+    bool taken = false;  // one branch of the chain was
+};
 
 struct Token {
     std::string text; // empty at the end
@@ -133,9 +148,8 @@ private:
     }
     void expect(const char* text)
     {
-        if (peek().text != text)
+        if (!accept(text))
             fail(std::string("'") + text + "'");
-        ++at_;
     }
     bool accept(const char* text)
     {
@@ -235,16 +249,11 @@ private:
         if (level == kOperators.size())
             return unary();
         Expression left = binary(level + 1);
-        while (true) {
-            bool found = false;
-            for (const std::string& op : kOperators[level])
-                if (!found && accept(op.c_str())) {
-                    left = {Expression::Kind::binary, op, {left, binary(level + 1)}};
-                    found = true;
-                }
-            if (!found)
-                return left;
+        while (std::ranges::find(kOperators[level], peek().text) != kOperators[level].end()) {
+            const std::string op = take();
+            left = {Expression::Kind::binary, op, {left, binary(level + 1)}};
         }
+        return left;
     }
 
     Expression unary()
@@ -295,6 +304,43 @@ private:
 };
 
 } // namespace
+
+Preprocessed preprocess(std::string_view text, std::string_view language)
+{
+    Preprocessed result;
+    std::vector<Branch> branches;
+    std::istringstream stream{std::string(text)};
+    for (std::string line; std::getline(stream, line);) {
+        if (line.starts_with("#ifndef")) {
+            branches.push_back({true, true}); // include guards
+        } else if (line.starts_with("#if ")) {
+            const bool chosen = askedFor(line) == language;
+            branches.push_back({chosen, chosen});
+        } else if (line.starts_with("#elif")) {
+            const bool chosen = !branches.back().taken && askedFor(line) == language;
+            branches.back().active = chosen;
+            branches.back().taken |= chosen;
+        } else if (line.starts_with("#else")) {
+            branches.back().active = !branches.back().taken;
+        } else if (line.starts_with("#endif")) {
+            branches.pop_back();
+        } else if (!std::ranges::all_of(branches, &Branch::active) || line.starts_with("#error")) {
+            continue;
+        } else if (line.starts_with("#define")) {
+            std::istringstream words(line.substr(0, line.find("//")));
+            std::string define, name, value;
+            words >> define >> name;
+            std::getline(words >> std::ws, value);
+            // The others (cotan_vec3 and so on) are the language's names for things: print.cpp's affair.
+            if (name.starts_with("COTAN_") && !value.empty() && name != "COTAN_FUNCTION")
+                result.constants[name] = value;
+            result.text += '\n';
+        } else {
+            result.text += line + '\n';
+        }
+    }
+    return result;
+}
 
 void parsePart(Module& module, std::map<std::string, Expression>& constants, std::string_view part,
                std::string_view text, std::string_view language)

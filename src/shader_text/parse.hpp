@@ -2,11 +2,20 @@
 #pragma once
 
 #include <map>
+#include <span>
 #include <string_view>
 
 #include "syntax.hpp"
 
 namespace cotan::shader_text {
+
+struct PortablePart {
+    std::string_view name; // of the file, without ".h"
+    std::string_view text;
+};
+
+// The files of shaders/cotan/, embedded, in the order in which they are joined.
+std::span<const PortablePart> portableParts();
 
 // What is left of a text when its #if branches are chosen. A comment above a directive stays
 // above what follows it, except for a #define, which takes its comment with it.

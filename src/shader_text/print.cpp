@@ -1,9 +1,7 @@
-#include "print.hpp"
-
 #include <set>
 
-#include "flatten.hpp"
 #include "languages.hpp"
+#include "specialise.hpp"
 
 namespace cotan::shader_text {
 
@@ -155,14 +153,14 @@ private:
                 return number(inside.text + ".0");
             return inside.kind == Kind::binary ? "(" + expression(inside) + ")" : expression(inside);
         }
-        const bool vector = e.text.rfind("cotan_vec", 0) == 0;
+        const bool vector = e.text.starts_with("cotan_vec");
         const bool braces = vector && grammar_.braces;
         return word(e.text) + (braces ? "{" : "(") + arguments(e.children) + (braces ? "}" : ")");
     }
 
     static bool isReal(const std::string& text)
     {
-        return text.rfind("0x", 0) != 0 && text.find_first_of(".e") != std::string::npos;
+        return !text.starts_with("0x") && text.find_first_of(".e") != std::string::npos;
     }
 
     std::string number(const std::string& text) const
@@ -193,14 +191,6 @@ private:
     std::set<std::string> changed_; // variables that are assigned to after their declaration
 };
 
-bool callsAny(const Module& module, const std::set<std::string>& names)
-{
-    bool found = false;
-    for (const Function& f : module.functions)
-        visitBody(f.body, [&](const Expression& e) { found = found || (e.kind == Kind::call && names.count(e.text)); });
-    return found;
-}
-
 } // namespace
 
 std::string print(const Module& whole, Language language)
@@ -209,7 +199,12 @@ std::string print(const Module& whole, Language language)
     const Module module = info.grammar.structs ? whole : withoutStructs(whole);
     Printer printer(language);
     std::string text(info.prelude);
-    if (callsAny(module, {"cotan_pack_half", "cotan_unpack_half"}))
+    bool halfs = false;
+    for (const Function& f : module.functions)
+        visitBody(f.body, [&](const Expression& e) {
+            halfs |= e.kind == Kind::call && (e.text == "cotan_pack_half" || e.text == "cotan_unpack_half");
+        });
+    if (halfs)
         text += info.halfs;
     for (const Struct& s : module.structs)
         text += printer.structure(s) + '\n';

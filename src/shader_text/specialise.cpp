@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <set>
+#include <span>
 
 namespace cotan::shader_text {
 
@@ -23,17 +24,14 @@ void fold(Expression& e)
     for (Expression& child : e.children)
         fold(child);
     if (e.kind == Kind::paren && e.children[0].kind != Kind::binary && e.children[0].kind != Kind::select) {
-        Expression inside = std::move(e.children[0]);
-        e = std::move(inside);
+        e = Expression(std::move(e.children[0]));
     } else if (e.kind == Kind::binary && e.text == "==" && e.children[0].kind == Kind::number
                && e.children[1].kind == Kind::number) {
         e = {Kind::name, e.children[0].text == e.children[1].text ? "true" : "false", {}};
     } else if (e.kind == Kind::select && (isBoolean(e.children[0], true) || isBoolean(e.children[0], false))) {
-        Expression chosen = std::move(e.children[isBoolean(e.children[0], true) ? 1 : 2]);
-        e = std::move(chosen);
+        e = Expression(std::move(e.children[isBoolean(e.children[0], true) ? 1 : 2]));
     } else if (e.kind == Kind::binary && e.text == "*" && isNumber(e.children[1], "1.0")) {
-        Expression left = std::move(e.children[0]);
-        e = std::move(left);
+        e = Expression(std::move(e.children[0]));
     } else if (e.kind == Kind::binary && e.text == "*" && isMinusOne(e.children[1])) {
         Expression left = std::move(e.children[0]);
         e = {Kind::unary, "-", {std::move(left)}};
@@ -47,7 +45,7 @@ bool reads(const Expression& e, const std::string& variable)
     return found;
 }
 
-bool reads(const std::vector<Statement>& body, const std::string& variable)
+bool reads(std::span<const Statement> body, const std::string& variable)
 {
     bool found = false;
     visitBody(body, [&](const Expression& x) { found |= x.kind == Kind::name && x.text == variable; });
@@ -90,10 +88,8 @@ void bindArgument(Module& module, const std::string& function, const std::string
                 const bool whole = field.empty() && e.kind == Kind::name && e.text == name;
                 const bool part = !field.empty() && e.kind == Kind::member && e.text == field
                     && e.children[0].kind == Kind::name && e.children[0].text == name;
-                if (whole || part) {
-                    Expression copy = constant;
-                    e = std::move(copy);
-                }
+                if (whole || part)
+                    e = constant;
             });
             if (!field.empty())
                 return;
@@ -112,9 +108,7 @@ void dropParameter(Module& module, const std::string& function, const std::strin
 {
     for (Function& f : module.functions)
         if (f.name == function)
-            f.parameters.erase(std::remove_if(f.parameters.begin(), f.parameters.end(),
-                                              [&](const Variable& p) { return p.name == name; }),
-                               f.parameters.end());
+            std::erase_if(f.parameters, [&](const Variable& p) { return p.name == name; });
 }
 
 void simplify(Function& function)
@@ -130,16 +124,16 @@ void simplify(Function& function)
             ++i;
         }
     for (std::size_t i = body.size(); i-- > 0;) {
-        const std::vector<Statement> after(body.begin() + static_cast<std::ptrdiff_t>(i + 1), body.end());
-        if (body[i].kind == Statement::Kind::declare && !reads(after, body[i].name))
+        if (body[i].kind == Statement::Kind::declare && !reads(std::span(body).subspan(i + 1), body[i].name))
             body.erase(body.begin() + static_cast<std::ptrdiff_t>(i));
     }
     // A variable that only the next declaration reads, and only as it is, is that declaration.
     for (std::size_t i = 0; i + 1 < body.size(); ++i) {
-        const std::vector<Statement> after(body.begin() + static_cast<std::ptrdiff_t>(i + 2), body.end());
+        const std::span<const Statement> statements(body);
         const Statement& next = body[i + 1];
         if (body[i].kind == Statement::Kind::declare && next.kind == Statement::Kind::declare
-            && next.value.kind == Kind::name && next.value.text == body[i].name && !reads(after, body[i].name)) {
+            && next.value.kind == Kind::name && next.value.text == body[i].name
+            && !reads(statements.subspan(i + 2), body[i].name)) {
             body[i + 1].value = std::move(body[i].value);
             body.erase(body.begin() + static_cast<std::ptrdiff_t>(i));
         }

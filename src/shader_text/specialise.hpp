@@ -1,5 +1,5 @@
-// Functions for arguments that are known: constants put in place, branches decided, what is left
-// over dropped.
+// What is done to the tree before it is printed: constants put in the place of arguments that are known, branches
+// decided, what is left over dropped; and structs taken apart for a language without them.
 #pragma once
 
 #include "syntax.hpp"
@@ -20,5 +20,10 @@ void simplify(Function& function);
 
 // What the functions named in `roots` need, in the module's order; structs too.
 Module neededBy(const Module& module, const std::vector<std::string>& roots);
+
+// Each variable of a struct becomes one variable for each field, NAME_FIELD; parameters too. A function that returns a
+// struct returns nothing and has `out` parameters behind its others.
+// Throws std::runtime_error where a struct hangs on ?: or a name is taken.
+Module withoutStructs(const Module& module);
 
 } // namespace cotan::shader_text

@@ -32,11 +32,11 @@ struct Statement {
         run,      // value, a call that gives nothing back
     };
     Kind kind = Kind::declare;
-    std::vector<std::string> comments; // the lines above it, with their slashes
-    std::string type, name;
-    Expression target, value;
+    std::vector<std::string> comments{}; // the lines above it, with their slashes
+    std::string type{}, name{};
+    Expression target{}, value{};
     bool hasValue = true;
-    std::vector<Statement> body;
+    std::vector<Statement> body{};
 };
 
 struct Variable {

@@ -72,7 +72,7 @@ Result<Image> throughMesh(const Image& map, const RecodeSettings& s, const MeshO
         UvRow places;
         std::vector<glm::vec3> normals(std::size_t(map.width));
         for (int y = first; y < last && !rows.stopped(); ++y) {
-            raster.row(y, UvReach::gaps, places, {.most = 1});
+            raster.row(y, places, {.most = 1});
             decodeRow(map, y, s.from, normals);
             for (std::size_t x = 0; x < normals.size(); ++x) {
                 if (places.first[x] == places.first[x + 1])

@@ -4,7 +4,6 @@
 
 #include <fmt/format.h>
 
-#include "bake/convert/drop_tangents.hpp"
 #include "bake/convert/map_jobs.hpp"
 #include "cotan/gltf.hpp"
 #include "cotan/image.hpp"
@@ -20,12 +19,12 @@ constexpr double kMaxRows = 4e7; // of texels under all triangles together
 
 class ModelConverter {
 public:
-    ModelConverter(const GltfDocument& document, const ConvertModelOptions& options)
-        : options_(options), document_(document)
+    ModelConverter(GltfDocument& document, const ConvertModelOptions& options)
+        : options_(options), given_(document), document_(document)
     {
     }
 
-    Status run()
+    Result<ConvertModelReport> run()
     {
         const auto named = namedFrame(document_);
         if (!named)
@@ -45,7 +44,7 @@ public:
                 "needs: {}",
                 map.name, map.format, map.advice));
         if (Status fits = checkMemory(*jobs); !fits)
-            return fits;
+            return fits.error();
         for (const MapJob& job : *jobs)
             surfaces_ += surfacesOf(job);
         if (jobs->empty() && report_.unread.empty()) // else their notes say why
@@ -65,19 +64,15 @@ public:
             for (const MapSlot& place : options_.keepMaps ? std::vector<MapSlot>{} : job.places)
                 nameFrame(document_, place.material, options_.frames.to);
         if (Status settled = settleTangents(); !settled)
-            return settled;
-        const bool changed =
-            std::any_of(report_.maps.begin(), report_.maps.end(), [](const ConvertedMap& m) { return !m.kept; });
-        if (changed && options_.frames.to != Frame::mikktspace)
+            return settled.error();
+        if (!std::ranges::all_of(report_.maps, &ConvertedMap::kept) && options_.frames.to != Frame::mikktspace)
             report_.notes.push_back(
                 fmt::format("the maps are now for the frame {}; readers that make MikkTSpace tangents where TANGENT is "
                             "missing, as glTF asks, will show them wrongly",
                             name(options_.frames.to)));
-        return Done{};
+        given_ = std::move(document_);
+        return std::move(report_);
     }
-
-    GltfDocument& document() { return document_; }
-    ConvertModelReport& report() { return report_; }
 
 private:
     std::string fieldOf(const MapJob& job) const
@@ -175,10 +170,7 @@ private:
             const auto stored = decodeImage(file->bytes, field, options_.limits);
             if (!stored)
                 return stored.error();
-            std::vector<const MapUse*> all;
-            for (const MapUse& use : *uses)
-                all.push_back(&use);
-            const ValueSummary lossy = mapError(*map, *stored, all, options_.frames, expansions.written);
+            const ValueSummary lossy = mapError(*map, *stored, *uses, options_.frames, expansions.written);
             if (lossy.mean <= std::max(kSeen, 0.5 * unconverted.mean)) {
                 done.figures.error = lossy;
             } else { // else converting would be for nothing
@@ -222,10 +214,7 @@ private:
     // How far the old map is off when it is read with the new frame.
     ValueSummary errorAsItIs(const Image& map, const std::vector<MapUse>& uses) const
     {
-        std::vector<const MapUse*> all;
-        for (const MapUse& use : uses)
-            all.push_back(&use);
-        return mapErrors(map, map, all, {&options_.frames, 1}, {}, pointsOfEach(surfaces_)).front();
+        return mapErrors(map, map, uses, {&options_.frames, 1}, {}, pointsOfEach(surfaces_)).front();
     }
 
     // Rows of texels under all triangles, those of a surface once.
@@ -279,7 +268,8 @@ private:
     }
 
     const ConvertModelOptions& options_;
-    GltfDocument document_; // a copy, so that an error leaves the caller's as it was
+    GltfDocument& given_;
+    GltfDocument document_; // a copy, so that an error leaves the given one as it was
     ConvertModelReport report_;
     std::size_t surfaces_ = 0; // of all maps
     bool named_ = false;       // the materials say for which frame their maps are
@@ -300,11 +290,7 @@ Result<ConvertModelReport> convertModel(GltfDocument& document, const ConvertMod
         return usageError(
             fmt::format("convert: where maps stay tangents go; expected a frame that reads none, found {}",
                         options.keepTangents ? "keepTangents" : name(options.frames.to)));
-    ModelConverter converter(document, options);
-    if (Status done = converter.run(); !done)
-        return done.error();
-    document = std::move(converter.document());
-    return std::move(converter.report());
+    return ModelConverter(document, options).run();
 }
 
 } // namespace cotan

@@ -1,11 +1,10 @@
-#include "bake/convert/drop_tangents.hpp"
+#include "bake/convert/map_jobs.hpp"
 
 #include <memory>
 #include <set>
 
 #include <fmt/format.h>
 
-#include "bake/convert/map_jobs.hpp"
 #include "gltf/json/lookup.hpp"
 #include "gltf/json/placed.hpp"
 
@@ -27,7 +26,8 @@ Result<ValueSummary> turnOf(const GltfDocument& document, std::size_t m, std::si
         makeSurface(mesh, Texture{}, glm::dmat3(1), framesRead(frames, !mesh->tangents.empty()));
     ValueSummary worst;
     for (const glm::dmat3& linear : placed) {
-        const ValueSummary turn = directionTurn(placedBy(surface, linear), frames);
+        const MappedSurface moved = placedBy(surface, linear);
+        const ValueSummary turn = directionTurn(moved, pointsOver(moved, kPointsOfSurface), frames);
         if (turn.count == 0)
             return turn;
         if (worst.count == 0 || turn.percentile95 > worst.percentile95)

@@ -104,15 +104,6 @@ Result<Mesh> meshFor(const GltfDocument& document, std::size_t m, std::size_t p,
     return mesh;
 }
 
-// The surface on which a map is read; slot: which the mesh is for (meshFor).
-MappedSurface surfaceFor(const std::shared_ptr<const Mesh>& mesh, NormalSlot slot, const FrameSet& frames)
-{
-    const glm::dmat3 asItStands(1);
-    return slot == NormalSlot::coat
-        ? makeCoatSurface(mesh, Texture{}, Texture{.image = 0, .texcoord = 1, .sampler = {}}, asItStands, frames)
-        : makeSurface(mesh, Texture{}, asItStands, frames);
-}
-
 // One primitive with one of its materials, added to the job of a normal map of that material.
 Status addUse(const GltfDocument& document, std::size_t m, std::size_t p, MapSlot place, bool foreign,
               const std::vector<glm::dmat3>& placed, std::map<std::size_t, MapJob>& jobs,
@@ -144,18 +135,31 @@ Status addUse(const GltfDocument& document, std::size_t m, std::size_t p, MapSlo
     job.name = imageName(root, image);
     if (std::ranges::find(job.places, place) == job.places.end())
         job.places.push_back(place);
-    MapReader& reader = job.readers.emplace_back();
-    reader.mesh = m;
-    reader.primitive = p;
-    reader.place = place;
-    reader.strength = strengthOf(root["materials"][place.material], map, place.slot);
-    reader.wrapU = sampler.wrapU;
-    reader.wrapV = sampler.wrapV;
-    reader.placed = placed;
-    reader.vertices = mesh->vertexCount();
-    reader.triangles = mesh->triangleCount();
-    reader.stored = !mesh->tangents.empty();
+    job.readers.push_back({.mesh = m,
+                           .primitive = p,
+                           .place = place,
+                           .strength = strengthOf(root["materials"][place.material], map, place.slot),
+                           .wrapU = sampler.wrapU,
+                           .wrapV = sampler.wrapV,
+                           .placed = placed,
+                           .vertices = mesh->vertexCount(),
+                           .triangles = mesh->triangleCount(),
+                           .stored = !mesh->tangents.empty()});
     return Done{};
+}
+
+// The image that stands in a texture, or that an extension names which is not read; -1 where there is none.
+int anyImage(const Json& root, int texture)
+{
+    if (const int image = textureAt(root, texture).image; image >= 0)
+        return image;
+    const Json& json = root["textures"][std::size_t(texture)];
+    if (json.contains("extensions"))
+        for (const Json& extension : json["extensions"])
+            if (extension.is_object() && extension.contains("source") && extension["source"].is_number_unsigned()
+                && extension["source"] < countOf(root, "images"))
+                return extension["source"];
+    return -1;
 }
 
 } // namespace
@@ -180,24 +184,6 @@ std::vector<MapSlot> foreignNormalMaps(const GltfDocument& document)
         }
     return foreign;
 }
-
-namespace {
-
-// The image that stands in a texture, or that an extension names which is not read; -1 where there is none.
-int anyImage(const Json& root, int texture)
-{
-    if (const int image = textureAt(root, texture).image; image >= 0)
-        return image;
-    const Json& json = root["textures"][std::size_t(texture)];
-    if (json.contains("extensions"))
-        for (const Json& extension : json["extensions"])
-            if (extension.is_object() && extension.contains("source") && extension["source"].is_number_unsigned()
-                && extension["source"] < countOf(root, "images"))
-                return extension["source"];
-    return -1;
-}
-
-} // namespace
 
 std::vector<UnreadMap> unreadNormalMaps(const GltfDocument& document)
 {
@@ -228,14 +214,13 @@ Result<std::vector<MapJob>> mapJobs(const GltfDocument& document, std::vector<st
     const std::vector<MapSlot> foreign = foreignNormalMaps(document);
     std::map<std::size_t, MapJob> jobs;
     const Status status = forEachPrimitive(root, [&](std::size_t m, std::size_t p) -> Status {
-        for (const std::size_t material : materialsOf(root, root["meshes"][m]["primitives"][p])) {
+        for (const std::size_t material : materialsOf(root, root["meshes"][m]["primitives"][p]))
             for (const NormalSlot slot : kNormalSlots) {
                 const MapSlot place{material, slot};
                 const bool unread = std::binary_search(foreign.begin(), foreign.end(), place);
                 if (Status added = addUse(document, m, p, place, unread, placed[m], jobs, notes); !added)
                     return added;
             }
-        }
         return Done{};
     });
     if (!status)
@@ -268,8 +253,11 @@ Result<std::vector<MapUse>> usesOf(const GltfDocument& document, const MapJob& j
         auto mesh = meshFor(document, r.mesh, r.primitive, r.place, why);
         if (!mesh)
             return mesh.error();
-        const MappedSurface surface =
-            surfaceFor(std::make_shared<const Mesh>(*std::move(mesh)), r.place.slot, framesRead(frames, r.stored));
+        const auto held = std::make_shared<const Mesh>(*std::move(mesh));
+        const FrameSet read = framesRead(frames, r.stored);
+        const MappedSurface surface = r.place.slot == NormalSlot::coat
+            ? makeCoatSurface(held, Texture{}, Texture{.image = 0, .texcoord = 1, .sampler = {}}, read)
+            : makeSurface(held, Texture{}, glm::dmat3(1), read);
         for (const glm::dmat3& linear : r.placed)
             uses.push_back({placedBy(surface, linear), Convention{}, r.strength, r.wrapU, r.wrapV});
     }
@@ -279,17 +267,14 @@ Result<std::vector<MapUse>> usesOf(const GltfDocument& document, const MapJob& j
 std::size_t bytesOf(const MapJob& job, const FramePair& frames)
 {
     constexpr std::size_t kVertex = sizeof(glm::vec3) * 2 + sizeof(glm::vec2);
-    std::size_t kept = 0, most = 0;
+    std::size_t kept = 0, most = 0, rasters = 0; // rasters: once all surfaces are made
     for (const MapReader& r : job.readers) {
         const SurfaceBytes bytes = surfaceBytes(r.vertices, r.triangles, framesRead(frames, r.stored));
-        kept += (kVertex + (r.stored ? sizeof(glm::vec4) : 0)) * r.vertices + 3 * sizeof(std::uint32_t) * r.triangles;
-        kept += bytes.kept;
+        const std::size_t indices = 3 * sizeof(std::uint32_t) * r.triangles;
+        kept += (kVertex + (r.stored ? sizeof(glm::vec4) : 0)) * r.vertices + indices + bytes.kept;
         most = std::max(most, bytes.making);
+        rasters += kRasterBytes * r.triangles + sizeof(glm::vec2) * r.vertices + indices;
     }
-    std::size_t rasters = 0; // once all surfaces are made
-    for (const MapReader& r : job.readers)
-        rasters +=
-            kRasterBytes * r.triangles + sizeof(glm::vec2) * r.vertices + 3 * sizeof(std::uint32_t) * r.triangles;
     return kept + std::max(most, rasters);
 }
 

@@ -1,5 +1,5 @@
-// Between a glTF file and the conversion of its normal maps: which primitives read which image, and
-// how what comes out goes back in.
+// Between a glTF file and the conversion of its normal maps: which primitives read which image, how what comes out goes
+// back in, and which tangents are dropped then.
 #pragma once
 
 #include <compare>
@@ -69,5 +69,10 @@ std::vector<MapSlot> foreignNormalMaps(const GltfDocument& document);
 
 // In the order of the file's images.
 std::vector<UnreadMap> unreadNormalMaps(const GltfDocument& document);
+
+// Takes TANGENT from all primitives but those whose materials need it: for a normal map in a format that is not read
+// here, or for a direction that frames.to turns (`notes` says so, one line each).
+// Errors (ErrorKind::input): compressed geometry.
+Result<TangentBytes> dropTangents(GltfDocument& document, const FramePair& frames, std::vector<std::string>& notes);
 
 } // namespace cotan

@@ -12,6 +12,8 @@ constexpr std::size_t kMinPlaces = 4; // of a texel, however large the map
 
 int foldOf(Wrap wrap) { return wrap == Wrap::mirror ? 2 : 1; }
 
+glm::dvec3 barycentricOf(const UvSample& p) { return {1 - double(p.b1) - double(p.b2), p.b1, p.b2}; }
+
 } // namespace
 
 PlaceFinder::PlaceFinder(std::span<const MapUse> uses, int width, int height)
@@ -52,31 +54,25 @@ void PlaceFinder::findRow(const Layer& layer, int y, std::vector<std::vector<Fou
 {
     const int foldU = foldOf(layer.wrapU), foldV = foldOf(layer.wrapV);
     const auto partOf = [&](std::uint32_t triangle) -> const Part& {
-        return *std::prev(std::upper_bound(layer.parts.begin(), layer.parts.end(), triangle,
-                                           [](std::uint32_t t, const Part& part) { return t < part.firstTriangle; }));
+        return *std::prev(std::ranges::upper_bound(layer.parts, triangle, {}, &Part::firstTriangle));
     };
     UvFew few{.most = most_};
     if (layer.wrapU == Wrap::clamp || layer.wrapV == Wrap::clamp)
         few.counts = [&](const UvSample& p) {
-            const auto at = [&](int k) {
-                return glm::dvec2(layer.texcoords[layer.indices[3 * std::size_t(p.triangle) + std::size_t(k)]]);
-            };
-            const glm::dvec2 uv =
-                at(0) * (1 - double(p.b1) - double(p.b2)) + at(1) * double(p.b1) + at(2) * double(p.b2);
+            const std::uint32_t* const v = &layer.indices[3 * std::size_t(p.triangle)];
+            const glm::dvec2 uv = atCorners(layer.texcoords, v, barycentricOf(p));
             return (layer.wrapU != Wrap::clamp || (uv.x >= 0 && uv.x <= 1))
                 && (layer.wrapV != Wrap::clamp || (uv.y >= 0 && uv.y <= 1));
         };
     UvRow row;
     for (int j = 0; j < foldV; ++j) {
-        layer.raster->row(j == 0 ? y : 2 * height_ - 1 - y, UvReach::gaps, row, few);
+        layer.raster->row(j == 0 ? y : 2 * height_ - 1 - y, row, few);
         for (int x = 0; x < width_ * foldU; ++x) {
             auto& texel = texels[std::size_t(x < width_ ? x : 2 * width_ - 1 - x)];
             for (std::uint32_t i = row.first[std::size_t(x)]; i < row.first[std::size_t(x) + 1]; ++i) {
                 const UvSample& p = row.places[i];
                 const Part& part = partOf(p.triangle);
-                const Place place{part.uses.front(),
-                                  std::uint32_t(p.triangle - part.firstTriangle),
-                                  {1 - double(p.b1) - double(p.b2), p.b1, p.b2},
+                const Place place{part.uses.front(), std::uint32_t(p.triangle - part.firstTriangle), barycentricOf(p),
                                   p.covers};
                 texel.push_back({&part, std::uint32_t(texel.size()), place});
             }

@@ -1,20 +1,21 @@
 #include "cotan/convert.hpp"
 
+#include <algorithm>
 #include <set>
 
 #include <fmt/format.h>
 
-#include "bake/convert/drop_tangents.hpp"
-#include "cotan/gltf.hpp"
+#include "bake/convert/map_jobs.hpp"
 #include "cotan/image.hpp"
 #include "files/bytes.hpp"
 #include "gltf/json/lookup.hpp"
+#include "gltf/json/views.hpp"
 
 namespace cotan {
 
-namespace {
-
 using gltf::Json;
+
+namespace {
 
 std::size_t appendTo(Json& root, const char* collection, Json item)
 {
@@ -86,6 +87,41 @@ Status settleTangents(GltfDocument& document, const PutMapOptions& options, std:
 }
 
 } // namespace
+
+Result<std::optional<Frame>> namedFrame(const GltfDocument& document)
+{
+    const Json& root = rootOf(document);
+    std::optional<Frame> named;
+    std::size_t first = 0;
+    for (std::size_t m = 0; m < countOf(root, "materials"); ++m) {
+        const auto frame = frameFromName(gltf::frameText(root["materials"][m]));
+        const auto hasMap = [&](NormalSlot slot) { return normalMapOf(root, m, slot).texture >= 0; };
+        if (!frame || std::ranges::none_of(kNormalSlots, hasMap))
+            continue;
+        if (named && *named != *frame)
+            return inputError(fmt::format("{}: materials[{}].extras.{}: expected {}, as materials[{}] has it; found {}",
+                                          gltfPath(document).string(), m, gltf::kFrameExtra, name(*named), first,
+                                          name(*frame)));
+        if (!named)
+            first = m;
+        named = frame;
+    }
+    return named;
+}
+
+void nameFrame(GltfDocument& document, std::size_t material, Frame frame)
+{
+    Json& m = rootOf(document)["materials"][material];
+    if (frame != Frame::mikktspace) {
+        if (!m.contains("extras") || !m["extras"].is_object())
+            m["extras"] = Json::object();
+        m["extras"][gltf::kFrameExtra] = name(frame);
+    } else if (m.contains("extras") && m["extras"].is_object()) {
+        m["extras"].erase(gltf::kFrameExtra);
+        if (m["extras"].empty())
+            m.erase("extras");
+    }
+}
 
 Status putNormalMap(GltfDocument& document, std::vector<std::byte> png, const PutMapOptions& options,
                     std::vector<std::string>& notes)

@@ -5,11 +5,9 @@
 #include <utility>
 
 #include <glm/geometric.hpp>
-#include <glm/trigonometric.hpp>
 
 #include "bake/convert/solve_texel.hpp"
 #include "bake/lint/texel.hpp"
-#include "bake/lint/value_summary.hpp"
 #include "bake/surface/nearest_texels.hpp"
 #include "core/loops.hpp"
 #include "place_finder.hpp"
@@ -56,7 +54,6 @@ public:
 
     Reencoded run(CountedSteps* rows)
     {
-        auto overRows = [&](const auto& work) { parallelFor(0, map_.height, work); };
         for (int first = 0; first < map_.height; first += kRowsAtATime) {
             const int last = std::min(first + kRowsAtATime, map_.height);
             parallelFor(first, last, [&](int y) {
@@ -72,8 +69,8 @@ public:
             return std::move(result_);
         spreadNearest(owner_, map_.width, map_.height, AskFirst::beside);
         markNeeded();
-        overRows([&](int y) { findPlaces(y); });
-        overRows([&](int y) { padRow(y); });
+        parallelFor(0, map_.height, [&](int y) { findPlaces(y); });
+        parallelFor(0, map_.height, [&](int y) { padRow(y); });
         for (const RowCounts& r : rows_) {
             result_.covered += r.covered;
             result_.padded += r.padded;
@@ -83,11 +80,8 @@ public:
         }
         result_.moved = summaryOf(std::move(moved_));
         result_.disagreement = summaryOf(std::move(disagreement_));
-        std::vector<const MapUse*> shown;
-        for (const MapUse& use : uses_)
-            shown.push_back(&use);
-        result_.unconverted = mapError(map_, map_, shown, frames_);
-        result_.error = mapError(map_, result_.image, shown, frames_, expansion_);
+        result_.unconverted = mapError(map_, map_, uses_, frames_);
+        result_.error = mapError(map_, result_.image, uses_, frames_, expansion_);
         return std::move(result_);
     }
 
@@ -106,14 +100,18 @@ private:
         return {matrixOf(to, use), f64::cotan_normalize_or(f64::cotan_apply(from, m), to.n)};
     }
 
-    void write(int x, int y, glm::dvec3 texel)
+    std::size_t indexOf(int x, int y) const { return std::size_t(y) * std::size_t(map_.width) + std::size_t(x); }
+
+    // With the alpha of the map.
+    void put(int x, int y, glm::dvec3 stored)
     {
-        const glm::dvec3 stored = f64::cotan_encode_texel(texel, written_);
-        const std::size_t at = (std::size_t(y) * std::size_t(map_.width) + std::size_t(x)) * 4;
+        const std::size_t at = 4 * indexOf(x, y);
         for (int k = 0; k < 3; ++k)
             set(at + std::size_t(k), stored[k]);
-        copyAlpha(at);
+        set(at + 3, atTexel(map_, x, y, [](const auto* c, int most) { return double(c[3]) / most; }));
     }
+
+    void write(int x, int y, glm::dvec3 texel) { put(x, y, f64::cotan_encode_texel(texel, written_)); }
 
     void set(std::size_t component, double value)
     {
@@ -123,21 +121,12 @@ private:
             result_.image.bytes8()[component] = std::uint8_t(std::lround(std::clamp(value, 0.0, 1.0) * 255));
     }
 
-    void copyAlpha(std::size_t at)
-    {
-        const int x = int(at / 4 % std::size_t(map_.width)), y = int(at / 4 / std::size_t(map_.width));
-        set(at + 3, atTexel(map_, x, y, [](const auto* c, int most) { return double(c[3]) / most; }));
-    }
-
     void keep(int x, int y)
     {
         glm::dvec3 stored = storedTexel(map_, x, y);
         for (int k = 0; k < 3 && plain_.expansion != written_.expansion; ++k)
             stored[k] = f64::cotan_compress(f64::cotan_expand(stored[k], plain_.expansion), written_.expansion);
-        const std::size_t at = (std::size_t(y) * std::size_t(map_.width) + std::size_t(x)) * 4;
-        for (int k = 0; k < 3; ++k)
-            set(at + std::size_t(k), stored[k]);
-        copyAlpha(at);
+        put(x, y, stored);
     }
 
     void solveRow(int y)
@@ -154,16 +143,13 @@ private:
             demands.clear();
             for (const Place& p : places)
                 demands.push_back(demandAt(p, old));
-            const bool any =
-                std::any_of(demands.begin(), demands.end(), [](const Demand& d) { return invertible(d.frame); });
-            if (!any) {
+            if (std::ranges::none_of(demands, invertible, &Demand::frame)) {
                 keep(x, y);
                 continue; // and nothing to spread from
             }
             const glm::dvec3 texel = solveTexel(demands, old);
             write(x, y, texel);
-            owner_[std::size_t(y) * std::size_t(map_.width) + std::size_t(x)] =
-                std::uint32_t(std::size_t(y) * std::size_t(map_.width) + std::size_t(x));
+            owner_[indexOf(x, y)] = std::uint32_t(indexOf(x, y));
             if (places.front().covers)
                 count(counts, demands, old, texel);
             else
@@ -230,7 +216,7 @@ private:
     void padRow(int y)
     {
         for (int x = 0; x < map_.width; ++x) {
-            const std::size_t i = std::size_t(y) * std::size_t(map_.width) + std::size_t(x);
+            const std::size_t i = indexOf(x, y);
             if (owner_[i] == i)
                 continue;
             const glm::dvec3 old = oldTexel(x, y);
@@ -238,10 +224,9 @@ private:
                 keep(x, y);
                 continue;
             }
-            const auto& row = nearest_[owner_[i] / std::size_t(map_.width)];
             const int column = int(owner_[i] % std::size_t(map_.width));
             const auto lent =
-                std::lower_bound(row.begin(), row.end(), column, [](const Lent& l, int c) { return l.x < c; });
+                std::ranges::lower_bound(nearest_[owner_[i] / std::size_t(map_.width)], column, {}, &Lent::x);
             const Demand demand = demandAt(lent->place, old);
             write(x, y, solveTexel({&demand, 1}, old));
             ++rows_[std::size_t(y)].padded;

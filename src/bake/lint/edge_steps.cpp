@@ -7,7 +7,6 @@
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 
-#include "bake/lint/value_summary.hpp"
 #include "cotan/tangents.hpp"
 #include "cotan/vector.hpp"
 #include "lint_parts.hpp"

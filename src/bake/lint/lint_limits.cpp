@@ -63,7 +63,8 @@ private:
     {
         const char* const percent = "% of the area";
         const auto over = [&](const char* kind, double value, double limit, const std::string& what, const char* unit) {
-            if (limit >= 0 && value > limit)
+            const bool fails = limit >= 0 && value > limit;
+            if (fails)
                 check_.failures.push_back(
                     {.kind = kind,
                      .where = where,
@@ -73,6 +74,7 @@ private:
                      .mesh = p.mesh,
                      .material = p.material,
                      .percent = unit == percent});
+            return fails;
         };
         const double degrees = check_.limits.degrees, area = check_.limits.area;
         if (degrees >= 0 && p.unread)
@@ -82,8 +84,12 @@ private:
                                        .mesh = p.mesh,
                                        .material = p.material});
         for (const Reading& r : p.readings)
-            if (r.name == check_.limits.frame)
-                checkReading(r, over);
+            if (r.name == check_.limits.frame
+                && over("reading", r.error.percentile95, degrees, "95 % of the error of reading with " + r.name,
+                        "degrees"))
+                check_.failures.back().beside = fmt::format(
+                    "each primitive is held to it by itself; the mean of this one is {:.3g}, of the model {:.3g}",
+                    r.error.mean, modelMean_.value_or(r.error.mean));
         if (p.image >= 0)
             over("rounding", p.precision, degrees, "rounding", "degrees");
         over("degenerate_uv", 100 * p.uv.degenerate, area, "degenerate uv on", percent);
@@ -91,17 +97,6 @@ private:
              percent);
         over("reversed_w", 100 * p.stored.reversedW, area, "TANGENT.w against the uv on", percent);
         over("turned_tangents", 100 * p.stored.turned, area, "stored tangents turned on", percent);
-    }
-
-    template<class Over> void checkReading(const Reading& r, const Over& over)
-    {
-        const std::size_t before = check_.failures.size();
-        over("reading", r.error.percentile95, check_.limits.degrees, "95 % of the error of reading with " + r.name,
-             "degrees");
-        if (check_.failures.size() > before)
-            check_.failures.back().beside = fmt::format(
-                "each primitive is held to it by itself; the mean of this one is {:.3g}, of the model {:.3g}",
-                r.error.mean, modelMean_.value_or(r.error.mean));
     }
 
     const LintReport& report_;

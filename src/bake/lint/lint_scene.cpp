@@ -2,16 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <map>
 #include <memory>
+#include <utility>
 
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 
 #include "bake/lint/map_fit.hpp"
-#include "bake/lint/texel.hpp"
 #include "lint_parts.hpp"
 #include "scene/bounds.hpp"
 #include "scene/geometry.hpp"
@@ -67,21 +66,16 @@ std::string whyNotJudged(const PrimitiveLint& p, const Image& map)
     return p.readings.front().error.count == 0 ? "no triangle has area, also in uv" : "";
 }
 
-template<class Make> void eachAdvised(FrameSummaries& summaries, const Make& make)
-{
-    summaries.orthonormal = make(Frame::orthonormal);
-    summaries.cotangent = make(Frame::cotangent);
-    summaries.smooth = make(Frame::smooth);
-}
-
 // The frame that a material's maps are for: the one that the file names, or else glTF's.
 Frame madeFor(const Material& material) { return material.normalFrame.value_or(Frame::mikktspace); }
 
 // What lint reads at vertices: the maps' own frame, and the one of those that may be advised that needs it.
 FrameSet framesOfLint(const Material& material)
 {
-    FrameSet frames = frameSet({Frame::mikktspace, Frame::smooth});
-    return frames.set(std::size_t(madeFor(material)));
+    FrameSet frames;
+    for (const Frame frame : {Frame::mikktspace, Frame::smooth, madeFor(material)})
+        frames.set(std::size_t(frame));
+    return frames;
 }
 
 // Tells how much is done, in triangles, and remembers a wish to stop.
@@ -125,10 +119,9 @@ PrimitiveLint lintPrimitive(const Scene& scene, const Mesh& mesh, const MappedSu
     p.material = material.name;
     p.tangentsFor = material.tangentsFor;
     const std::vector<MeshPoint> points = pointsOver(surface, limits.points);
+    const auto turned = [&](Frame to) { return directionTurn(surface, points, {.from = Frame::mikktspace, .to = to}); };
     if (!p.tangentsFor.empty())
-        eachAdvised(p.turned, [&](Frame frame) {
-            return directionTurn(surface, points, {.from = Frame::mikktspace, .to = frame});
-        });
+        p.turned = {turned(Frame::orthonormal), turned(Frame::cotangent), turned(Frame::smooth)};
     const Texture& coat = material.coat.normalMap;
     if (coat.present() && !hasPixels(scene.images[std::size_t(coat.image)])) { // it is not converted
         p.tangentsFor = "KHR_materials_clearcoat";
@@ -147,14 +140,13 @@ PrimitiveLint lintPrimitive(const Scene& scene, const Mesh& mesh, const MappedSu
     if (material.greenReversed) // w of the file, not of the scene
         p.stored.reversedW = 1 - p.stored.reversedW;
     addPrecision(p, distance);
-    const int image = material.normalMap.image;
-    if (material.normalMap.present() && std::size_t(image) < scene.images.size()) {
-        p.image = image;
-        if (p.hasUv && hasPixels(scene.images[std::size_t(image)]))
-            p.readings = lint::readings(surface, points, madeFor(material), material, scene.images[std::size_t(image)],
-                                        limits.pixels);
-        p.unread = !hasPixels(scene.images[std::size_t(image)]);
-        p.notJudged = whyNotJudged(p, scene.images[std::size_t(image)]);
+    if (material.normalMap.present()) {
+        p.image = material.normalMap.image;
+        const Image& map = scene.images[std::size_t(p.image)];
+        p.unread = !hasPixels(map);
+        if (p.hasUv && !p.unread)
+            p.readings = lint::readings(surface, points, p.madeFor, material, map, limits.pixels);
+        p.notJudged = whyNotJudged(p, map);
     }
     counted.add(kOfLook * triangles);
     return p;
@@ -189,7 +181,7 @@ void addMaps(LintReport& report, const Scene& scene)
     std::vector<bool> done(scene.images.size());
     for (const Material& m : scene.materials) {
         const int image = m.normalMap.image;
-        if (!m.normalMap.present() || std::size_t(image) >= scene.images.size() || done[std::size_t(image)])
+        if (!m.normalMap.present() || done[std::size_t(image)])
             continue;
         done[std::size_t(image)] = true;
         const Image& map = scene.images[std::size_t(image)];
@@ -200,11 +192,8 @@ void addMaps(LintReport& report, const Scene& scene)
     }
 }
 
-// A clear coat's map, as a primitive reads it.
-struct CoatUse {
-    int image = -1;
-    MapUse use;
-};
+// A clear coat's image, and how a primitive reads it.
+using CoatUse = std::pair<int, MapUse>;
 
 // The frames that the normal maps of the images are for: that of the first material with each.
 std::map<int, Frame> framesOfImages(const Scene& scene)
@@ -219,31 +208,26 @@ std::map<int, Frame> framesOfImages(const Scene& scene)
 // How each map would do as it is with the frames that may be advised.
 void addFits(LintReport& report, const Scene& scene, const std::vector<MapUse>& uses, const std::vector<CoatUse>& coats)
 {
-    std::map<int, std::vector<const MapUse*>> readers;
+    std::map<int, std::vector<MapUse>> readers;
     for (std::size_t i = 0; i < uses.size(); ++i)
         if (report.primitives[i].image >= 0)
-            readers[report.primitives[i].image].push_back(&uses[i]);
-    for (const CoatUse& coat : coats)
-        readers[coat.image].push_back(&coat.use);
+            readers[report.primitives[i].image].push_back(uses[i]);
+    for (const auto& [image, use] : coats)
+        readers[image].push_back(use);
     const TangentOrigin from = lint::distrustStored(report) ? TangentOrigin::generated : TangentOrigin::stored;
     const std::map<int, Frame> frames = framesOfImages(scene);
-    for (const auto& [image, users] : readers) {
+    for (auto& [image, shown] : readers) {
         const Image& map = scene.images[std::size_t(image)];
         MapFit fit{{}, image, map.name};
-        std::vector<const MapUse*> shown;
-        std::copy_if(users.begin(), users.end(), std::back_inserter(shown),
-                     [](const MapUse* u) { return u->surface.hasUv(); });
+        std::erase_if(shown, [](const MapUse& use) { return !use.surface.hasUv(); });
         if (hasPixels(map)) {
             std::vector<FramePair> pairs;
-            FrameSummaries order; // of the frames, as eachAdvised has it
-            const Frame made = frames.at(image);
-            eachAdvised(order, [&](Frame frame) {
-                pairs.push_back({made, frame, from, TangentOrigin::generated});
-                return ValueSummary{};
-            });
+            for (const Frame frame : {Frame::orthonormal, Frame::cotangent, Frame::smooth})
+                pairs.push_back({frames.at(image), frame, from, TangentOrigin::generated});
             const std::vector<ValueSummary> errors = mapErrors(map, map, shown, pairs, {}, pointsOfEach(uses.size()));
-            std::size_t next = 0;
-            eachAdvised(fit, [&](Frame) { return errors[next++]; });
+            fit.orthonormal = errors[0];
+            fit.cotangent = errors[1];
+            fit.smooth = errors[2];
         }
         report.fits.push_back(std::move(fit));
     }
@@ -295,12 +279,11 @@ Result<LintReport> lintScene(const Scene& scene, const LintOptions& options, con
         const Material& material = scene.materials[std::size_t(mesh.material)];
         const Sampler& sampler = material.normalMap.sampler;
         const std::shared_ptr<const Mesh> held(std::shared_ptr<void>(), &mesh); // the scene outlives the surfaces
-        const glm::dmat3 asItStands(1);
-        const MappedSurface own = makeSurface(held, material.normalMap, asItStands, framesOfLint(material));
+        const FrameSet frames = framesOfLint(material);
+        const MappedSurface own = makeSurface(held, material.normalMap, glm::dmat3(1), frames);
         MappedSurface ofCoat;
         if (material.coat.normalMap.present())
-            ofCoat =
-                makeCoatSurface(held, material.normalMap, material.coat.normalMap, asItStands, framesOfLint(material));
+            ofCoat = makeCoatSurface(held, material.normalMap, material.coat.normalMap, frames);
         const std::size_t count = std::min(placed[i].size(), kMaxPlacings);
         const double share = double(mesh.triangleCount()) / double(std::max<std::size_t>(count, 1));
         if (!counted.add(kOfSurface * double(mesh.triangleCount())))

@@ -3,8 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include <glm/geometric.hpp>
+
 #include "bake/lint/texel.hpp"
-#include "bake/lint/value_summary.hpp"
 #include "lint_parts.hpp"
 #include "scene/texture_sample.hpp"
 
@@ -20,18 +21,16 @@ constexpr std::size_t kMaxUses = kMaxPoints / kLeast; // of more, evenly chosen 
 glm::dvec3 normalOf(const Image& map, const MapUse& use, const Convention& stored, Frame frame, TangentOrigin tangents,
                     const MeshPoint& p)
 {
-    Texture texture;
-    texture.sampler.wrapU = use.wrapU;
-    texture.sampler.wrapV = use.wrapV;
     const auto format = toFormat<f64::cotan_normal_format>(stored, map.type, use.strength);
-    const glm::dvec3 m = decodedAt(map, texture, format, uvAt(use.surface, p.triangle, p.barycentric));
+    const glm::dvec3 m = decodedAt(map, use.wrapU, use.wrapV, format, uvAt(use.surface, p.triangle, p.barycentric));
     const f64::cotan_frame f = frameAt(use.surface, frame, tangents, p.triangle, p.barycentric);
     return f64::cotan_normalize_or(f64::cotan_apply(f, m), f.n);
 }
 
 double mappedArea(const MappedSurface& s, std::size_t triangle)
 {
-    return orientationOf(s, triangle) != 0 ? areaOf(s, triangle) : 0;
+    const TriangleEdges edges = edgesOf(s, triangle);
+    return orientationOf(s, triangle, edges) != 0 ? areaOf(edges) : 0;
 }
 
 // A generated frame that is read at the vertices.
@@ -40,6 +39,27 @@ void addGenerated(FrameSet& set, Frame frame, TangentOrigin tangents, bool store
     const bool ofFile = readsTangents(frame) && tangents == TangentOrigin::stored && stored;
     if (readsVertices(frame) && !ofFile)
         set.set(std::size_t(frame));
+}
+
+constexpr double kSameWay = 0.7071; // cosine of kTurned
+
+// What engines show with tangents: MikkTSpace, but of unit vectors. mikktspace.h wants them as interpolated; three.js
+// and others normalise them, which on coarse meshes is a third of what is predicted here. With the directions of stored
+// tangents where they are within 45 degrees: on a mesh that is bent by its bones these were made before it was bent.
+f64::cotan_frame meantFrame(const MappedSurface& s, const MeshPoint& p)
+{
+    f64::cotan_frame frame = frameAt(s, Frame::mikktspace, TangentOrigin::generated, p.triangle, p.barycentric);
+    if (!s.hasStored() || !s.hasGenerated(Frame::mikktspace))
+        return frame;
+    glm::dvec4 t(0);
+    for (std::size_t k = 0; k < 3; ++k) {
+        const glm::dvec4 own = s.stored(3 * p.triangle + k), made = s.generated(Frame::mikktspace, 3 * p.triangle + k);
+        const bool along = glm::dot(glm::dvec3(own), glm::dvec3(made))
+            > kSameWay * glm::length(glm::dvec3(own)) * glm::length(glm::dvec3(made));
+        t += p.barycentric[int(k)] * (along ? glm::dvec4(glm::dvec3(own), made.w) : made);
+    }
+    return f64::cotan_frame_mikktspace(f64::cotan_normalize_or(frame.n, frame.n),
+                                       f64::cotan_normalize_or(glm::dvec3(t), glm::dvec3(0)), t.w);
 }
 
 } // namespace
@@ -72,7 +92,7 @@ std::vector<MeshPoint> pointsOver(const MappedSurface& s, std::size_t count, dou
     return points;
 }
 
-std::vector<ValueSummary> mapErrors(const Image& before, const Image& after, const std::vector<const MapUse*>& uses,
+std::vector<ValueSummary> mapErrors(const Image& before, const Image& after, std::span<const MapUse> uses,
                                     std::span<const FramePair> frames, std::optional<Expansion> expansionAfter,
                                     std::size_t most)
 {
@@ -81,18 +101,18 @@ std::vector<ValueSummary> mapErrors(const Image& before, const Image& after, con
     std::vector<ValueStatistics> errors(frames.size());
     const std::size_t step = (uses.size() + kMaxUses - 1) / kMaxUses;
     for (std::size_t k = 0; k < uses.size(); k += step) {
-        const MapUse* const use = uses[k];
-        if (!(std::abs(use->strength) > kFlattened))
+        const MapUse& use = uses[k];
+        if (!(std::abs(use.strength) > kFlattened))
             continue;
         double area = 0;
-        const std::vector<MeshPoint> points = pointsOver(use->surface, count, &area);
-        Convention stored = use->stored; // of `after`
+        const std::vector<MeshPoint> points = pointsOver(use.surface, count, &area);
+        Convention stored = use.stored; // of `after`
         stored.expansion = expansionAfter.value_or(stored.expansion);
         for (const MeshPoint& p : points)
             for (std::size_t i = 0; i < frames.size(); ++i)
                 errors[i].add(
-                    lint::degreesBetween(normalOf(before, *use, use->stored, frames[i].from, frames[i].fromTangents, p),
-                                         normalOf(after, *use, stored, frames[i].to, frames[i].toTangents, p)),
+                    lint::degreesBetween(normalOf(before, use, use.stored, frames[i].from, frames[i].fromTangents, p),
+                                         normalOf(after, use, stored, frames[i].to, frames[i].toTangents, p)),
                     area / double(count));
     }
     std::vector<ValueSummary> summaries;
@@ -107,8 +127,8 @@ std::size_t pointsOfEach(std::size_t surfaces)
     return std::clamp(kAll / std::max<std::size_t>(surfaces, 1), kFewest, kPointsOfSurface);
 }
 
-ValueSummary mapError(const Image& before, const Image& after, const std::vector<const MapUse*>& uses,
-                      const FramePair& frames, std::optional<Expansion> expansionAfter)
+ValueSummary mapError(const Image& before, const Image& after, std::span<const MapUse> uses, const FramePair& frames,
+                      std::optional<Expansion> expansionAfter)
 {
     return mapErrors(before, after, uses, {&frames, 1}, expansionAfter).front();
 }
@@ -130,11 +150,6 @@ ValueSummary directionTurn(const MappedSurface& surface, const std::vector<MeshP
     return summaryOf(std::move(turns));
 }
 
-ValueSummary directionTurn(const MappedSurface& surface, const FramePair& frames)
-{
-    return directionTurn(surface, pointsOver(surface, kPointsOfSurface), frames);
-}
-
 FrameSet framesRead(const FramePair& frames, bool stored)
 {
     FrameSet set;
@@ -146,5 +161,43 @@ FrameSet framesRead(const FramePair& frames, bool stored)
 bool directionStays(const ValueSummary& turn) { return turn.percentile95 <= kTurnedDirection; }
 
 bool fitsAsItIs(const ValueSummary& off) { return !(off.percentile95 > kAsRounding); }
+
+std::vector<Reading> lint::readings(const MappedSurface& s, const std::vector<MeshPoint>& points, Frame madeFor,
+                                    const Material& material, const Image& map, double maxPixels)
+{
+    struct Reader {
+        std::string name;
+        Frame frame;
+        TangentOrigin tangents;
+        ValueStatistics errors;
+    };
+    std::vector<Reader> readers;
+    for (Frame f : {Frame::cotangent, Frame::orthonormal, Frame::smooth, Frame::exact, Frame::triangle})
+        readers.push_back({std::string(name(f)), f, TangentOrigin::generated, {}});
+    if (s.hasStored() && madeFor == Frame::mikktspace)
+        readers.push_back({"stored", Frame::mikktspace, TangentOrigin::stored, {}});
+
+    const auto format =
+        toFormat<f64::cotan_normal_format>(material.normalFormat, map.type, double(material.normalScale));
+    const Sampler& sampler = material.normalMap.sampler;
+    const std::vector<double> weights = seen(s, points, material.doubleSided, maxPixels);
+    for (std::size_t k = 0; k < points.size(); ++k) {
+        const MeshPoint& p = points[k];
+        const glm::dvec3 m = decodedAt(map, sampler.wrapU, sampler.wrapV, format, uvAt(s, p.triangle, p.barycentric));
+        const auto readBy = [&](Frame frame, TangentOrigin tangents) {
+            return f64::cotan_apply(frameAt(s, frame, tangents, p.triangle, p.barycentric), m);
+        };
+        const glm::dvec3 generated = readBy(madeFor, TangentOrigin::generated);
+        const glm::dvec3 meant = madeFor == Frame::mikktspace ? f64::cotan_apply(meantFrame(s, p), m) : generated;
+        for (Reader& r : readers)
+            r.errors.add(
+                degreesBetween(readBy(r.frame, r.tangents), r.tangents == TangentOrigin::stored ? generated : meant),
+                weights[k]);
+    }
+    std::vector<Reading> result;
+    for (Reader& r : readers)
+        result.push_back({r.name, summaryOf(std::move(r.errors))});
+    return result;
+}
 
 } // namespace cotan

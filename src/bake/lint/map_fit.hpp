@@ -7,12 +7,19 @@
 #include <vector>
 
 #include "bake/surface/mapped_surface.hpp"
+#include "core/value_statistics.hpp"
 #include "cotan/convention.hpp"
 #include "cotan/convert.hpp"
 #include "cotan/lint.hpp"
 #include "cotan/scene.hpp"
 
 namespace cotan {
+
+// A set of values in short, as reports of lint and convert say it. Takes it by value, because a percentile sorts.
+inline ValueSummary summaryOf(ValueStatistics values)
+{
+    return {values.count(), values.mean(), values.percentile(0.95), values.maximum()};
+}
 
 // One surface that reads the map, and how.
 struct MapUse {
@@ -39,14 +46,14 @@ std::vector<MeshPoint> pointsOver(const MappedSurface& surface, std::size_t coun
 // points spread over the surfaces, weighted by area. Nearest texel of the finest level. Both images: with all
 // their data, of any sizes; `after` is stored with the expansion given, or as `before`. Empty (count 0) where no use
 // shows anything: no triangle with area in space and uv.
-ValueSummary mapError(const Image& before, const Image& after, const std::vector<const MapUse*>& uses,
-                      const FramePair& frames, std::optional<Expansion> expansionAfter = {});
+ValueSummary mapError(const Image& before, const Image& after, std::span<const MapUse> uses, const FramePair& frames,
+                      std::optional<Expansion> expansionAfter = {});
 
 // The points of one surface by which single figures of a primitive are measured.
 inline constexpr std::size_t kPointsOfSurface = 4096;
 
 // The same for several pairs of frames, at the same points. points: of a surface at most; fewer of many surfaces.
-std::vector<ValueSummary> mapErrors(const Image& before, const Image& after, const std::vector<const MapUse*>& uses,
+std::vector<ValueSummary> mapErrors(const Image& before, const Image& after, std::span<const MapUse> uses,
                                     std::span<const FramePair> frames, std::optional<Expansion> expansionAfter = {},
                                     std::size_t points = kPointsOfSurface);
 
@@ -54,10 +61,7 @@ std::vector<ValueSummary> mapErrors(const Image& before, const Image& after, con
 std::size_t pointsOfEach(std::size_t surfaces);
 
 // Degrees between the ways in which frames.from and frames.to stretch highlights (KHR_materials_anisotropy), as lines,
-// at points spread over the surface, weighted by area. Empty where no triangle has area in space and uv, or a frame
-// no direction.
-ValueSummary directionTurn(const MappedSurface& surface, const FramePair& frames);
-// The same where the points are known: pointsOver(surface, kPointsOfSurface).
+// at points spread over the surface (pointsOver). Empty where there are none, or a frame has no direction.
 ValueSummary directionTurn(const MappedSurface& surface, const std::vector<MeshPoint>& points, const FramePair& frames);
 
 // What of a surface has to be derived for mapError and directionTurn with frames.from and frames.to. stored: whether

@@ -2,8 +2,6 @@
 #include <functional>
 #include <limits>
 
-#include <glm/common.hpp>
-
 #include "lint_parts.hpp"
 
 namespace cotan::lint {
@@ -16,40 +14,20 @@ constexpr int kCoarsest = 16;
 // For each texel, whether its centre is covered more than once, and whether by both orientations; as sums along each
 // row, so that a triangle asks once in each of its rows.
 struct Covers {
-    std::vector<std::uint32_t> shared, turned; // width + 1 a row: how many of the texels before it
-};
+    std::vector<std::uint32_t> shared, turned; // `width` a row: how many of the texels before it
 
-// How many more triangles cover a texel than the one before it in its row: plain, mirrored.
-class CoverCounter {
-public:
-    explicit CoverCounter(int side) : width_(std::size_t(side) + 1), begins_(width_ * std::size_t(side)) {}
-
-    void add(const UvSpan& span, bool mirrored)
+    // begins: how many more triangles cover a texel than the one before it in its row: plain, mirrored.
+    Covers(const std::vector<glm::ivec2>& begins, std::size_t width) : shared(begins.size()), turned(begins.size())
     {
-        glm::ivec2* const row = &begins_[std::size_t(span.y) * width_];
-        ++row[span.first][mirrored];
-        --row[span.last + 1][mirrored];
-    }
-
-    Covers covers() const
-    {
-        Covers result;
-        result.shared.resize(begins_.size());
-        result.turned.resize(begins_.size());
-        for (std::size_t start = 0; start < begins_.size(); start += width_) {
+        for (std::size_t start = 0; start < begins.size(); start += width) {
             glm::ivec2 n(0); // plain, mirrored
-            for (std::size_t x = start; x + 1 < start + width_; ++x) {
-                n += begins_[x];
-                result.shared[x + 1] = result.shared[x] + (n.x + n.y > 1);
-                result.turned[x + 1] = result.turned[x] + (n.x > 0 && n.y > 0);
+            for (std::size_t x = start; x + 1 < start + width; ++x) {
+                n += begins[x];
+                shared[x + 1] = shared[x] + (n.x + n.y > 1);
+                turned[x + 1] = turned[x] + (n.x > 0 && n.y > 0);
             }
         }
-        return result;
     }
-
-private:
-    std::size_t width_;
-    std::vector<glm::ivec2> begins_;
 };
 
 void eachSpan(const UvRaster& raster, const std::function<void(const UvSpan&)>& use)
@@ -98,19 +76,24 @@ void countOverlaps(const std::vector<const MappedSurface*>& surfaces, const std:
         return;
     }
     std::vector<UvRaster> rasters;
-    CoverCounter counter(side);
+    const std::size_t width = std::size_t(side) + 1; // of a row of begins, one behind the last texel
+    std::vector<glm::ivec2> begins(width * std::size_t(side));
     for (const MappedSurface* s : surfaces) {
         std::vector<bool> mirrored(s->triangleCount());
         for (std::size_t i = 0; i < mirrored.size(); ++i)
             mirrored[i] = orientationOf(*s, i) < 0;
         rasters.push_back(repeatedRaster(*s, side, side));
-        eachSpan(rasters.back(), [&](const UvSpan& span) { counter.add(span, mirrored[span.triangle]); });
+        eachSpan(rasters.back(), [&](const UvSpan& span) {
+            glm::ivec2* const row = &begins[std::size_t(span.y) * width];
+            ++row[span.first][mirrored[span.triangle]];
+            --row[span.last + 1][mirrored[span.triangle]];
+        });
     }
-    const Covers covers = counter.covers();
+    const Covers covers(begins, width);
     for (std::size_t k = 0; k < surfaces.size(); ++k) {
         std::vector<Covered> triangles(surfaces[k]->triangleCount());
         eachSpan(rasters[k], [&](const UvSpan& span) {
-            const std::size_t row = std::size_t(span.y) * (std::size_t(side) + 1);
+            const std::size_t row = std::size_t(span.y) * width;
             const std::size_t first = row + std::size_t(span.first), after = row + std::size_t(span.last) + 1;
             Covered& c = triangles[span.triangle];
             c.texels += std::uint32_t(after - first);

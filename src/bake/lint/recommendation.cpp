@@ -32,52 +32,45 @@ constexpr double kConvertedStaysOff = 1;
 constexpr double kCreases95 = 2;
 constexpr std::size_t kMaxNames = 3; // in one sentence
 
-// Over all primitives that were judged, weighted by area; of the 95 % too it is the mean.
+// Of all primitives that were judged, weighted by area; of the 95 % too it is the mean.
 struct Whole {
     double area = 0, mean = 0, percentile95 = 0;
-    void add(double a, const ValueSummary& s)
-    {
-        if (s.count == 0)
-            return;
-        area += a;
-        mean += a * s.mean;
-        percentile95 += a * s.percentile95;
-    }
-    void finish()
-    {
-        mean /= area; // of nothing: NaN, which is below no limit
-        percentile95 /= area;
-    }
+
     bool unseen() const { return mean < kUnseenMean && percentile95 < kUnseen95; }
 };
 
-const Reading* readingOf(const PrimitiveLint& p, const std::string& name)
+// The error of that reading; null where there is none.
+const ValueSummary* errorOf(const PrimitiveLint& p, const std::string& reading)
 {
-    const auto found =
-        std::find_if(p.readings.begin(), p.readings.end(), [&](const Reading& r) { return r.name == name; });
-    return found != p.readings.end() && found->error.count > 0 ? &*found : nullptr;
+    const auto found = std::ranges::find(p.readings, reading, &Reading::name);
+    return found != p.readings.end() && found->error.count > 0 ? &found->error : nullptr;
 }
 
-bool judged(const PrimitiveLint& p) { return readingOf(p, "orthonormal") != nullptr; }
+bool judged(const PrimitiveLint& p) { return errorOf(p, "orthonormal") != nullptr; }
 
-Whole wholeReading(const LintReport& report, const std::string& name)
+// summaryOf(primitive): null for one that does not count.
+Whole wholeOf(const LintReport& report, const auto& summaryOf)
 {
     Whole w;
     for (const PrimitiveLint& p : report.primitives)
-        if (const Reading* r = readingOf(p, name))
-            w.add(p.uv.area, r->error);
-    w.finish();
+        if (const ValueSummary* const s = summaryOf(p); s && s->count > 0) {
+            w.area += p.uv.area;
+            w.mean += p.uv.area * s->mean;
+            w.percentile95 += p.uv.area * s->percentile95;
+        }
+    w.mean /= w.area; // of nothing: NaN, which is below no limit
+    w.percentile95 /= w.area;
     return w;
+}
+
+Whole wholeReading(const LintReport& report, const std::string& name)
+{
+    return wholeOf(report, [&](const PrimitiveLint& p) { return errorOf(p, name); });
 }
 
 Whole wholeSteps(const LintReport& report)
 {
-    Whole w;
-    for (const PrimitiveLint& p : report.primitives)
-        if (judged(p))
-            w.add(p.uv.area, p.steps.cotangent);
-    w.finish();
-    return w;
+    return wholeOf(report, [](const PrimitiveLint& p) { return judged(p) ? &p.steps.cotangent : nullptr; });
 }
 
 // Shares of the area with a map and stored tangents; 0 where there are none.
@@ -113,7 +106,7 @@ std::string listed(const std::vector<std::string>& names)
 
 void addOnce(std::vector<std::string>& names, const std::string& name)
 {
-    if (std::find(names.begin(), names.end(), name) == names.end())
+    if (std::ranges::find(names, name) == names.end())
         names.push_back(name);
 }
 
@@ -236,11 +229,11 @@ std::string worstReading(const LintReport& report, const std::string& name)
     std::string text;
     double worst = 0;
     for (const PrimitiveLint& p : report.primitives)
-        if (const Reading* r = readingOf(p, name);
-            r && (r->error.mean > kUnseenMean || r->error.percentile95 > kUnseen95) && r->error.mean > worst) {
-            worst = r->error.mean;
+        if (const ValueSummary* const error = errorOf(p, name);
+            error && (error->mean > kUnseenMean || error->percentile95 > kUnseen95) && error->mean > worst) {
+            worst = error->mean;
             text = fmt::format("The largest error is in {}: {:.2f} degrees on average, over {:.1f} on 5 % of its area.",
-                               nameOf(p), r->error.mean, r->error.percentile95);
+                               nameOf(p), error->mean, error->percentile95);
         }
     return text;
 }
@@ -256,7 +249,7 @@ std::string seen(const Whole& orthonormal, const Whole& cotangent)
                        how, orthonormal.mean, cotangent.mean);
 }
 
-// Counts what the command would do; dropTangents (bake/convert/drop_tangents.hpp) says which tangents go. Maps that are
+// Counts what the command would do; dropTangents (bake/convert/drop_tangents.cpp) says which tangents go. Maps that are
 // to be read as they are stay: with the frame orthonormal by --keep-maps, with one that the file names without a
 // command.
 void foresee(LintReport& report)
@@ -323,8 +316,7 @@ std::string seenOfNamed(const LintReport& report, const Whole& orthonormal)
 bool readsAsItIs(const LintReport& report, const Whole& orthonormal)
 {
     return orthonormal.mean < kConvertedStaysOff
-        && std::none_of(report.fits.begin(), report.fits.end(),
-                        [](const MapFit& f) { return f.orthonormal.mean >= kConvertedStaysOff; });
+        && std::ranges::none_of(report.fits, [](const MapFit& f) { return f.orthonormal.mean >= kConvertedStaysOff; });
 }
 
 void adviseForMaps(LintReport& report)
@@ -349,15 +341,15 @@ bool distrustStored(const LintReport& report)
     const Stored s = storedShares(report);
     if (s.reversedW > kMostly && !otherGreen(report).empty())
         return false;
-    const bool told = std::any_of(report.maps.begin(), report.maps.end(),
-                                  [](const GreenEvidence& g) { return g.decided() && g.asDeclared(); });
+    const bool told =
+        std::ranges::any_of(report.maps, [](const GreenEvidence& g) { return g.decided() && g.asDeclared(); });
     return told && contradicts(s);
 }
 
 void recommend(LintReport& report)
 {
     report.notJudged = notJudged(report);
-    if (std::any_of(report.primitives.begin(), report.primitives.end(), judged)) {
+    if (std::ranges::any_of(report.primitives, judged)) {
         report.distrustStored = distrustStored(report);
         report.defects = defects(report);
         adviseForMaps(report);

@@ -44,8 +44,8 @@ struct DepthPicture {
 glm::dvec3 outwards(const MappedSurface& s, std::size_t triangle)
 {
     const std::size_t a = 3 * triangle;
-    const glm::dvec3 p0 = s.position(a);
-    const glm::dvec3 n = glm::cross(s.position(a + 1) - p0, s.position(a + 2) - p0);
+    const TriangleEdges edges = edgesOf(s, triangle);
+    const glm::dvec3 n = glm::cross(edges.p1, edges.p2);
     const double length = glm::length(n);
     if (!(length > 0))
         return glm::dvec3(0);

@@ -1,6 +1,8 @@
-// How one triangle stretches its texture coordinates: what lint takes its shares of, and pictures show.
+// How one triangle stretches its texture coordinates, and how its stored tangents lie against them: what lint takes its
+// shares of, and pictures show.
 #pragma once
 
+#include <array>
 #include <cstddef>
 
 #include "bake/surface/mapped_surface.hpp"
@@ -17,8 +19,18 @@ struct TriangleUv {
     int orientation = 0;     // as orientationOf: -1 mirrored
 };
 
-// surface: with uv.
-TriangleUv triangleUv(const MappedSurface& surface, std::size_t triangle);
-TriangleUv triangleUv(const MappedSurface& surface, std::size_t triangle, const TriangleEdges& edges); // edgesOf it
+// Of a triangle with these edges (edgesOf). surface: with uv.
+TriangleUv triangleUv(const MappedSurface& surface, std::size_t triangle, const TriangleEdges& edges);
+
+// A stored tangent at one corner of a triangle, against the texture coordinates.
+struct StoredCorner {
+    bool compared = false; // there is a tangent and a dP/du to hold it against
+    bool reversed = false; // w points against +v
+    double degrees = 0;    // from dP/du, in the plane of the normal; 180 where the tangent has no direction there
+};
+
+// All corners of such a triangle. Nothing is compared where its uv have no area.
+std::array<StoredCorner, 3> storedCorners(const MappedSurface& surface, std::size_t triangle,
+                                          const TriangleEdges& edges);
 
 } // namespace cotan

@@ -1,11 +1,11 @@
 #include "bake/surface/low_surface.hpp"
 
+#include <array>
 #include <span>
 #include <string>
 
 #include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
-#include <glm/matrix.hpp>
 
 #include "cotan/covector.hpp"
 #include "cotan/tangents.hpp"
@@ -112,9 +112,18 @@ Result<LowSurface> makeLowSurface(const Scene& scene, int material, Frame frame,
     return surface;
 }
 
+TriangleEdges edgesOf(const LowSurface& s, std::size_t triangle)
+{
+    const std::uint32_t* const v = &s.indices[3 * triangle];
+    const glm::dvec3 p0(s.positions[v[0]]);
+    const glm::dvec2 uv0(s.texcoords[v[0]]);
+    return {glm::dvec3(s.positions[v[1]]) - p0, glm::dvec3(s.positions[v[2]]) - p0, glm::dvec2(s.texcoords[v[1]]) - uv0,
+            glm::dvec2(s.texcoords[v[2]]) - uv0};
+}
+
 Differences<double> differencesOf(const LowSurface& s, std::uint32_t triangle)
 {
-    const TriangleEdges e = edgesOf(s.positions, s.texcoords, s.cornersOf(triangle));
+    const TriangleEdges e = edgesOf(s, triangle);
     const double determinant = e.uvArea2();
     if (determinant == 0 || info(s.frame).source == FrameSource::triangle)
         return {Vector3d(e.p1), Vector3d(e.p2), e.uv1, e.uv2};
@@ -127,7 +136,7 @@ Differences<double> differencesOf(const LowSurface& s, std::uint32_t triangle)
 LowPoint pointOf(const LowSurface& s, std::uint32_t triangle, double b1, double b2)
 {
     const std::size_t first = 3 * std::size_t(triangle);
-    const Corners at = s.cornersOf(triangle), inOrder{first, first + 1, first + 2};
+    const std::uint32_t* const at = &s.indices[first];
     const glm::dvec3 weights(1 - b1 - b2, b1, b2);
     LowPoint p;
     p.position = atCorners(s.positions, at, weights);
@@ -138,7 +147,7 @@ LowPoint pointOf(const LowSurface& s, std::uint32_t triangle, double b1, double 
         p.frame = typed(evaluateCotangents(s.frame, raw, atCorners(s.cotangentsU, at, weights),
                                            atCorners(s.cotangentsV, at, weights)));
     } else if (readsTangents(s.frame)) {
-        const glm::dvec3 t(atCorners(s.tangents, inOrder, weights));
+        const glm::dvec3 t(atCorners(s.tangents, std::array{first, first + 1, first + 2}, weights));
         p.frame = typed(evaluateTangents(s.frame, raw, t, double(s.tangents[first].w)));
     } else {
         p.frame = makeFrame(s.frame, Covector3d(p.normal), differencesOf(s, triangle));

@@ -29,10 +29,6 @@ struct LowSurface {
     std::vector<std::uint32_t> triangleInstance;     // which instance of the scene each triangle is of
 
     std::size_t triangleCount() const { return indices.size() / 3; }
-    Corners cornersOf(std::size_t triangle) const
-    {
-        return {indices[3 * triangle], indices[3 * triangle + 1], indices[3 * triangle + 2]};
-    }
 };
 
 // Gathers the instances whose material is `material` (-1: all) into one surface and derives what the
@@ -46,6 +42,8 @@ struct LowPoint {
     glm::dvec3 position, normal; // world; the normal unit as interpolated, or zero where unknown
     CotangentFrame<double> frame;
 };
+
+TriangleEdges edgesOf(const LowSurface& surface, std::size_t triangle);
 
 // The differences that the frame of a triangle is made from: those of a raster in uv, one step along +u,
 // one along +v; for a frame of the whole triangle its edges. A triangle without area in uv, which a raster never shows,

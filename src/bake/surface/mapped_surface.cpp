@@ -33,11 +33,6 @@ glm::dvec4 moved(const LinearMap<double>& m, glm::vec4 gltf)
     return {direction, double(t.w) * (m.determinant() < 0 ? -1 : 1)};
 }
 
-glm::dvec3 movedCovector(const LinearMap<double>& m, glm::vec3 c)
-{
-    return m.planeImage(Covector3d(glm::dvec3(c))).raw();
-}
-
 // The values of corners, once for the corners of a vertex that have the same bits, as far as these are among the first
 // kMaxCompared of the vertex. Further values of a vertex come after the first values of all vertices.
 CornerTangents gathered(std::size_t vertices, const std::vector<std::uint32_t>& indices,
@@ -119,12 +114,13 @@ f64::cotan_frame frameOfVertices(const MappedSurface& s, Frame frame, TangentOri
         const glm::dvec4 t = tangentAt(s, frame, source, triangle, barycentric);
         return evaluateTangents(frame, n, glm::dvec3(t), t.w);
     }
-    if (s.shared->cotangents.empty())
-        return evaluateCotangents(frame, n, glm::dvec3(0), glm::dvec3(0));
     const CornerCotangents& made = s.shared->cotangents;
+    if (made.values.u.empty())
+        return evaluateCotangents(frame, n, glm::dvec3(0), glm::dvec3(0));
     const auto gradient = [&](const std::vector<glm::vec3>& values) {
         return blended(triangle, barycentric, [&](std::size_t corner) {
-            return movedCovector(s.linear, values[made.places.of(corner, s.vertexOf(corner))]);
+            const glm::dvec3 own(values[made.places.of(corner, s.vertexOf(corner))]);
+            return s.linear.planeImage(Covector3d(own)).raw();
         });
     };
     return evaluateCotangents(frame, n, gradient(made.values.u), gradient(made.values.v));
@@ -180,17 +176,8 @@ std::size_t CornerPlaces::of(std::size_t corner, std::uint32_t vertex) const
 {
     if (several_.empty() || !several_[vertex])
         return vertex;
-    const auto found = std::lower_bound(elsewhere_.begin(), elsewhere_.end(), corner,
-                                        [](const Elsewhere& e, std::size_t c) { return e.corner < c; });
+    const auto found = std::ranges::lower_bound(elsewhere_, corner, {}, &Elsewhere::corner);
     return found != elsewhere_.end() && found->corner == corner ? found->place : vertex;
-}
-
-FrameSet frameSet(std::initializer_list<Frame> list)
-{
-    FrameSet set;
-    for (const Frame frame : list)
-        set.set(std::size_t(frame));
-    return set;
 }
 
 bool MappedSurface::hasStored() const
@@ -237,7 +224,7 @@ SurfaceBytes surfaceBytes(std::size_t vertices, std::size_t triangles, const Fra
 }
 
 MappedSurface makeCoatSurface(std::shared_ptr<const Mesh> mesh, const Texture& surfaceMap, const Texture& coatMap,
-                              const glm::dmat3& linear, const FrameSet& wanted)
+                              const FrameSet& wanted)
 {
     auto shared = shareMesh(std::move(mesh), surfaceMap, wanted);
     std::vector<glm::vec2> uv = uvOfMap(*shared->mesh, coatMap);
@@ -246,13 +233,7 @@ MappedSurface makeCoatSurface(std::shared_ptr<const Mesh> mesh, const Texture& s
         shared->cotangents = {};
         shared->ofCoat = true;
     }
-    return placed(std::move(shared), linear);
-}
-
-MappedSurface makeCoatSurface(const Mesh& mesh, const Texture& surfaceMap, const Texture& coatMap,
-                              const glm::dmat3& linear)
-{
-    return makeCoatSurface(copied(mesh), surfaceMap, coatMap, linear, kAllFrames);
+    return placed(std::move(shared), glm::dmat3(1));
 }
 
 MappedSurface placedBy(const MappedSurface& surface, const glm::dmat3& linear)
@@ -275,24 +256,15 @@ f64::cotan_frame frameAt(const MappedSurface& s, Frame frame, TangentOrigin tang
     return frameOf(spot, frame);
 }
 
-namespace {
-
-SurfaceSpot spotOf(const TriangleEdges& edges, glm::dvec3 interpolated)
-{
-    const f64::cotan_differences d = f64::cotan_scale_differences(edges.p1, edges.p2, glm::dvec2(0), glm::dvec2(0));
-    return {edges, interpolated, f64::cotan_safe_normal(interpolated, d.dpdx, d.dpdy)};
-}
-
-} // namespace
-
 SurfaceSpot spotAt(const MappedSurface& s, std::size_t triangle, glm::dvec3 barycentric)
 {
     return spotOf(edgesOf(s, triangle), normalAt(s, triangle, barycentric));
 }
 
-SurfaceSpot spotAtCorner(const MappedSurface& s, const TriangleEdges& edges, std::size_t corner)
+SurfaceSpot spotOf(const TriangleEdges& edges, glm::dvec3 interpolated)
 {
-    return spotOf(edges, s.normal(corner));
+    const f64::cotan_differences d = f64::cotan_scale_differences(edges.p1, edges.p2, glm::dvec2(0), glm::dvec2(0));
+    return {edges, interpolated, f64::cotan_safe_normal(interpolated, d.dpdx, d.dpdy)};
 }
 
 f64::cotan_frame frameOf(const SurfaceSpot& spot, Frame frame)
@@ -331,12 +303,10 @@ TriangleEdges edgesOf(const MappedSurface& s, std::size_t triangle)
     return e;
 }
 
-UvRaster repeatedRaster(const MappedSurface& s, int width, int height, glm::ivec2 copies)
+UvRaster repeatedRaster(const MappedSurface& s, int width, int height)
 {
-    if (!s.hasUv())
-        return UvRaster({}, width * copies.x, height * copies.y, {0, 0}, true);
-    return UvRaster({s.shared->uv, s.shared->mesh->indices, 1.0f / glm::vec2(copies)}, width * copies.x,
-                    height * copies.y, {0, 0}, true);
+    const UvTriangles triangles = s.hasUv() ? UvTriangles{s.shared->uv, s.shared->mesh->indices} : UvTriangles{};
+    return UvRaster(triangles, width, height, {0, 0}, /*wrap*/ true);
 }
 
 double rowsUnder(const MappedSurface& s, int height)
@@ -350,12 +320,7 @@ double areaOf(const TriangleEdges& e)
     return std::isfinite(area) ? area : 0;
 }
 
-double areaOf(const MappedSurface& s, std::size_t triangle)
-{
-    const glm::dvec3 p0 = s.position(3 * triangle);
-    return areaOf(TriangleEdges{s.position(3 * triangle + 1) - p0, s.position(3 * triangle + 2) - p0, glm::dvec2(0),
-                                glm::dvec2(0)});
-}
+double areaOf(const MappedSurface& s, std::size_t triangle) { return areaOf(edgesOf(s, triangle)); }
 
 int orientationOf(const MappedSurface& s, std::size_t triangle)
 {

@@ -1,13 +1,11 @@
-// A mesh as its normal map sees it: with the uv that the map is read with, and every frame at every
-// point. In double; made once, asked often. For one frame in the world, as it is baked, see
-// low_surface.hpp.
+// A mesh as its normal map sees it: with the uv that the map is read with, and every frame at every point. In double;
+// made once, asked often. For one frame in the world, as it is baked, see low_surface.hpp.
 #pragma once
 
 #include <array>
 #include <bitset>
 #include <cstddef>
 #include <cstdint>
-#include <initializer_list>
 #include <memory>
 #include <vector>
 
@@ -25,7 +23,6 @@ namespace cotan {
 
 // Frames, by number.
 using FrameSet = std::bitset<kFrameCount>;
-FrameSet frameSet(std::initializer_list<Frame> frames);
 inline const FrameSet kAllFrames = FrameSet().set();
 
 // Where corners have their value: at the number of their vertex, but for some.
@@ -47,16 +44,12 @@ private:
 struct CornerTangents {
     std::vector<glm::vec4> values; // as glTF has them
     CornerPlaces places;
-
-    bool empty() const { return values.empty(); }
 };
 
 // Gradients of u and v, likewise.
 struct CornerCotangents {
     Cotangents values;
     CornerPlaces places;
-
-    bool empty() const { return values.u.empty(); }
 };
 
 // What all placings of a mesh share, in the mesh's own space.
@@ -97,7 +90,7 @@ struct MappedSurface {
     // Of the file, as tangentAlongV: xyz along +u; w * cross(n, xyz) along +v. Where there are any.
     glm::dvec4 stored(std::size_t corner) const;
     // Of a frame that reads tangents, likewise.
-    bool hasGenerated(Frame frame) const { return shared && !shared->generated[std::size_t(frame)].empty(); }
+    bool hasGenerated(Frame frame) const { return shared && !shared->generated[std::size_t(frame)].values.empty(); }
     glm::dvec4 generated(Frame frame, std::size_t corner) const;
 };
 
@@ -122,10 +115,8 @@ SurfaceBytes surfaceBytes(std::size_t vertices, std::size_t triangles, const Fra
 
 // The same as the normal map of a clear coat over it sees it, as both renderers do: tangents are those of the surface's
 // own map, and where the uv are others `smooth` is `cotangent`.
-MappedSurface makeCoatSurface(const Mesh& mesh, const Texture& surfaceMap, const Texture& coatMap,
-                              const glm::dmat3& linear = glm::dmat3(1));
 MappedSurface makeCoatSurface(std::shared_ptr<const Mesh> mesh, const Texture& surfaceMap, const Texture& coatMap,
-                              const glm::dmat3& linear, const FrameSet& frames);
+                              const FrameSet& frames);
 
 // The surface moved by another linear map instead; takes no memory.
 MappedSurface placedBy(const MappedSurface& surface, const glm::dmat3& linear);
@@ -142,8 +133,7 @@ struct SurfaceSpot {
     glm::dvec3 interpolated{0}, normal{0}; // the same, unit; the triangle's where there is none
 };
 SurfaceSpot spotAt(const MappedSurface& surface, std::size_t triangle, glm::dvec3 barycentric);
-// At a corner, numbered three a triangle, of a triangle with these edges.
-SurfaceSpot spotAtCorner(const MappedSurface& surface, const TriangleEdges& edges, std::size_t corner);
+SurfaceSpot spotOf(const TriangleEdges& edges, glm::dvec3 interpolated); // the normal
 f64::cotan_frame frameOf(const SurfaceSpot& spot, Frame frame);
 
 // What lies at a point of a triangle, of its three corners. normal: as interpolated, not unit.
@@ -153,9 +143,8 @@ glm::dvec4 storedAt(const MappedSurface& surface, std::size_t triangle, glm::dve
 
 TriangleEdges edgesOf(const MappedSurface& surface, std::size_t triangle);
 
-// Which triangles the texels of its image show, the image repeated. copies: that many of the image count as one, along
-// each axis. The surface's mesh must outlive it.
-UvRaster repeatedRaster(const MappedSurface& surface, int width, int height, glm::ivec2 copies = {1, 1});
+// Which triangles the texels of its image show, the image repeated, at that size. The surface's mesh must outlive it.
+UvRaster repeatedRaster(const MappedSurface& surface, int width, int height);
 
 // About how many bytes a triangle such a raster takes where triangles are as large as texels.
 inline constexpr std::size_t kRasterBytes = 20;

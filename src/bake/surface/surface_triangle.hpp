@@ -1,8 +1,8 @@
 // A triangle in arrays of vertices: its corners, its edges, and what lies between its corners.
 #pragma once
 
-#include <array>
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 #include <glm/vec2.hpp>
@@ -12,13 +12,17 @@
 
 namespace cotan {
 
-using Corners = std::array<std::size_t, 3>; // places in the arrays
-
-// What lies at a point of the triangle. weights: of its corners, together 1.
-template<class Vec> auto atCorners(const std::vector<Vec>& values, const Corners& at, glm::dvec3 weights)
+// What lies at a point of the triangle. at: where the values of its corners are; weights: of them, together 1.
+template<class Vec, class Places> auto atCorners(const std::vector<Vec>& values, const Places& at, glm::dvec3 weights)
 {
     using Wide = glm::vec<Vec::length(), double>;
     return Wide(values[at[0]]) * weights.x + Wide(values[at[1]]) * weights.y + Wide(values[at[2]]) * weights.z;
+}
+
+// The same in the type of the values; v: the numbers of the corners' vertices, b1, b2: weights of the last two.
+template<class Values> auto atVertices(const Values& values, const std::uint32_t* v, float b1, float b2)
+{
+    return values[v[0]] * (1 - b1 - b2) + values[v[1]] * b1 + values[v[2]] * b2;
 }
 
 // From a triangle's first corner to the two others, in space and in uv: what every frame of a triangle is made from.
@@ -29,21 +33,5 @@ struct TriangleEdges {
     // Twice the area in uv, positive where uv turn the way that the corners do seen with v up.
     double uvArea2() const { return uv1.x * uv2.y - uv1.y * uv2.x; }
 };
-
-// uv: empty if there are none; the edges in uv are then zero.
-template<class Vec3, class Vec2>
-TriangleEdges edgesOf(const std::vector<Vec3>& positions, const std::vector<Vec2>& uv, const Corners& at)
-{
-    TriangleEdges e;
-    const glm::dvec3 p0(positions[at[0]]);
-    e.p1 = glm::dvec3(positions[at[1]]) - p0;
-    e.p2 = glm::dvec3(positions[at[2]]) - p0;
-    if (uv.empty())
-        return e;
-    const glm::dvec2 uv0(uv[at[0]]);
-    e.uv1 = glm::dvec2(uv[at[1]]) - uv0;
-    e.uv2 = glm::dvec2(uv[at[2]]) - uv0;
-    return e;
-}
 
 } // namespace cotan

@@ -32,8 +32,7 @@ double edge(glm::dvec2 a, glm::dvec2 b, glm::dvec2 p)
     return swapped ? -e : e;
 }
 
-// Of two triangles on either side of an edge exactly one takes the points on it: the fill rule of
-// rasterisers.
+// Of two triangles on either side of an edge exactly one takes the points on it: the fill rule of rasterisers.
 bool takesEdge(glm::dvec2 a, glm::dvec2 b) { return b.y < a.y || (b.y == a.y && b.x < a.x); }
 
 glm::dvec2 nearestOn(glm::dvec2 a, glm::dvec2 b, glm::dvec2 p)
@@ -255,7 +254,7 @@ template<class Emit> void UvRaster::scanCentres(const Shown& t, int y, const std
 template<class Emit>
 void UvRaster::scanTouching(const Shown& t, int y, const std::uint8_t* taken, const Emit& emit) const
 {
-    if (taken && !std::memchr(taken + t.first.x, 0, std::size_t(t.last.x - t.first.x + 1)))
+    if (!std::memchr(taken + t.first.x, 0, std::size_t(t.last.x - t.first.x + 1)))
         return; // inside a chart: nothing left there
     const double py = y + 0.5;
     double low, high;
@@ -263,10 +262,6 @@ void UvRaster::scanTouching(const Shown& t, int y, const std::uint8_t* taken, co
     const Weights weights(t);
     for (int x = nextFree(taken, first, last); x <= last; x = nextFree(taken, x + 1, last)) {
         const glm::dvec2 p(x + 0.5, py);
-        if (!taken && covers(t, p)) {
-            emit(x, weights.at(t, p, true));
-            continue;
-        }
         glm::dvec2 nearest = p;
         double best = kReach * kReach;
         bool reached = false;
@@ -284,7 +279,7 @@ void UvRaster::scanTouching(const Shown& t, int y, const std::uint8_t* taken, co
     }
 }
 
-void UvRaster::row(int y, UvReach reach, UvRow& result, const UvFew& few) const
+void UvRaster::row(int y, UvRow& result, const UvFew& few) const
 {
     // Names of their own: clang 14 captures no structured bindings.
     auto& found = result.scratch.found;
@@ -306,25 +301,20 @@ void UvRaster::row(int y, UvReach reach, UvRow& result, const UvFew& few) const
         orders.push_back(order);
         full[std::size_t(x)] = ++next[std::size_t(x)] >= few.most;
     };
-    const auto eachShown = [&](bool untilFull, const auto& scan) {
+    const auto eachShown = [&](const auto& scan) {
         Spreading spreading(std::max<std::size_t>(listed.size(), 1));
         for (std::size_t i = 0; i < listed.size(); ++i) {
-            if (untilFull && i % 128 == 0 && !std::memchr(full.data(), 0, full.size()))
+            if (i % 128 == 0 && !std::memchr(full.data(), 0, full.size()))
                 return;
             order = std::uint32_t(limited && few.most > 1 ? spreading.next() : i);
             if (const Shown t = shownAt(listed[order]); t.first.y <= y && y <= t.last.y)
                 scan(t);
         }
     };
-    if (reach == UvReach::touching)
-        eachShown(false, [&](const Shown& t) { scanTouching(t, y, nullptr, emit); });
-    else
-        eachShown(true, [&](const Shown& t) { scanCentres(t, y, limited ? full.data() : nullptr, emit); });
-    if (reach == UvReach::gaps) {
-        for (std::size_t x = 0; x < full.size(); ++x)
-            full[x] = next[x] > 0;
-        eachShown(true, [&](const Shown& t) { scanTouching(t, y, full.data(), emit); });
-    }
+    eachShown([&](const Shown& t) { scanCentres(t, y, limited ? full.data() : nullptr, emit); });
+    for (std::size_t x = 0; x < full.size(); ++x)
+        full[x] = next[x] > 0;
+    eachShown([&](const Shown& t) { scanTouching(t, y, full.data(), emit); });
     result.first.assign(std::size_t(width_) + 1, 0);
     std::inclusive_scan(next.begin(), next.end() - 1, result.first.begin() + 1);
     std::copy(result.first.begin(), result.first.end(), next.begin());
@@ -425,28 +415,6 @@ double rowsUnder(const UvTriangles& triangles, int height)
         rows += copies.count.x * (std::min(high, double(copies.count.y)) * height + copies.count.y);
     }
     return rows;
-}
-
-UvCoverage coverage(const UvRaster& raster)
-{
-    UvCoverage c;
-    std::vector<int> begins; // how many more triangles cover a texel than the one before it
-    for (int block = 0; block < raster.blocks(); ++block) {
-        const std::size_t width = std::size_t(raster.width()) + 1;
-        begins.assign(width * UvRaster::kBlockRows, 0);
-        raster.eachSpan(block, [&](const UvSpan& span) {
-            int* const row = &begins[std::size_t(span.y % UvRaster::kBlockRows) * width];
-            ++row[span.first];
-            --row[span.last + 1];
-        });
-        int n = 0; // back at 0 behind each row
-        for (const int begin : begins) {
-            n += begin;
-            c.covered += n > 0;
-            c.overlapping += n > 1;
-        }
-    }
-    return c;
 }
 
 } // namespace cotan

@@ -38,19 +38,12 @@ template<class Texel> struct UvScratch {
 };
 
 // The places of one row of texels: those of texel x are places[first[x]] to places[first[x + 1] - 1],
-// in the order of the triangles. Triangles that share an edge never both cover a centre on it.
+// in the order of the triangles. They are of the triangles that cover its centre; where there is none, of those that
+// come within half a texel's diagonal of it. Triangles that share an edge never both cover a centre on it.
 struct UvRow {
     std::vector<std::uint32_t> first; // width + 1
     std::vector<UvSample> places;
     UvScratch<int> scratch; // no part of the result
-};
-
-// Which triangles a texel is asked about.
-enum class UvReach {
-    centres,  // those that cover its centre
-    gaps,     // those; where there is none, those that come within half a texel's diagonal of the centre. So a texel's
-              // first place covers its centre if any does
-    touching, // all that come within half a texel's diagonal of the centre
 };
 
 // Which places of a texel are wanted, where not all are.
@@ -89,9 +82,9 @@ public:
     int width() const { return width_; }
     int height() const { return height_; }
 
-    // The places of the row y, 0 at the top. May be called from several threads. few: not with UvReach::touching. With
-    // few.most it takes time for each triangle that is in the row, but not for each of its texels.
-    void row(int y, UvReach reach, UvRow& result, const UvFew& few = {}) const;
+    // The places of the row y, 0 at the top. May be called from several threads. With few.most it takes time for each
+    // triangle that is in the row, but not for each of its texels.
+    void row(int y, UvRow& result, const UvFew& few = {}) const;
 
     // The first places of the texels in rows from kBlockRows * block on. May be called from several threads.
     static constexpr int kBlockRows = 8;
@@ -116,7 +109,7 @@ private:
     static bool covers(const Shown& t, glm::dvec2 p);
     // The texels of the line py that a triangle may reach, and where it begins and ends on it.
     std::pair<int, int> span(const Shown& t, double py, double reach, double& low, double& high) const;
-    // Call emit(x, place) for each texel of the row y. full, taken: texels that are not asked about; null: none.
+    // Call emit(x, place) for each texel of the row y. full, taken: texels that are not asked about; full null: none.
     template<class Emit> void scanCentres(const Shown& t, int y, const std::uint8_t* full, const Emit& emit) const;
     template<class Emit> void scanTouching(const Shown& t, int y, const std::uint8_t* taken, const Emit& emit) const;
     // Calls use(listed, shown) for every triangle and place that may touch a texel, in order.
@@ -139,12 +132,5 @@ private:
 // About how many rows of texels the triangles are in, in all copies of a repeated image that is so many texels high:
 // what the work of such a raster grows with, besides its texels.
 double rowsUnder(const UvTriangles& triangles, int height);
-
-// Counts over a whole layout.
-struct UvCoverage {
-    std::size_t covered = 0;     // texels whose centre some triangle covers
-    std::size_t overlapping = 0; // ... more than one
-};
-UvCoverage coverage(const UvRaster& raster);
 
 } // namespace cotan

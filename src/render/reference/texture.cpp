@@ -9,8 +9,8 @@
 
 #include "core/loops.hpp"
 #include "cotan/portable.hpp"
-#include "scene/texture_sample.hpp"
 #include "scene/sample_places.hpp"
+#include "scene/texture_sample.hpp"
 
 namespace cotan::reference {
 

@@ -128,7 +128,7 @@ struct ConvertModelReport {
 
 // Makes every normal map of the file for another frame: each texel is decoded with the old frame at its places on the
 // surfaces, and encoded with the new one (see reencode). Then gives the primitives TANGENT where the new frame reads
-// it, or drops it where nothing else does. The materials say for which frame their maps are then (named_frame.hpp).
+// it, or drops it where nothing else does. The materials say for which frame their maps are then (nameFrame).
 // New maps have the format of the old ones where that is written here (encodeLike), and a note says where it is not,
 // and what it costs. Maps in formats that are not read here stay as they are, and a note says so. Errors:
 // ErrorKind::usage for a frame that depends on the view and other bits; ErrorKind::input for a picture that cannot be

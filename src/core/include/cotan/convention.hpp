@@ -16,8 +16,6 @@
 
 namespace cotan {
 
-// Conventions are values: how a normal map is stored, with presets by name.
-
 // Expansion and Channels have the numbers of COTAN_EXPAND_... and COTAN_CHANNELS_... in shaders/cotan/normal.h.
 enum class Expansion {
     exact,        // zero is the middle code: (255c - 128)/127 of 8 bits; of others see expansionFor
@@ -107,12 +105,8 @@ Result<Convention> parseConvention(std::string_view text);
 
 // What went wrong with the stored values of a map, and is undone when it is read.
 struct Damage {
-    enum class Curve {
-        none,
-        srgb,
-        linearised
-    };                                  // srgb: saved as a colour; linearised: the sRGB curve was undone on
-                                        // values that never had it
+    // srgb: saved as a colour; linearised: the sRGB curve was undone on values that never had it.
+    enum class Curve { none, srgb, linearised };
     enum class Order { rgb, bgr, grb }; // bgr: red and blue are exchanged; grb: red and green
     Curve curve = Curve::none;
     Order order = Order::rgb;

@@ -12,7 +12,6 @@
 #pragma once
 
 #include <cmath>
-#include <optional>
 #include <type_traits>
 
 #include <glm/geometric.hpp>

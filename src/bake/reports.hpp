@@ -1,13 +1,29 @@
-// A LintReport as JSON.
+// What lint and convert report, as JSON, and words that reports share.
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <vector>
 
+#include "cotan/convert.hpp"
 #include "cotan/lint.hpp"
+#include "cotan/scene.hpp"
 #include "files/report/json.hpp"
 
 namespace cotan {
+
+// "1 primitive", "2 primitives".
+std::string counted(std::size_t number, const std::string& noun);
+
+// "mean / 95 % / maximum"; "nothing to measure" for an empty set.
+std::string toText(const ValueSummary& summary);
+// The figures of an empty set are null when it is written.
+Json toJson(const ValueSummary& summary);
+
+// What a scene has, and the warnings of loading it.
+Json countsOf(const Scene& scene);
+
+// ---- lint -----------------------------------------------------------------------------------
 
 // Whether green is as declared, and how sure that is; or why it cannot be told.
 std::string greenVerdict(const GreenEvidence& g);
@@ -27,5 +43,13 @@ std::vector<std::string> warningsOf(const LintReport& report, std::vector<std::s
 
 // The figures of every primitive, map and fit: an object of three lists.
 Json listsOf(const LintReport& report);
+
+// ---- convert --------------------------------------------------------------------------------
+
+// What became of a map.
+Json toJson(const ConvertedMap& map);
+
+// What became of the tangents, and of highlights that are stretched along them.
+Json tangentsJson(const ConvertModelReport& report);
 
 } // namespace cotan

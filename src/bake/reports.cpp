@@ -1,10 +1,42 @@
-#include "bake/lint_report.hpp"
+#include "bake/reports.hpp"
 
 #include <fmt/format.h>
 
-#include "bake/report_words.hpp"
+#include "scene/geometry.hpp"
 
 namespace cotan {
+
+std::string counted(std::size_t number, const std::string& noun)
+{
+    return fmt::format("{} {}{}", number, noun, number == 1 ? "" : "s");
+}
+
+std::string toText(const ValueSummary& s)
+{
+    return s.count > 0 ? fmt::format("{:.2f} / {:.2f} / {:.2f}", s.mean, s.percentile95, s.maximum)
+                       : "nothing to measure";
+}
+
+Json toJson(const ValueSummary& s)
+{
+    return {{"count", s.count}, {"mean", s.mean}, {"percentile95", s.percentile95}, {"maximum", s.maximum}};
+}
+
+Json countsOf(const Scene& scene)
+{
+    std::size_t triangles = 0;
+    for (const Mesh& mesh : scene.meshes)
+        triangles += mesh.triangleCount();
+    return {{"meshes", scene.meshes.size()},
+            {"instances", scene.instances.size()},
+            {"materials", scene.materials.size()},
+            {"images", scene.images.size()},
+            {"triangles", triangles},
+            {"triangles_drawn", trianglesDrawn(scene)},
+            {"warnings", scene.warnings}};
+}
+
+// ---- lint -----------------------------------------------------------------------------------
 
 namespace {
 
@@ -127,6 +159,60 @@ Json listsOf(const LintReport& report)
     for (const MapFit& f : report.fits)
         lists["fits"].push_back(toJson(f));
     return lists;
+}
+
+// ---- convert --------------------------------------------------------------------------------
+
+// Of a map that stays, no texel was looked at: those figures are missing.
+Json toJson(const ConvertedMap& map)
+{
+    const ReencodeFigures& r = map.figures;
+    Json json = {{"image", map.image},
+                 {"name", map.name},
+                 {"surfaces", map.surfaces},
+                 {"size", {map.width, map.height}},
+                 {"kept", map.kept},
+                 {"bits", map.bits},
+                 {"format", map.format},
+                 {"quality", map.quality > 0 ? Json(map.quality) : Json(nullptr)},
+                 {"texels_covered", r.covered},
+                 {"texels_padded", r.padded},
+                 {"texels_in_several_places", r.several},
+                 {"texels_that_disagree", r.disagreeing},
+                 {"disagreement_degrees", toJson(r.disagreement)},
+                 {"moved_degrees", toJson(r.moved)},
+                 {"degrees_unconverted", toJson(r.unconverted)},
+                 {"degrees_after_rounding", toJson(r.error)},
+                 {"below_horizon", r.belowHorizon},
+                 {"kept_elsewhere", map.alsoElsewhere},
+                 {"bytes_before", map.bytesBefore},
+                 {"bytes_after", map.bytesAfter}};
+    if (map.kept)
+        for (const char* figure :
+             {"bits", "quality", "texels_covered", "texels_padded", "texels_in_several_places", "texels_that_disagree",
+              "disagreement_degrees", "moved_degrees", "degrees_after_rounding", "below_horizon", "kept_elsewhere"})
+            json.erase(figure);
+    return json;
+}
+
+Json tangentsJson(const ConvertModelReport& report)
+{
+    if (report.tangents == TangentsAfter::kept)
+        return {{"kept", true}};
+    if (report.tangents == TangentsAfter::given)
+        return {{"given_primitives", report.primitivesGiven}};
+    const TangentBytes& d = report.dropped;
+    Json json = {{"dropped_primitives", d.primitives},
+                 {"bytes_per_vertex", d.vertices > 0 ? double(d.bytes) / double(d.vertices) : 0},
+                 {"vertices", d.vertices},
+                 {"bytes", d.bytes}};
+    for (const TurnedDirection& turned : d.directions)
+        json["anisotropy"].push_back({{"mesh", turned.mesh},
+                                      {"primitive", turned.primitive},
+                                      {"material", turned.material},
+                                      {"turned_degrees", toJson(turned.degrees)},
+                                      {"tangents_stay", turned.stays}});
+    return json;
 }
 
 } // namespace cotan

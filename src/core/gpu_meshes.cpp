@@ -1,0 +1,296 @@
+#include "cotan/gpu_meshes.hpp"
+
+#include <algorithm>
+#include <array>
+#include <numeric>
+
+#include "corner_groups.hpp"
+#include "tangents_mesh.hpp"
+
+namespace cotan {
+
+// ---- adjacency -----------------------------------------------------------------------------
+
+namespace {
+
+using tangents::kNone;
+using tangents::Side;
+
+// Lists the items 0 to count - 1 by group, in their order; groupOf(item) may be kNone.
+void listByGroup(std::uint32_t groups, std::size_t count, const auto& groupOf, std::vector<std::uint32_t>& begin,
+                 std::vector<std::uint32_t>& items)
+{
+    begin.assign(std::size_t(groups) + 1, 0);
+    for (std::uint32_t i = 0; i < count; ++i)
+        if (const std::uint32_t g = groupOf(i); g != kNone)
+            ++begin[g + 1];
+    std::partial_sum(begin.begin(), begin.end(), begin.begin());
+    items.resize(begin.back());
+    std::vector<std::uint32_t> next(begin.begin(), begin.end() - 1);
+    for (std::uint32_t i = 0; i < count; ++i)
+        if (const std::uint32_t g = groupOf(i); g != kNone)
+            items[next[g]++] = i;
+}
+
+// slots: per vertex the slot that it belongs to; slotOf(corner): the one that it adds to, or kNoSlot. Slots are a
+// vertex and a side, as tangents::slot has them.
+constexpr std::size_t kNoSlot = ~std::size_t(0);
+
+Adjacency adjacencyOf(const MeshView& mesh, const std::vector<std::size_t>& slots, const auto& slotOf)
+{
+    std::vector<std::uint32_t> groupOf(2 * mesh.positions.size(), kNone); // by slot
+    Adjacency a;
+    std::uint32_t groups = 0;
+    for (const Side side : {Side::unmirrored, Side::mirrored}) {
+        if (side == Side::mirrored)
+            a.firstMirrored = groups;
+        for (const std::size_t slot : slots)
+            if (slot % 2 == std::size_t(side) && groupOf[slot] == kNone)
+                groupOf[slot] = groups++;
+    }
+    const auto ofCorner = [&](std::uint32_t c) {
+        const std::size_t slot = slotOf(c);
+        return slot == kNoSlot ? kNone : groupOf[slot];
+    };
+    const auto ofVertex = [&](std::uint32_t v) { return groupOf[slots[v]]; };
+    listByGroup(groups, mesh.positions.size(), ofVertex, a.vertexBegin, a.vertices);
+    listByGroup(groups, mesh.indices.size(), ofCorner, a.cornerBegin, a.corners);
+    return a;
+}
+
+} // namespace
+
+Adjacency makeAdjacency(const MeshView& mesh)
+{
+    if (!tangents::usable(mesh))
+        return {};
+    const tangents::CornerGroups found = tangents::groupCorners(mesh);
+    const std::vector<Side> sides = tangents::cornerSides(mesh);
+    std::vector<std::size_t> slots;
+    for (std::size_t v = 0; v < mesh.positions.size(); ++v)
+        slots.push_back(tangents::slot(found.first[v], found.sides[v]));
+    return adjacencyOf(mesh, slots, [&](std::uint32_t c) {
+        const Side side = sides[c];
+        return side == Side::none ? kNoSlot : tangents::slot(found.first[mesh.indices[c]], side);
+    });
+}
+
+Adjacency makeNormalAdjacency(const MeshView& mesh)
+{
+    if (!tangents::usable(mesh))
+        return {};
+    const std::size_t count = mesh.positions.size();
+    const std::vector<glm::vec2> none(count, glm::vec2(0));
+    const LargeArray<std::uint32_t> first = tangents::weld({mesh.positions, mesh.normals, none, mesh.indices});
+    std::vector<std::size_t> slotOf(mesh.indices.size(), kNoSlot);
+    std::vector<std::uint32_t> corners(2 * count); // by slot
+    for (std::uint32_t c = 0; c < slotOf.size(); ++c) {
+        tangents::Edges e = tangents::edgesAt(mesh, c / 3, c % 3);
+        e.duv1 = {1, 0}; // as if u and v ran along the edges: the side is then that of the winding
+        e.duv2 = {0, -1};
+        const Side side = tangents::sideAt(e, mesh.normals[mesh.indices[c]]);
+        if (side != Side::none)
+            ++corners[slotOf[c] = tangents::slot(first[mesh.indices[c]], side)];
+    }
+    std::vector<std::size_t> slots(count);
+    for (std::size_t v = 0; v < count; ++v)
+        slots[v] = 2 * std::size_t(first[v])
+            + (corners[2 * std::size_t(first[v]) + 1] > corners[2 * std::size_t(first[v])] ? 1 : 0);
+    return adjacencyOf(mesh, slots, [&](std::uint32_t c) { return slotOf[c]; });
+}
+
+// ---- meshlets ------------------------------------------------------------------------------
+
+namespace {
+
+// Takes triangles until a limit is met. places: per vertex of the mesh its place in the meshlet, or kNone.
+class Cutter {
+public:
+    Cutter(RingMeshlets& out, std::size_t vertexCount, std::uint32_t maxVertices, std::uint32_t maxTriangles)
+        : out_(out), places_(vertexCount, kNone), maxVertices_(maxVertices), maxTriangles_(maxTriangles)
+    {
+    }
+
+    void add(std::uint32_t a, std::uint32_t b, std::uint32_t c)
+    {
+        const std::uint32_t fresh = std::uint32_t(places_[a] == kNone) + std::uint32_t(places_[b] == kNone && b != a)
+            + std::uint32_t(places_[c] == kNone && c != a && c != b);
+        if (open_.vertexCount + fresh > maxVertices_ || open_.triangleCount == maxTriangles_)
+            close();
+        const std::uint32_t packed = place(a) | place(b) << 8 | place(c) << 16;
+        out_.triangles.push_back(packed);
+        ++open_.triangleCount;
+    }
+
+    void close()
+    {
+        if (open_.triangleCount > 0)
+            out_.meshlets.push_back(open_);
+        for (std::uint32_t i = 0; i < open_.vertexCount; ++i)
+            places_[out_.vertices[open_.firstVertex + i]] = kNone;
+        open_ = {std::uint32_t(out_.vertices.size()), 0, std::uint32_t(out_.triangles.size()), 0};
+    }
+
+private:
+    std::uint32_t place(std::uint32_t vertex)
+    {
+        if (places_[vertex] == kNone) {
+            places_[vertex] = open_.vertexCount++;
+            out_.vertices.push_back(vertex);
+        }
+        return places_[vertex];
+    }
+
+    RingMeshlets& out_;
+    std::vector<std::uint32_t> places_;
+    std::uint32_t maxVertices_, maxTriangles_;
+    RingMeshlet open_;
+};
+
+// Gives each vertex of the meshlets the corners of its group.
+void addRings(RingMeshlets& out, const Adjacency& adjacency, std::size_t vertexCount)
+{
+    std::vector<std::uint32_t> groupOf(vertexCount);
+    for (std::uint32_t g = 0; g < adjacency.groups(); ++g)
+        for (std::uint32_t i = adjacency.vertexBegin[g]; i < adjacency.vertexBegin[g + 1]; ++i)
+            groupOf[adjacency.vertices[i]] = g;
+    out.ringBegin.reserve(out.vertices.size() + 1);
+    for (const std::uint32_t vertex : out.vertices) {
+        out.ringBegin.push_back(std::uint32_t(out.corners.size()));
+        const auto corners = adjacency.corners.begin();
+        const std::uint32_t g = groupOf[vertex];
+        out.corners.insert(out.corners.end(), corners + adjacency.cornerBegin[g],
+                           corners + adjacency.cornerBegin[g + 1]);
+    }
+    out.ringBegin.push_back(std::uint32_t(out.corners.size()));
+}
+
+} // namespace
+
+RingMeshlets ringMeshlets(const MeshView& mesh, std::uint32_t maxVertices, std::uint32_t maxTriangles)
+{
+    const Adjacency adjacency = makeAdjacency(mesh);
+    if (adjacency.vertexBegin.empty() || maxVertices < 3 || maxVertices > 256 || maxTriangles < 1)
+        return {};
+    RingMeshlets out;
+    out.triangles.reserve(mesh.indices.size() / 3);
+    Cutter cutter(out, mesh.positions.size(), maxVertices, maxTriangles);
+    for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3)
+        cutter.add(mesh.indices[i], mesh.indices[i + 1], mesh.indices[i + 2]);
+    cutter.close();
+    addRings(out, adjacency, mesh.positions.size());
+    return out;
+}
+
+// ---- provoking vertices --------------------------------------------------------------------
+
+namespace {
+
+// For each triangle the corner that provokes it. A vertex that provokes nothing yet goes first, and of
+// several such the one that has the fewest triangles left to provoke.
+std::vector<std::uint8_t> chooseCorners(std::span<const std::uint32_t> indices, std::size_t vertexCount)
+{
+    std::vector<std::uint32_t> left(vertexCount, 0); // triangles that have not chosen, per vertex
+    for (const std::uint32_t v : indices)
+        ++left[v];
+    std::vector<bool> provokes(vertexCount, false);
+    std::vector<std::uint8_t> chosen(indices.size() / 3, 0);
+    for (std::size_t f = 0; f < chosen.size(); ++f) {
+        const auto corner = indices.subspan(3 * f, 3);
+        std::uint32_t best = kNone;
+        for (std::uint8_t k = 0; k < 3; ++k) {
+            --left[corner[k]];
+            if (!provokes[corner[k]] && left[corner[k]] < best) {
+                best = left[corner[k]];
+                chosen[f] = k;
+            }
+        }
+        provokes[corner[chosen[f]]] = true;
+    }
+    return chosen;
+}
+
+} // namespace
+
+ProvokingMesh provokingMesh(std::span<const std::uint32_t> indices, std::size_t vertexCount, ProvokingVertex provoking)
+{
+    if (indices.size() % 3 != 0 || indices.size() >= std::size_t(1) << 31
+        || std::any_of(indices.begin(), indices.end(), [&](std::uint32_t i) { return i >= vertexCount; }))
+        return {};
+    const std::vector<std::uint8_t> chosen = chooseCorners(indices, vertexCount);
+    ProvokingMesh mesh;
+    mesh.corners.reserve(indices.size());
+    for (std::size_t f = 0; f < chosen.size(); ++f)
+        for (std::size_t k = 0; k < 3; ++k)
+            mesh.corners.push_back(indices[3 * f + (chosen[f] + k) % 3]);
+
+    // The copy of each vertex that was used last: near in the list, so that it is still in the cache.
+    std::vector<std::uint32_t> copies(vertexCount, kNone);
+    for (std::size_t f = chosen.size(); f-- > 0;)
+        copies[mesh.corners[3 * f]] = static_cast<std::uint32_t>(f);
+    for (std::size_t f = 0; f < chosen.size(); ++f)
+        mesh.sources.push_back(mesh.corners[3 * f]);
+    mesh.indices.reserve(indices.size());
+    for (std::uint32_t f = 0; f < chosen.size(); ++f) {
+        copies[mesh.corners[3 * f]] = f;
+        std::array<std::uint32_t, 3> triangle{f, 0, 0};
+        for (std::size_t k = 1; k < 3; ++k) {
+            std::uint32_t& copy = copies[mesh.corners[3 * f + k]];
+            if (copy == kNone) {
+                copy = static_cast<std::uint32_t>(mesh.sources.size());
+                mesh.sources.push_back(mesh.corners[3 * f + k]);
+            }
+            triangle[k] = copy;
+        }
+        if (provoking == ProvokingVertex::last)
+            std::rotate(triangle.begin(), triangle.begin() + 1, triangle.end());
+        mesh.indices.insert(mesh.indices.end(), triangle.begin(), triangle.end());
+    }
+    return mesh;
+}
+
+namespace {
+
+void addTriangle(std::vector<std::uint32_t>& out, std::uint32_t a, std::uint32_t b, std::uint32_t c)
+{
+    if (a != b && b != c && c != a)
+        out.insert(out.end(), {a, b, c});
+}
+
+// Calls add(run) for each run of indices between restarts.
+void forEachRun(std::span<const std::uint32_t> indices, std::uint32_t restart, const auto& add)
+{
+    while (!indices.empty()) {
+        const auto end = std::find(indices.begin(), indices.end(), restart);
+        const std::size_t size = static_cast<std::size_t>(end - indices.begin());
+        add(indices.first(size));
+        indices = indices.subspan(std::min(size + 1, indices.size()));
+    }
+}
+
+} // namespace
+
+std::vector<std::uint32_t> trianglesOfStrip(std::span<const std::uint32_t> indices, std::uint32_t restart)
+{
+    std::vector<std::uint32_t> out;
+    forEachRun(indices, restart, [&](std::span<const std::uint32_t> run) {
+        for (std::size_t i = 2; i < run.size(); ++i)
+            if (i % 2 == 0)
+                addTriangle(out, run[i - 2], run[i - 1], run[i]);
+            else
+                addTriangle(out, run[i - 1], run[i - 2], run[i]);
+    });
+    return out;
+}
+
+std::vector<std::uint32_t> trianglesOfFan(std::span<const std::uint32_t> indices, std::uint32_t restart)
+{
+    std::vector<std::uint32_t> out;
+    forEachRun(indices, restart, [&](std::span<const std::uint32_t> run) {
+        for (std::size_t i = 2; i < run.size(); ++i)
+            addTriangle(out, run[0], run[i - 1], run[i]);
+    });
+    return out;
+}
+
+} // namespace cotan
