@@ -106,11 +106,7 @@ def add_format():
     starts = int(text.split("std::array<ImageStart, ")[1].split(">")[0])
     text = text.replace(f"std::array<ImageStart, {starts}>", f"std::array<ImageStart, {starts + 1}>")
     table.write_text(text)
-    replace(table, '    {.name = "TGA",', """    {.name = "PPM",
-     .endings = {".ppm"},
-     .openImageIo = "pnm",
-     .reads = true},
-    {.name = "TGA",""")
+    replace(table, 'Format("TGA",', 'Format("PPM", {".ppm"}, "", "pnm", {&Format::reads}),\n        Format("TGA",')
     replace(table, '{{{"PNG",', '{{{"PPM", "P6"sv}, {"PNG",')
     return [table]
 

@@ -15,7 +15,6 @@
 #include "cotan/image.hpp"
 #include "files/file_registry.hpp"
 #include "files/output.hpp"
-#include "files/plan.hpp"
 #include "run_tool.hpp"
 
 namespace cotan {

@@ -221,16 +221,16 @@ TEST(HeatMap, goesThroughItsStops)
 
 TEST(Pictures, showDirectionsUvAndDepthWhereThereIsSurface)
 {
-    const Image d = directionsAsColor(directions({{1, -1, 0, 1}, {0, 0, 1, 0}}));
+    const Image d = asColor(Output::normal, directions({{1, -1, 0, 1}, {0, 0, 1, 0}}));
     EXPECT_EQ(d.bytes8()[0], 255);
     EXPECT_EQ(d.bytes8()[1], 0);
     EXPECT_EQ(d.bytes8()[2], 128);
     EXPECT_EQ(d.bytes8()[3], 255);
     EXPECT_EQ(d.bytes8()[7], 0); // no surface
-    const Image uv = uvAsColor(directions({{1.2f, -0.2f, 0, 1}}));
+    const Image uv = asColor(Output::uv, directions({{1.2f, -0.2f, 0, 1}}));
     EXPECT_EQ(uv.bytes8()[0], 51);
     EXPECT_EQ(uv.bytes8()[1], 204);
-    const Image depth = depthAsColor(directions({{2, 0, 0, 1}, {4, 0, 0, 1}, {3, 0, 0, 1}, {9, 0, 0, 0}}));
+    const Image depth = asColor(Output::depth, directions({{2, 0, 0, 1}, {4, 0, 0, 1}, {3, 0, 0, 1}, {9, 0, 0, 0}}));
     EXPECT_EQ(depth.bytes8()[0], 255);
     EXPECT_EQ(depth.bytes8()[4], 40);
     EXPECT_EQ(depth.bytes8()[8], 148); // 147.5 rounded

@@ -10,7 +10,7 @@
 #include "bake_objects.hpp"
 #include "cotan/convention.hpp"
 #include "cotan/image.hpp"
-#include "files/extension.hpp"
+#include "files/bytes.hpp"
 #include "gltf_open.hpp"
 #include "image/component_types.hpp"
 #include "likely_turn.hpp"

@@ -9,7 +9,6 @@
 
 #include "files/file_registry.hpp"
 #include "files/output.hpp"
-#include "files/report/report_format.hpp"
 #include "image/format_table.hpp"
 #include "terminal/printable.hpp"
 #include "terminal/progress_line.hpp"

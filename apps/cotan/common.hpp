@@ -12,7 +12,7 @@
 
 #include "core/loops.hpp"
 #include "cotan/result.hpp"
-#include "files/plan.hpp"
+#include "files/output.hpp"
 #include "files/report/json.hpp"
 #include "terminal/arguments.hpp"
 #include "terminal/progress_line.hpp"

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "cotan/model.hpp"
-#include "files/extension.hpp"
+#include "files/bytes.hpp"
 
 namespace cotan::app {
 

@@ -8,7 +8,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "files/extension.hpp"
+#include "files/bytes.hpp"
 #include "image/format_table.hpp"
 
 namespace cotan::viewer {

@@ -7,7 +7,7 @@
 
 #include "call.hpp"
 #include "cotan/files.hpp"
-#include "files/report/report_format.hpp"
+#include "files/report/json.hpp"
 #include "pictures.hpp"
 
 namespace cotan::c {
@@ -109,7 +109,7 @@ private:
     cotan_model_files f_;
 };
 
-// format: of files/report/report_format.hpp.
+// format: of files/report/json.hpp.
 inline void giveText(std::string_view format, const Json& json, cotan_bytes** to)
 {
     if (to)

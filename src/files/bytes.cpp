@@ -1,11 +1,14 @@
 #include "files/bytes.hpp"
 
+#include <algorithm>
 #include <cstdio>
 #include <memory>
 #include <system_error>
+#include <utility>
 
 #include <fmt/format.h>
 
+#include "cotan/files.hpp"
 #include "files/file_registry.hpp"
 
 namespace cotan {
@@ -52,6 +55,12 @@ Result<std::vector<std::byte>> readBytes(const fs::path& file, std::size_t limit
     return bytes;
 }
 
+Sandbox& sandboxOfProcess()
+{
+    static Sandbox sandbox;
+    return sandbox;
+}
+
 } // namespace
 
 Result<std::size_t> usableFileSize(const fs::path& file, std::size_t limit) { return usableSize(file, limit, true); }
@@ -65,5 +74,31 @@ Result<std::vector<std::byte>> readReplacedBytes(const fs::path& file, std::size
 {
     return readBytes(file, limit, false);
 }
+
+std::optional<fs::path> findInFolder(const fs::path& folder, std::string request, bool& outside)
+{
+    outside = false;
+    std::ranges::replace(request, '\\', '/');
+    if (request.empty() || request.find('\0') != std::string::npos)
+        return std::nullopt;
+
+    // An absolute path replaces the folder here; it is fine only if it leads back into it.
+    std::error_code error;
+    const fs::path wanted = fs::weakly_canonical(folder / request, error);
+    if (error)
+        return std::nullopt;
+    const auto [end, rest] = std::mismatch(folder.begin(), folder.end(), wanted.begin(), wanted.end());
+    if (end != folder.end()) {
+        outside = true;
+        return std::nullopt;
+    }
+    if (!fs::is_regular_file(wanted, error))
+        return std::nullopt;
+    return wanted;
+}
+
+void sandboxByDefault(Sandbox sandbox) { sandboxOfProcess() = std::move(sandbox); }
+
+Sandbox defaultSandbox() { return sandboxOfProcess(); }
 
 } // namespace cotan

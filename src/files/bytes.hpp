@@ -1,13 +1,26 @@
-// Whole files in, with checks before memory is taken.
+// Files that are read: their kind by their name, their bytes with checks before memory is taken, and the only folder
+// that a model may open files from.
 #pragma once
 
+#include <algorithm>
+#include <cctype>
 #include <cstddef>
 #include <filesystem>
+#include <optional>
+#include <string>
 #include <vector>
 
 #include "cotan/result.hpp"
 
 namespace cotan {
+
+// ".png" of "A.PNG".
+inline std::string lowerExtension(const std::filesystem::path& file)
+{
+    std::string text = file.extension().string();
+    std::ranges::transform(text, text.begin(), [](unsigned char c) { return std::tolower(c); });
+    return text;
+}
 
 // The size in bytes of a regular file that may be read.
 // Errors (ErrorKind::input): missing, not a regular file, empty, over `limit` bytes; those of noteInput.
@@ -19,5 +32,11 @@ Result<std::vector<std::byte>> readFileBytes(const std::filesystem::path& file, 
 
 // The same of an older output, which the new one replaces: no input, so noteInput does not hear of it.
 Result<std::vector<std::byte>> readReplacedBytes(const std::filesystem::path& file, std::size_t limit);
+
+// The file that `request`, as a model writes it, stands for: relative to `folder` (canonical), with
+// either slash. Nothing where it is missing or leads out of the folder, by an absolute path, by
+// ".." or by a symbolic link; `outside` is set in the latter case.
+std::optional<std::filesystem::path> findInFolder(const std::filesystem::path& folder, std::string request,
+                                                  bool& outside);
 
 } // namespace cotan

@@ -52,7 +52,7 @@ struct Input {
 
 struct Output {
     Identity identity;
-    std::string option, name;
+    std::string name; // behind the option that asks for it
     State state = State::planned;
     bool refused = false; // a reader was told so, and may have gone on without what he could not read
 };
@@ -80,14 +80,9 @@ FileRegistry& registry()
     return one;
 }
 
-std::string nameOf(const Output& output)
-{
-    return output.option.empty() ? output.name : output.option + " " + output.name;
-}
-
 Error replaces(FileRegistry& all, const Output& output, const std::string& input)
 {
-    return all.refuse(fmt::format("{} would replace {}, which is read", nameOf(output), input));
+    return all.refuse(fmt::format("{} would replace {}, which is read", output.name, input));
 }
 
 // A new output against everything that is known.
@@ -98,7 +93,7 @@ Status add(FileRegistry& all, Output output)
             return replaces(all, output, input.name);
     for (const Output& other : all.outputs)
         if (other.identity == output.identity)
-            return all.refuse(fmt::format("{} and {} are one file", nameOf(other), nameOf(output)));
+            return all.refuse(fmt::format("{} and {} are one file", other.name, output.name));
     all.outputs.push_back(std::move(output));
     return Done{};
 }
@@ -120,7 +115,8 @@ Status planOutput(const std::string& option, const fs::path& file)
     FileRegistry& all = registry();
     const std::lock_guard lock(all.mutex);
     const auto identity = all.on ? identityOf(file) : std::nullopt;
-    return identity ? add(all, {*identity, option, file.string()}) : Status(Done{});
+    const std::string name = option.empty() ? file.string() : option + " " + file.string();
+    return identity ? add(all, {*identity, name}) : Status(Done{});
 }
 
 void watchInputs(std::function<void(const fs::path&)> watcher) { registry().watcher = std::move(watcher); }
@@ -164,7 +160,7 @@ Status beginOutput(const fs::path& file)
             output.state = State::begun;
             return Done{};
         }
-    return add(all, {*identity, "", file.string(), State::begun});
+    return add(all, {*identity, file.string(), State::begun});
 }
 
 void endOutput(const fs::path& file)

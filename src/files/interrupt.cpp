@@ -7,8 +7,6 @@
 
 #include <unistd.h>
 
-#include "ending.hpp"
-
 namespace cotan {
 
 namespace {

@@ -35,4 +35,8 @@ private:
     int slot_; // -1: none
 };
 
+// Does not return where a signal on another thread is about to end the program: its parts are gone, and what would be
+// said of that is not the user's concern.
+void stayWhereEnding();
+
 } // namespace cotan

@@ -4,7 +4,9 @@
 #include <atomic>
 #include <cerrno>
 #include <charconv>
+#include <csignal>
 #include <cstdint>
+#include <set>
 #include <string>
 #include <string_view>
 #include <system_error>
@@ -15,7 +17,6 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "ending.hpp"
 #include "files/file_registry.hpp"
 
 namespace cotan {
@@ -199,16 +200,6 @@ Error OutputFile::failed(const Error& error) const
     return told;
 }
 
-Status writeBeside(const fs::path& file, const std::function<Status(const fs::path&)>& write)
-{
-    auto output = OutputFile::begin(file);
-    if (!output)
-        return output.error();
-    if (Status written = write(output->path()); !written)
-        return output->failed(written.error());
-    return output->commit();
-}
-
 Status commitTogether(std::span<OutputFile> files)
 {
     const InterruptsHeld held;
@@ -240,9 +231,12 @@ Status writeBytes(const fs::path& file, std::span<const std::byte> bytes)
 
 Status writeFileWhole(const fs::path& file, std::string_view text)
 {
-    return writeBeside(file, [&](const fs::path& part) {
-        return writeBytes(part, std::as_bytes(std::span(text.data(), text.size())));
-    });
+    auto output = OutputFile::begin(file);
+    if (!output)
+        return output.error();
+    if (Status written = writeBytes(output->path(), std::as_bytes(std::span(text.data(), text.size()))); !written)
+        return output->failed(written.error());
+    return output->commit();
 }
 
 Status checkWritable(const fs::path& file, bool makesFolder)
@@ -283,6 +277,50 @@ std::vector<fs::path> leftParts(const fs::path& folder)
             parts.push_back(at->path());
     }
     return parts;
+}
+
+std::vector<PlannedOutput> plannedIn(const std::string& option, const fs::path& folder,
+                                     const std::vector<std::string>& names)
+{
+    std::vector<PlannedOutput> files;
+    for (const std::string& name : names)
+        files.push_back({option, folder / name, /*makesFolder*/ true});
+    return files;
+}
+
+Result<std::vector<std::string>> planOutputs(std::vector<PlannedOutput> files)
+{
+    std::erase_if(files, [](const PlannedOutput& output) { return output.file.empty(); });
+    for (const PlannedOutput& output : files)
+        if (Status planned = planOutput(output.option, output.file); !planned)
+            return planned.error();
+    std::set<fs::path> folders, made;
+    for (const PlannedOutput& output : files) {
+        const fs::path folder = folderOf(output.file).lexically_normal();
+        folders.insert(folder);
+        if (output.makesFolder)
+            made.insert(folder);
+        if (Status writable = checkWritable(output.file, made.contains(folder)); !writable)
+            return writable.error();
+    }
+    std::vector<std::string> left;
+    for (const fs::path& folder : folders)
+        if (const auto parts = leftParts(folder); !parts.empty())
+            left.push_back(
+                fmt::format("{}: {} unfinished file{} of a run that was killed, {}{}; delete what is not needed",
+                            folder.string(), parts.size(), parts.size() > 1 ? "s" : "",
+                            parts.front().filename().string(), parts.size() > 1 ? " and others" : ""));
+    return left;
+}
+
+Status makeFolder(const fs::path& folder)
+{
+    std::error_code error;
+    fs::create_directories(folder, error);
+    if (!fs::is_directory(folder))
+        return outputError(fmt::format("{}: cannot make this folder: {}", folder.string(),
+                                       error ? error.message() : "a file is in the way"));
+    return Done{};
 }
 
 } // namespace cotan

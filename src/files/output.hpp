@@ -5,8 +5,8 @@
 
 #include <cstddef>
 #include <filesystem>
-#include <functional>
 #include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -46,9 +46,6 @@ private:
     GuardedPart guard_;
 };
 
-// Calls `write` with the name beside and commits. Errors: those of `write`, in the user's words, and of OutputFile.
-Status writeBeside(const std::filesystem::path& file, const std::function<Status(const std::filesystem::path&)>& write);
-
 // All of them or none; the last is put in its place last. Interrupts wait. Where one cannot be renamed, those before it
 // that were new are removed; those that replaced a file stay. Errors: ErrorKind::output.
 Status commitTogether(std::span<OutputFile> files);
@@ -71,5 +68,25 @@ void removeParts(const std::filesystem::path& folder, pid_t process);
 
 // "no space left on the device", "permission denied": the system's reason for an errno.
 std::string reasonOf(int number);
+
+// ---- all that a program will write, looked at before long work ------------------------------
+
+// A file that will be written.
+struct PlannedOutput {
+    std::string option; // that asked for it, for messages
+    std::filesystem::path file;
+    bool makesFolder = false; // its folder will be made
+};
+
+// The files of these names in a folder that an option names.
+std::vector<PlannedOutput> plannedIn(const std::string& option, const std::filesystem::path& folder,
+                                     const std::vector<std::string>& names);
+
+// Plans each (see planOutput) and looks whether it can come to be there (see checkWritable); empty names are left out.
+// Returns a sentence about each folder in which a killed run left unfinished files. Errors: those of the two.
+Result<std::vector<std::string>> planOutputs(std::vector<PlannedOutput> files);
+
+// Makes a folder and those above it. Errors: ErrorKind::output.
+Status makeFolder(const std::filesystem::path& folder);
 
 } // namespace cotan

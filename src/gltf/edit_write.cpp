@@ -8,7 +8,6 @@
 
 #include "edit_state.hpp"
 #include "files/bytes.hpp"
-#include "files/extension.hpp"
 #include "files/output.hpp"
 #include "image/format_table.hpp"
 

@@ -6,8 +6,6 @@
 #include <string_view>
 
 #include "files/bytes.hpp"
-#include "files/extension.hpp"
-#include "files/folder.hpp"
 
 namespace cotan {
 

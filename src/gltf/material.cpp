@@ -5,7 +5,7 @@
 
 #include "core/loops.hpp"
 #include "cotan/image.hpp"
-#include "files/folder.hpp"
+#include "files/bytes.hpp"
 #include "image/component_types.hpp"
 
 namespace cotan {

@@ -2,15 +2,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 #include <fmt/format.h>
 
+#include "codecs.hpp"
 #include "files/output.hpp"
 #include "formats.hpp"
 #include "image/component_types.hpp"
 #include "image/format_table.hpp"
-#include "webp.hpp"
 
 namespace cotan {
 
@@ -22,38 +23,12 @@ bool isGif(const std::filesystem::path& file)
     return format && format->name == "GIF";
 }
 
-// A GIF is written beside its place by the module.
-class GifFile : public AnimationWriter {
-public:
-    GifFile(OutputFile output, std::unique_ptr<AnimationWriter> writer)
-        : output_(std::move(output)), writer_(std::move(writer))
-    {
-    }
-
-    Status add(const Image& picture) override { return withOptionNames(writer_->add(picture)); }
-
-    Status finish() override
-    {
-        if (Status done = writer_->finish(); !done)
-            return withOptionNames(std::move(done));
-        return output_.commit();
-    }
-
-private:
-    Status withOptionNames(Status status) const
-    {
-        return status ? std::move(status) : Status(output_.failed(status.error()));
-    }
-
-    OutputFile output_;
-    std::unique_ptr<AnimationWriter> writer_;
-};
-
-// Of 8 bits, whatever comes.
+// Of 8 bits, whatever comes. output: where the module writes a GIF, beside its place; WebP's writer has its own.
 class EightBits : public AnimationWriter {
 public:
-    EightBits(std::unique_ptr<AnimationWriter> writer, AnimationFormat format, std::string name)
-        : writer_(std::move(writer)), format_(format), name_(std::move(name))
+    EightBits(std::optional<OutputFile> output, std::unique_ptr<AnimationWriter> writer, AnimationFormat format,
+              std::string name)
+        : output_(std::move(output)), writer_(std::move(writer)), format_(format), name_(std::move(name))
     {
     }
 
@@ -62,12 +37,22 @@ public:
         if (picture.width != format_.width || picture.height != format_.height)
             return outputError(fmt::format("{}: expected pictures of {} x {}; found {} x {}", name_, format_.width,
                                            format_.height, picture.width, picture.height));
-        return picture.type == PixelType::unorm8 ? writer_->add(picture) : writer_->add(toUnorm8(picture));
+        return told(picture.type == PixelType::unorm8 ? writer_->add(picture) : writer_->add(toUnorm8(picture)));
     }
 
-    Status finish() override { return writer_->finish(); }
+    Status finish() override
+    {
+        Status done = told(writer_->finish());
+        return done && output_ ? output_->commit() : done;
+    }
 
 private:
+    Status told(Status status) const
+    {
+        return status || !output_ ? std::move(status) : Status(output_->failed(status.error()));
+    }
+
+    std::optional<OutputFile> output_;
     std::unique_ptr<AnimationWriter> writer_;
     AnimationFormat format_;
     std::string name_;
@@ -88,9 +73,9 @@ Status checkFormat(const std::filesystem::path& file, const AnimationFormat& for
 
 Result<std::unique_ptr<AnimationWriter>> createGif(const std::filesystem::path& file, const AnimationFormat& format)
 {
-    const auto formats = imageFormats();
+    const auto formats = imageFormats(file.string());
     if (!formats)
-        return reworded(formats.error(), fmt::format("{}: {}", file.string(), formats.error().message));
+        return formats.error();
     auto output = OutputFile::begin(file);
     if (!output)
         return output.error();
@@ -99,7 +84,8 @@ Result<std::unique_ptr<AnimationWriter>> createGif(const std::filesystem::path& 
     auto writer = (*formats)->createGif(output->path(), rounded, file.string());
     if (!writer)
         return output->failed(writer.error());
-    return std::unique_ptr<AnimationWriter>(new GifFile(std::move(*output), std::move(*writer)));
+    return std::unique_ptr<AnimationWriter>(
+        new EightBits(std::move(*output), std::move(*writer), format, file.string()));
 }
 
 } // namespace
@@ -116,10 +102,12 @@ Result<std::unique_ptr<AnimationWriter>> createAnimation(const std::filesystem::
 {
     if (Status fits = checkFormat(file, format); !fits)
         return fits.error();
-    auto writer = isGif(file) ? createGif(file, format) : createWebpAnimation(file, format);
+    if (isGif(file))
+        return createGif(file, format);
+    auto writer = createWebpAnimation(file, format);
     if (!writer)
         return writer.error();
-    return std::unique_ptr<AnimationWriter>(new EightBits(std::move(*writer), format, file.string()));
+    return std::unique_ptr<AnimationWriter>(new EightBits(std::nullopt, std::move(*writer), format, file.string()));
 }
 
 } // namespace cotan

@@ -21,22 +21,10 @@ DdsFormat dxgiFormat(std::uint64_t format)
         std::uint64_t first, last;
         DdsFormat bytes;
     };
-    constexpr std::array<Range, 16> kRanges = {{{1, 4, {0, 16}},
-                                                {5, 8, {0, 12}},
-                                                {9, 18, {0, 8}},
-                                                {23, 43, {0, 4}},
-                                                {48, 59, {0, 2}},
-                                                {60, 65, {0, 1}},
-                                                {70, 72, {8, 0}},
-                                                {73, 78, {16, 0}},
-                                                {79, 81, {8, 0}},
-                                                {82, 84, {16, 0}},
-                                                {85, 86, {0, 2}},
-                                                {87, 88, {0, 4}},
-                                                {90, 91, {0, 4}},
-                                                {92, 93, {0, 4}},
-                                                {94, 96, {16, 0}},
-                                                {97, 99, {16, 0}}}};
+    constexpr Range kRanges[] = {{1, 4, {0, 16}},  {5, 8, {0, 12}},   {9, 18, {0, 8}},   {23, 43, {0, 4}},
+                                 {48, 59, {0, 2}}, {60, 65, {0, 1}},  {70, 72, {8, 0}},  {73, 78, {16, 0}},
+                                 {79, 81, {8, 0}}, {82, 84, {16, 0}}, {85, 86, {0, 2}},  {87, 88, {0, 4}},
+                                 {90, 91, {0, 4}}, {92, 93, {0, 4}},  {94, 96, {16, 0}}, {97, 99, {16, 0}}};
     for (const Range& range : kRanges)
         if (format >= range.first && format <= range.last)
             return range.bytes;
@@ -79,7 +67,7 @@ DdsFormat ddsFormat(Numbers& numbers)
 } // namespace
 
 // Microsoft's DDS_HEADER and DDS_HEADER_DXT10; the first level only.
-Problem checkDds(File& file)
+Problem checkDds(File& file, const LoadLimits&)
 {
     Numbers numbers = numbersOf(file);
     const std::uint64_t height = numbers.at(12, 4), width = numbers.at(16, 4);

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "core/named_values.hpp"
 #include "file_layout.hpp"
 
 namespace cotan::oiio {
@@ -30,30 +31,12 @@ std::string nameAt(Numbers& numbers, std::uint64_t& at)
 // where the two differ, the next attribute is not where the size says.
 std::uint64_t exrValueBytes(Numbers& numbers, std::uint64_t at, std::string_view type, std::uint64_t size)
 {
-    constexpr std::array<std::pair<std::string_view, std::uint64_t>, 24> kFixed = {{{"box2f", 16},
-                                                                                    {"box2i", 16},
-                                                                                    {"chromaticities", 32},
-                                                                                    {"compression", 1},
-                                                                                    {"deepImageState", 1},
-                                                                                    {"double", 8},
-                                                                                    {"envmap", 1},
-                                                                                    {"float", 4},
-                                                                                    {"int", 4},
-                                                                                    {"keycode", 28},
-                                                                                    {"lineOrder", 1},
-                                                                                    {"m33d", 72},
-                                                                                    {"m33f", 36},
-                                                                                    {"m44d", 128},
-                                                                                    {"m44f", 64},
-                                                                                    {"rational", 8},
-                                                                                    {"tiledesc", 9},
-                                                                                    {"timecode", 8},
-                                                                                    {"v2d", 16},
-                                                                                    {"v2f", 8},
-                                                                                    {"v2i", 8},
-                                                                                    {"v3d", 24},
-                                                                                    {"v3f", 12},
-                                                                                    {"v3i", 12}}};
+    constexpr Named<std::uint64_t> kFixed[] = {
+        {"compression", 1}, {"deepImageState", 1}, {"envmap", 1},   {"lineOrder", 1}, {"float", 4},
+        {"int", 4},         {"double", 8},         {"rational", 8}, {"timecode", 8},  {"v2f", 8},
+        {"v2i", 8},         {"tiledesc", 9},       {"v3f", 12},     {"v3i", 12},      {"box2f", 16},
+        {"box2i", 16},      {"v2d", 16},           {"v3d", 24},     {"keycode", 28},  {"chromaticities", 32},
+        {"m33f", 36},       {"m44f", 64},          {"m33d", 72},    {"m44d", 128}};
     if (type == "chlist") {
         std::uint64_t end = at;
         while (!nameAt(numbers, end).empty() && !numbers.past)
@@ -72,8 +55,7 @@ std::uint64_t exrValueBytes(Numbers& numbers, std::uint64_t at, std::string_view
         const std::uint64_t pixels = numbers.at(at, 4) * numbers.at(at + 4, 4);
         return pixels > size ? size + 1 : 8 + 4 * pixels;
     }
-    const auto fixed = std::ranges::find(kFixed, type, &std::pair<std::string_view, std::uint64_t>::first);
-    return fixed == kFixed.end() ? size : fixed->second;
+    return valueOf(kFixed, type).value_or(size);
 }
 
 // One attribute behind its name; `at` moves behind it.

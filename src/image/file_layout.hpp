@@ -39,7 +39,7 @@ inline Numbers numbersOf(File& file, bool bigEndian = false)
 // limits: on what a reader takes for one row, strip or tile.
 Problem checkTiff(File& file, const LoadLimits& limits);
 Problem checkExr(File& file, const LoadLimits& limits);
-Problem checkDds(File& file);
+Problem checkDds(File& file, const LoadLimits& limits);
 Problem checkBmp(File& file, const LoadLimits& limits);
 
 } // namespace cotan::oiio

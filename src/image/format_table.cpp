@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "files/extension.hpp"
+#include "files/bytes.hpp"
 
 namespace cotan {
 

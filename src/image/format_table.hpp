@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <filesystem>
 #include <functional>
+#include <initializer_list>
 #include <span>
 #include <string>
 #include <string_view>
@@ -18,8 +19,8 @@ struct ImageFormat {
     std::string_view name; // in messages
     // Of file names, in lower case, the usual one first; the second may be empty.
     std::array<std::string_view, 2> endings;
-    std::string_view mime = {};        // in glTF, of its own or of an extension; empty: glTF has no such images
-    std::string_view openImageIo = {}; // name of OpenImageIO's reader and writer; empty: it is not asked
+    std::string_view mime;        // in glTF, of its own or of an extension; empty: glTF has no such images
+    std::string_view openImageIo; // name of OpenImageIO's reader and writer; empty: it is not asked
 
     bool reads = false;     // readImage
     bool readsRows = false; // by openRows without the whole image in memory, most files at least
@@ -33,6 +34,15 @@ struct ImageFormat {
     bool alpha = false;
     bool lossy = false; // changes the values
     bool frame = false; // Image::frame
+
+    // has: what of these holds.
+    constexpr ImageFormat(std::string_view name_, std::array<std::string_view, 2> endings_, std::string_view mime_,
+                          std::string_view openImageIo_, std::initializer_list<bool ImageFormat::*> has)
+        : name(name_), endings(endings_), mime(mime_), openImageIo(openImageIo_)
+    {
+        for (bool ImageFormat::*what : has)
+            this->*what = true;
+    }
 };
 
 // How files begin, `at` bytes from the start. A format may have several, or none (TGA).
@@ -43,89 +53,32 @@ struct ImageStart {
     std::string_view before = {}; // from the start on
 };
 
-inline constexpr std::array<ImageFormat, 12> kImageFormats = {{
-    {.name = "PNG",
-     .endings = {".png"},
-     .mime = "image/png",
-     .reads = true,
-     .readsRows = true,
-     .writes = true,
-     .bits8 = true,
-     .bits16 = true,
-     .alpha = true,
-     .frame = true},
-    {.name = "EXR",
-     .endings = {".exr"},
-     .openImageIo = "openexr",
-     .reads = true,
-     .readsRows = true,
-     .writes = true,
-     .halfs = true,
-     .floats = true,
-     .negative = true,
-     .alpha = true,
-     .frame = true},
-    {.name = "TIFF",
-     .endings = {".tif", ".tiff"},
-     .openImageIo = "tiff",
-     .reads = true,
-     .readsRows = true,
-     .writes = true,
-     .bits8 = true,
-     .bits16 = true,
-     .floats = true,
-     .negative = true,
-     .alpha = true},
-    {.name = "TGA",
-     .endings = {".tga"},
-     .openImageIo = "targa",
-     .reads = true,
-     .writes = true,
-     .bits8 = true,
-     .alpha = true},
-    {.name = "JPEG",
-     .endings = {".jpg", ".jpeg"},
-     .mime = "image/jpeg",
-     .openImageIo = "jpeg",
-     .reads = true,
-     .writes = true,
-     .bits8 = true,
-     .lossy = true},
-    {.name = "HDR",
-     .endings = {".hdr"},
-     .openImageIo = "hdr",
-     .reads = true,
-     .readsRows = true,
-     .writes = true,
-     .floats = true},
-    {.name = "DDS",
-     .endings = {".dds"},
-     .mime = "image/vnd-ms.dds",
-     .openImageIo = "dds",
-     .reads = true,
-     .texture = true,
-     .bits8 = true,
-     .alpha = true},
-    {.name = "KTX2",
-     .endings = {".ktx2"},
-     .mime = "image/ktx2",
-     .reads = true,
-     .texture = true,
-     .bits8 = true,
-     .alpha = true,
-     .frame = true},
-    {.name = "WebP",
-     .endings = {".webp"},
-     .mime = "image/webp",
-     .reads = true,
-     .animation = true,
-     .bits8 = true,
-     .alpha = true,
-     .lossy = true},
-    {.name = "GIF", .endings = {".gif"}, .animation = true, .bits8 = true, .lossy = true},
-    {.name = "BMP", .endings = {".bmp"}, .openImageIo = "bmp", .reads = true},
-    {.name = "AVIF", .endings = {".avif"}, .mime = "image/avif"},
-}};
+inline constexpr std::array<ImageFormat, 12> kImageFormats = [] {
+    using Format = ImageFormat;
+    return std::array<ImageFormat, 12>{
+        Format("PNG", {".png"}, "image/png", "",
+               {&Format::reads, &Format::readsRows, &Format::writes, &Format::bits8, &Format::bits16, &Format::alpha,
+                &Format::frame}),
+        Format("EXR", {".exr"}, "", "openexr",
+               {&Format::reads, &Format::readsRows, &Format::writes, &Format::halfs, &Format::floats, &Format::negative,
+                &Format::alpha, &Format::frame}),
+        Format("TIFF", {".tif", ".tiff"}, "", "tiff",
+               {&Format::reads, &Format::readsRows, &Format::writes, &Format::bits8, &Format::bits16, &Format::floats,
+                &Format::negative, &Format::alpha}),
+        Format("TGA", {".tga"}, "", "targa", {&Format::reads, &Format::writes, &Format::bits8, &Format::alpha}),
+        Format("JPEG", {".jpg", ".jpeg"}, "image/jpeg", "jpeg",
+               {&Format::reads, &Format::writes, &Format::bits8, &Format::lossy}),
+        Format("HDR", {".hdr"}, "", "hdr", {&Format::reads, &Format::readsRows, &Format::writes, &Format::floats}),
+        Format("DDS", {".dds"}, "image/vnd-ms.dds", "dds",
+               {&Format::reads, &Format::texture, &Format::bits8, &Format::alpha}),
+        Format("KTX2", {".ktx2"}, "image/ktx2", "",
+               {&Format::reads, &Format::texture, &Format::bits8, &Format::alpha, &Format::frame}),
+        Format("WebP", {".webp"}, "image/webp", "",
+               {&Format::reads, &Format::animation, &Format::bits8, &Format::alpha, &Format::lossy}),
+        Format("GIF", {".gif"}, "", "", {&Format::animation, &Format::bits8, &Format::lossy}),
+        Format("BMP", {".bmp"}, "", "bmp", {&Format::reads}),
+        Format("AVIF", {".avif"}, "image/avif", "", {})};
+}();
 
 inline constexpr std::array<ImageStart, 16> kImageStarts = [] {
     using namespace std::string_view_literals;

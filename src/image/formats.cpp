@@ -41,18 +41,12 @@ Result<const ImageFormats*> loadFormats()
 
 bool readsOtherFormats() { return kBuilt; }
 
-Result<const ImageFormats*> imageFormats()
+Result<const ImageFormats*> imageFormats(const std::string& name)
 {
     static const Result<const ImageFormats*> formats = loadFormats();
+    if (!formats)
+        return reworded(formats.error(), name + ": " + formats.error().message);
     return formats;
-}
-
-bool knownImage(std::span<const std::byte> bytes, const std::string& name)
-{
-    if (const ImageFormat* const format = imageFormatOf(bytes))
-        return !format->openImageIo.empty();
-    const ImageFormat* const named = imageFormatOf(fs::path(name));
-    return named && named->openImageIo == kNoStart && !bytes.empty();
 }
 
 bool writesItself(const fs::path& file)

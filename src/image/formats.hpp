@@ -44,15 +44,11 @@ struct ImageFormats {
 // Whether this build has the module.
 bool readsOtherFormats();
 
-// The module. Errors: ErrorKind::unavailable where it is missing or does not load.
-Result<const ImageFormats*> imageFormats();
+// The module, for a file of that name. Errors: ErrorKind::unavailable where it is missing or does not load.
+Result<const ImageFormats*> imageFormats(const std::string& name);
 
 // OpenImageIO's name of the format whose files begin in no way of their own: the name of the file says it.
 inline constexpr std::string_view kNoStart = "targa";
-
-// Whether the bytes, or the extension of `name`, are of a format that the module reads. What is unknown is refused
-// without loading it.
-bool knownImage(std::span<const std::byte> bytes, const std::string& name);
 
 // Whether writeImage and createRows write files of that name without the module: PNG.
 bool writesItself(const std::filesystem::path& file);

@@ -5,17 +5,13 @@
 
 #include <fmt/format.h>
 
+#include "codecs.hpp"
 #include "files/bytes.hpp"
 #include "files/output.hpp"
 #include "formats.hpp"
 #include "image/component_types.hpp"
 #include "image/format_table.hpp"
 #include "image/pending.hpp"
-#include "jpeg.hpp"
-#include "ktx2.hpp"
-#include "png.hpp"
-#include "sandboxed_images.hpp"
-#include "webp.hpp"
 
 namespace cotan {
 
@@ -43,10 +39,18 @@ namespace {
 
 Result<Image> readOther(std::span<const std::byte> bytes, const std::string& name, const LoadLimits& limits)
 {
-    const auto formats = imageFormats();
-    if (!formats)
-        return reworded(formats.error(), fmt::format("{}: {}", name, formats.error().message));
-    return (*formats)->read(bytes, name, limits);
+    const auto formats = imageFormats(name);
+    return formats ? (*formats)->read(bytes, name, limits) : formats.error();
+}
+
+// Whether the bytes, or the extension of `name`, are of a format that the module reads. What is unknown is refused
+// without loading it.
+bool knownImage(std::span<const std::byte> bytes, const std::string& name)
+{
+    if (const ImageFormat* const format = imageFormatOf(bytes))
+        return !format->openImageIo.empty();
+    const ImageFormat* const named = imageFormatOf(std::filesystem::path(name));
+    return named && named->openImageIo == kNoStart && !bytes.empty();
 }
 
 Result<Image> decode(std::span<const std::byte> bytes, const std::string& name, const LoadLimits& limits)
@@ -110,10 +114,8 @@ Status write(const std::filesystem::path& file, const Image& image, const std::s
 {
     if (writesItself(file))
         return image.type == PixelType::float32 ? writePng(file, toUnorm8(image), name) : writePng(file, image, name);
-    const auto formats = imageFormats();
-    if (!formats)
-        return reworded(formats.error(), fmt::format("{}: {}", name, formats.error().message));
-    return (*formats)->write(file, image, name);
+    const auto formats = imageFormats(name);
+    return formats ? (*formats)->write(file, image, name) : formats.error();
 }
 
 } // namespace
@@ -155,6 +157,41 @@ Status writeTogether(std::span<const PlacedImage> images)
 {
     auto pending = writePending(images);
     return pending ? commitTogether(*pending) : pending.error();
+}
+
+namespace {
+
+Result<EncodedLike> asPng(const Image& image, std::string whyNot)
+{
+    auto png = encodePng(image);
+    if (!png)
+        return png.error();
+    return EncodedLike{*std::move(png), "PNG", "image/png", 0, std::move(whyNot)};
+}
+
+} // namespace
+
+Result<EncodedLike> encodeLike(const Image& image, std::span<const std::byte> old)
+{
+    const ImageFormat* const format = imageFormatOf(old);
+    if (!format || format->name == "PNG")
+        return asPng(image, {});
+    const std::string name(format->name);
+    if (name != "JPEG" && name != "WebP")
+        return asPng(image, fmt::format("{} is not written here", name));
+    if (image.type != PixelType::unorm8)
+        return asPng(image, fmt::format("{} has 8 bits, and 16 are wanted", name));
+    if (name == "JPEG" && !isOpaque(image))
+        return asPng(image, "JPEG has no alpha");
+    int quality = 0;
+    auto bytes = name == "JPEG" ? writeJpegLike(image, old, quality) : writeWebpLike(image, old, quality);
+    if (!bytes)
+        return asPng(image,
+                     name == "JPEG" ? "a grey JPEG has no directions, or this build has no libjpeg"
+                                    : "this build has no libwebp");
+    if (!*bytes)
+        return bytes->error();
+    return EncodedLike{**std::move(bytes), name, std::string(format->mime), quality};
 }
 
 } // namespace cotan

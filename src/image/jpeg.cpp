@@ -1,4 +1,4 @@
-#include "jpeg.hpp"
+#include "codecs.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -12,7 +12,7 @@
 #include <jerror.h>
 #include <jpeglib.h>
 
-#include "image/size.hpp"
+#include "image/checks.hpp"
 
 namespace cotan {
 

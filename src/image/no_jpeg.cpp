@@ -1,5 +1,5 @@
 // JPEG where there is no libjpeg: what reads all other formats may read it, too.
-#include "jpeg.hpp"
+#include "codecs.hpp"
 
 namespace cotan {
 

@@ -1,8 +1,7 @@
 // PNG where there is no libpng.
+#include "codecs.hpp"
 #include "core/not_built.hpp"
 #include "cotan/image.hpp"
-#include "png.hpp"
-#include "png_rows.hpp"
 
 namespace cotan {
 

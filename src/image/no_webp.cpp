@@ -1,8 +1,8 @@
 // WebP where there is no libwebp.
 #include <fmt/format.h>
 
+#include "codecs.hpp"
 #include "core/not_built.hpp"
-#include "webp.hpp"
 
 namespace cotan {
 

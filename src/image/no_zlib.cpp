@@ -1,6 +1,6 @@
 // zlib where there is none.
+#include "codecs.hpp"
 #include "core/not_built.hpp"
-#include "ktx2.hpp"
 
 namespace cotan {
 

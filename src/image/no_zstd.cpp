@@ -1,6 +1,6 @@
 // Zstandard where there is no libzstd.
+#include "codecs.hpp"
 #include "core/not_built.hpp"
-#include "ktx2.hpp"
 
 namespace cotan {
 

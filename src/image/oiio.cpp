@@ -1,4 +1,4 @@
-// The module of image formats: OpenImageIO behind the functions of image_formats.hpp.
+// The module of image formats: OpenImageIO behind the functions of formats.hpp.
 #include "oiio.hpp"
 #include "oiio_file.hpp"
 
@@ -11,10 +11,10 @@
 
 #include <fmt/format.h>
 
+#include "core/named_values.hpp"
 #include "formats.hpp"
+#include "image/checks.hpp"
 #include "image/component_types.hpp"
-#include "image/frame_key.hpp"
-#include "image/size.hpp"
 
 namespace cotan {
 
@@ -90,10 +90,6 @@ OIIO::ImageSpec readConfig()
     return config;
 }
 
-const ImageFormat& outputFormat(const std::filesystem::path& name) { return *imageFormatOf(name); }
-
-int channelsOf(const ImageFormat& format) { return format.alpha ? 4 : 3; }
-
 OIIO::TypeDesc typeToWrite(const ImageFormat& format, PixelType type)
 {
     if (!format.bits16 && !format.floats)
@@ -125,17 +121,33 @@ std::string frameOf(const OIIO::ImageSpec& spec, const std::string& format)
     return std::string(frameText(value));
 }
 
-Problem checkFileLayout(File& file, const std::string& format, const LoadLimits& limits)
+namespace {
+
+Error broken(const std::string& name, const std::string& format, const std::string& why)
 {
-    if (format == "tiff")
-        return checkTiff(file, limits);
-    if (format == "openexr")
-        return checkExr(file, limits);
-    if (format == "dds")
-        return checkDds(file);
-    if (format == "bmp")
-        return checkBmp(file, limits);
-    return std::nullopt;
+    return inputError(fmt::format("{}: broken {} image: {}", name, format, oneLine(why)));
+}
+
+} // namespace
+
+Error brokenToOiio(const std::string& name, const std::string& format, const std::string& words)
+{
+    return broken(name, format, "expected data that OpenImageIO can read, it found: " + words);
+}
+
+std::optional<Error> checkFileLayout(File& file, const std::string& name, const std::string& format,
+                                     const LoadLimits& limits)
+{
+    using Check = Problem (*)(File&, const LoadLimits&);
+    constexpr Named<Check> kChecks[] = {
+        {"tiff", checkTiff}, {"openexr", checkExr}, {"dds", checkDds}, {"bmp", checkBmp}};
+    const auto check = valueOf(kChecks, format);
+    const Problem problem = check ? (*check)(file, limits) : Problem();
+    if (!problem)
+        return std::nullopt;
+    Error error = broken(name, format, *problem);
+    error.memory = problem.memory;
+    return error;
 }
 
 // TIFF row by row: of a whole strip OpenImageIO does not notice what libtiff or zlib cannot decode, and hands out what
@@ -222,58 +234,47 @@ private:
     std::span<const std::byte> bytes_;
 };
 
-Result<Image> decode(std::span<const std::byte> bytes, const std::string& name, const std::string& format,
-                     const LoadLimits& limits)
-{
-    const auto broken = [&](const std::string& why) {
-        return inputError(fmt::format("{}: broken {} image: {}", name, format, oneLine(why)));
-    };
-    MemoryFile memory(bytes);
-    if (const auto problem = checkFileLayout(memory, format, limits)) {
-        Error error = broken(*problem);
-        error.memory = problem.memory;
-        return error;
-    }
-    const auto input = OIIO::ImageInput::create(format);
-    if (!input)
-        return broken(foundByOiio(OIIO::geterror()));
-    input->threads(1); // callers decode images side by side
-    input->set_ioproxy(&memory);
-    OIIO::ImageSpec spec;
-    if (!input->open("image." + format, spec, readConfig()))
-        return broken(foundByOiio(input->geterror()));
-    if (auto error = checkSpec(spec, name, limits))
-        return *error;
-
-    Image image = makeImage(spec.width, spec.height, pixelType(spec.format), name);
-    const int channels = std::min(spec.nchannels, 4);
-    const bool done = spec.tile_width > 0 ? input->read_image(0, 0, 0, channels, typeDesc(image.type),
-                                                              image.data.data(), OIIO::stride_t(image.bytesPerPixel()))
-                                          : readScanlines(*input, 0, channels, image);
-    if (!done)
-        return broken(foundByOiio(input->geterror()));
-    if (format == "dds" && channels == 2)
-        spreadTwo(image);
-    else
-        completeChannels(image, channels);
-    image.frame = frameOf(spec, format);
-    image.channels = channels;
-    return image;
-}
-
 Result<Image> readWithOiio(std::span<const std::byte> bytes, const std::string& name, const LoadLimits& limits)
 {
     const std::string format = formatOf(bytes);
     try {
-        return decode(bytes, name, format, limits);
+        MemoryFile memory(bytes);
+        if (auto error = checkFileLayout(memory, name, format, limits))
+            return *error;
+        const auto input = OIIO::ImageInput::create(format);
+        if (!input)
+            return brokenToOiio(name, format, OIIO::geterror());
+        input->threads(1); // callers decode images side by side
+        input->set_ioproxy(&memory);
+        OIIO::ImageSpec spec;
+        if (!input->open("image." + format, spec, readConfig()))
+            return brokenToOiio(name, format, input->geterror());
+        if (auto error = checkSpec(spec, name, limits))
+            return *error;
+
+        Image image = makeImage(spec.width, spec.height, pixelType(spec.format), name);
+        const int channels = std::min(spec.nchannels, 4);
+        const bool done = spec.tile_width > 0
+            ? input->read_image(0, 0, 0, channels, typeDesc(image.type), image.data.data(),
+                                OIIO::stride_t(image.bytesPerPixel()))
+            : readScanlines(*input, 0, channels, image);
+        if (!done)
+            return brokenToOiio(name, format, input->geterror());
+        if (format == "dds" && channels == 2)
+            spreadTwo(image);
+        else
+            completeChannels(image, channels);
+        image.frame = frameOf(spec, format);
+        image.channels = channels;
+        return image;
     } catch (const std::exception& e) {
-        return inputError(fmt::format("{}: broken {} image: {}", name, format, oneLine(foundByOiio(e.what()))));
+        return brokenToOiio(name, format, e.what());
     }
 }
 
 Status writeWithOiio(const std::filesystem::path& file, const Image& image, const std::string& name)
 {
-    const ImageFormat format = outputFormat(name);
+    const ImageFormat& format = *imageFormatOf(name); // which checkImageName accepted
     const OIIO::TypeDesc type = typeToWrite(format, image.type);
     if (type == OIIO::TypeDesc::UINT8 && image.type != PixelType::unorm8)
         return writeWithOiio(file, toUnorm8(image), name);
@@ -285,7 +286,7 @@ Status writeWithOiio(const std::filesystem::path& file, const Image& image, cons
         CheckedFile checked(file);
         output->set_ioproxy(&checked);
         const OIIO::ImageSpec spec =
-            outputSpec(image.width, image.height, channelsOf(format), type, format, image.frame);
+            outputSpec(image.width, image.height, format.alpha ? 4 : 3, type, format, image.frame);
         const bool done = output->open(file.string(), spec)
             && output->write_image(typeDesc(image.type), image.data.data(), OIIO::stride_t(image.bytesPerPixel()))
             && output->close();

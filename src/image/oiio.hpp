@@ -32,8 +32,9 @@ void completeChannels(Image& image, int channels);
 
 // Compares what the headers of TIFF, OpenEXR, DDS and BMP files promise with the size of the file: every
 // strip, tile, attribute and level that will be read, and blocks of OpenEXR with the limits. Their readers take memory
-// by those numbers, or hand out what it held. Returns what is wrong, without the file's name. format: of formatOf().
-Problem checkFileLayout(File& file, const std::string& format, const LoadLimits& limits);
+// by those numbers, or hand out what it held. format: of formatOf().
+std::optional<Error> checkFileLayout(File& file, const std::string& name, const std::string& format,
+                                     const LoadLimits& limits);
 
 // Rows of a file without tiles, from `first` on: those of `to`, the first `channels` components of each pixel. False:
 // input says why.
@@ -45,22 +46,15 @@ std::optional<Error> checkLayers(const OIIO::ImageSpec& spec, const std::string&
 // How values are to be read: as they are stored.
 OIIO::ImageSpec readConfig();
 
-// The format that a file of that name is written in: one that checkImageName accepted.
-const ImageFormat& outputFormat(const std::filesystem::path& name);
-
-// The most channels that it holds, and how components of `type` are stored.
-int channelsOf(const ImageFormat& format);
+// How components of `type` are stored.
 OIIO::TypeDesc typeToWrite(const ImageFormat& format, PixelType type);
 
 // channels: no more than the format has. frame: Image::frame, for the formats that hold it.
 OIIO::ImageSpec outputSpec(int width, int height, int channels, OIIO::TypeDesc type, const ImageFormat& format,
                            const std::string& frame);
 
-// The library's words within a sentence of ours.
-inline std::string foundByOiio(const std::string& words)
-{
-    return "expected data that OpenImageIO can read, it found: " + words;
-}
+// The library's words within a sentence of ours: of a file that was read, and of one to be written.
+Error brokenToOiio(const std::string& name, const std::string& format, const std::string& words);
 inline Error notWritten(const std::string& name, const std::string& words)
 {
     return outputError(name + ": expected to write the picture, OpenImageIO found: " + oneLine(words));

@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "image/size.hpp"
+#include "image/checks.hpp"
 #include "oiio.hpp"
 #include "oiio_file.hpp"
 
@@ -17,32 +17,33 @@ using Input = std::unique_ptr<OIIO::ImageInput>;
 
 class Reader : public RowReader {
 public:
-    Reader(Input input, const OIIO::ImageSpec& spec, std::string format)
-        : input_(std::move(input)), spec_(spec), format_(std::move(format)), channels_(std::min(spec.nchannels, 4))
+    Reader(Input input, const OIIO::ImageSpec& spec, std::string format, const std::string& file)
+        : input_(std::move(input)), spec_(spec), format_(std::move(format))
     {
+        name = file;
+        width = spec.width;
+        height = spec.height;
+        type = pixelType(spec.format);
+        alpha = spec.nchannels == 2 || spec.nchannels >= 4;
+        frame = frameOf(spec, format_);
+        channels = std::min(spec.nchannels, 4);
     }
 
     Status read(Image& strip) override
     {
         try {
-            const bool done =
-                spec_.tile_height > 0 ? fromTiles(strip) : readScanlines(*input_, next_, channels_, strip);
+            const bool done = spec_.tile_height > 0 ? fromTiles(strip) : readScanlines(*input_, next_, channels, strip);
             if (!done)
-                return broken(foundByOiio(input_->geterror()));
+                return brokenToOiio(name, format_, input_->geterror());
         } catch (const std::exception& e) {
-            return broken(foundByOiio(e.what()));
+            return brokenToOiio(name, format_, e.what());
         }
         next_ += strip.height;
-        completeChannels(strip, channels_);
+        completeChannels(strip, channels);
         return Done{};
     }
 
 private:
-    Error broken(const std::string& why) const
-    {
-        return inputError(fmt::format("{}: broken {} image: {}", name, format_, oneLine(why)));
-    }
-
     // Files of tiles: a row of tiles is kept, and rows are taken from it.
     bool fromTiles(Image& strip)
     {
@@ -54,7 +55,7 @@ private:
                 if (tiles_.height != rows)
                     tiles_ = makeImage(width, rows, type);
                 if (!input_->read_tiles(0, 0, spec_.x, spec_.x + width, spec_.y + first, spec_.y + first + rows, 0, 1,
-                                        0, channels_, typeDesc(type), tiles_.data.data(),
+                                        0, channels, typeDesc(type), tiles_.data.data(),
                                         OIIO::stride_t(strip.bytesPerPixel())))
                     return false;
                 tileRow_ = first;
@@ -68,7 +69,6 @@ private:
     Input input_;
     OIIO::ImageSpec spec_;
     std::string format_;
-    int channels_;
     int next_ = 0;
     Image tiles_;
     int tileRow_ = -1;
@@ -143,48 +143,34 @@ Result<std::unique_ptr<RowReader>> openRows(const std::filesystem::path& file, s
                                             const LoadLimits& limits)
 {
     const std::string name = file.string(), format = formatOf(head);
-    const auto broken = [&](const std::string& why) {
-        return inputError(fmt::format("{}: broken {} image: {}", name, format, oneLine(why)));
-    };
     try {
         OIIO::Filesystem::IOFile layout(name, OIIO::Filesystem::IOProxy::Read);
-        if (const auto problem = checkFileLayout(layout, format, limits)) {
-            Error error = broken(*problem);
-            error.memory = problem.memory;
-            return error;
-        }
+        if (auto error = checkFileLayout(layout, name, format, limits))
+            return *error;
         Input input = OIIO::ImageInput::create(format);
         if (!input)
-            return broken(foundByOiio(OIIO::geterror()));
+            return brokenToOiio(name, format, OIIO::geterror());
         OIIO::ImageSpec spec;
         if (!input->open(name, spec, readConfig()))
-            return broken(foundByOiio(input->geterror()));
+            return brokenToOiio(name, format, input->geterror());
         if (auto error = checkRows(spec, name, limits))
             return *error;
-        auto reader = std::make_unique<Reader>(std::move(input), spec, format);
-        reader->name = name;
-        reader->width = spec.width;
-        reader->height = spec.height;
-        reader->type = pixelType(spec.format);
-        reader->alpha = spec.nchannels == 2 || spec.nchannels >= 4;
-        reader->frame = frameOf(spec, format);
-        reader->channels = std::min(spec.nchannels, 4);
-        return std::unique_ptr<RowReader>(std::move(reader));
+        return std::unique_ptr<RowReader>(std::make_unique<Reader>(std::move(input), spec, format, name));
     } catch (const std::exception& e) {
-        return broken(foundByOiio(e.what()));
+        return brokenToOiio(name, format, e.what());
     }
 }
 
 Result<std::unique_ptr<RowWriter>> createRows(const std::filesystem::path& file, const RowFormat& format, int threads,
                                               const std::string& name)
 {
-    const ImageFormat stored = outputFormat(name);
+    const ImageFormat& stored = *imageFormatOf(name); // which checkImageName accepted
     try {
         auto output = OIIO::ImageOutput::create(std::string(stored.openImageIo));
         if (!output)
             return notWritten(name, OIIO::geterror());
         output->threads(threads);
-        const int channels = std::min(format.alpha ? 4 : 3, channelsOf(stored));
+        const int channels = format.alpha && stored.alpha ? 4 : 3;
         const auto type = format.half ? OIIO::TypeDesc(OIIO::TypeDesc::HALF) : typeToWrite(stored, format.type);
         auto checked = std::make_unique<CheckedFile>(file);
         output->set_ioproxy(checked.get());

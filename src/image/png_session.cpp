@@ -80,23 +80,10 @@ int onChunk(png_structp png, png_unknown_chunkp chunk)
 
 } // namespace
 
-PngReader::PngReader(std::span<const std::byte> bytes)
+PngReader::PngReader(const PngSession& from)
+    : session(from), png(png_create_read_struct(PNG_LIBPNG_VER_STRING, &session, onError, onWarning)),
+      info(png ? png_create_info_struct(png) : nullptr)
 {
-    session.next = reinterpret_cast<const png_byte*>(bytes.data());
-    session.left = bytes.size();
-    create();
-}
-
-PngReader::PngReader(std::FILE* in)
-{
-    session.in = in;
-    create();
-}
-
-void PngReader::create()
-{
-    png = png_create_read_struct(PNG_LIBPNG_VER_STRING, &session, onError, onWarning);
-    info = png ? png_create_info_struct(png) : nullptr;
 }
 
 PngReader::~PngReader() { png_destroy_read_struct(&png, &info, nullptr); }
@@ -170,30 +157,30 @@ PngWriter::PngWriter(std::FILE* out)
 
 PngWriter::~PngWriter() { png_destroy_write_struct(&png, &info); }
 
-bool startPng(PngWriter& writer, const PngPixels& pixels, PngEffort effort)
+bool startPng(PngWriter& writer, const RowFormat& format, PngEffort effort)
 {
     png_structp png = writer.png;
     if (setjmp(png_jmpbuf(png)))
         return false;
-    const bool wide = pixels.type == PixelType::unorm16;
+    const bool wide = format.type == PixelType::unorm16;
     png_set_write_fn(png, &writer.session, onWrite, onFlush);
     // libpng's own limit is 1,000,000 a side.
     png_set_user_limits(png, PNG_UINT_31_MAX, PNG_UINT_31_MAX);
     png_set_compression_level(png, effort.level);
     png_set_filter(png, PNG_FILTER_TYPE_BASE, effort.filters);
-    png_set_IHDR(png, writer.info, png_uint_32(pixels.width), png_uint_32(pixels.height), wide ? 16 : 8,
-                 pixels.alpha ? PNG_COLOR_TYPE_RGB_ALPHA : PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE,
+    png_set_IHDR(png, writer.info, png_uint_32(format.width), png_uint_32(format.height), wide ? 16 : 8,
+                 format.alpha ? PNG_COLOR_TYPE_RGB_ALPHA : PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE,
                  PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
-    if (pixels.frame[0] != '\0') {
+    if (format.frame.c_str()[0] != '\0') {
         png_text text = {};
         text.compression = PNG_TEXT_COMPRESSION_NONE;
         text.key = const_cast<png_charp>(kFrameKey.data()); // libpng copies both
-        text.text = const_cast<png_charp>(pixels.frame);
-        text.text_length = std::strlen(pixels.frame);
+        text.text = const_cast<png_charp>(format.frame.c_str());
+        text.text_length = std::strlen(format.frame.c_str());
         png_set_text(png, writer.info, &text, 1);
     }
     png_write_info(png, writer.info);
-    if (!pixels.alpha)
+    if (!format.alpha)
         png_set_filler(png, 0, PNG_FILLER_AFTER);
     if (wide && std::endian::native == std::endian::little)
         png_set_swap(png);

@@ -4,13 +4,11 @@
 
 #include <cstddef>
 #include <cstdio>
-#include <span>
 
 #include <png.h>
 
-#include "cotan/result.hpp"
-#include "cotan/scene.hpp"
-#include "image/frame_key.hpp"
+#include "cotan/image.hpp"
+#include "image/checks.hpp"
 
 namespace cotan {
 
@@ -29,14 +27,10 @@ struct PngReader {
     png_structp png = nullptr;
     png_infop info = nullptr; // null: out of memory
 
-    explicit PngReader(std::span<const std::byte> bytes);
-    explicit PngReader(std::FILE* in); // does not close it
+    explicit PngReader(const PngSession& from); // does not close its file
     ~PngReader();
     PngReader(const PngReader&) = delete;
     PngReader& operator=(const PngReader&) = delete;
-
-private:
-    void create();
 };
 
 struct PngHeader {
@@ -79,14 +73,8 @@ struct PngWriter {
     PngWriter& operator=(const PngWriter&) = delete;
 };
 
-struct PngPixels {
-    int width = 0, height = 0;
-    PixelType type = PixelType::unorm8; // or unorm16
-    bool alpha = false;                 // otherwise that of the rows is dropped
-    const char* frame = "";             // Image::frame
-};
-
-bool startPng(PngWriter& writer, const PngPixels& pixels, PngEffort effort);
+// Begins with the pixels, of unorm8 or unorm16; without alpha that of the rows is dropped.
+bool startPng(PngWriter& writer, const RowFormat& format, PngEffort effort);
 bool writePngRows(PngWriter& writer, png_const_bytep pixels, std::size_t count, std::size_t rowBytes);
 bool endPng(PngWriter& writer);
 

@@ -6,13 +6,11 @@
 
 #include <fmt/format.h>
 
+#include "codecs.hpp"
 #include "files/bytes.hpp"
 #include "files/output.hpp"
 #include "formats.hpp"
 #include "image/format_table.hpp"
-#include "png.hpp"
-#include "png_rows.hpp"
-#include "sandboxed_images.hpp"
 
 namespace cotan {
 
@@ -20,22 +18,15 @@ namespace fs = std::filesystem;
 
 namespace {
 
-template<class T> bool anyBelow(const T* alpha, std::size_t pixels, T one)
-{
-    for (std::size_t i = 0; i < pixels; ++i)
-        if (alpha[4 * i] != one)
-            return true;
-    return false;
-}
-
+// Floats, too, which isOpaque does not look at.
 bool usesAlpha(const Image& image)
 {
-    const std::size_t pixels = image.pixelCount();
-    if (image.type == PixelType::unorm8)
-        return anyBelow<std::uint8_t>(image.bytes8() + 3, pixels, 0xff);
-    if (image.type == PixelType::unorm16)
-        return anyBelow<std::uint16_t>(image.words() + 3, pixels, 0xffff);
-    return anyBelow(image.floats() + 3, pixels, 1.0f);
+    if (image.type != PixelType::float32)
+        return !isOpaque(image);
+    for (std::size_t i = 3; i < 4 * image.pixelCount(); i += 4)
+        if (image.floats()[i] != 1.0f)
+            return true;
+    return false;
 }
 
 class WholeRows : public RowReader {
@@ -94,10 +85,6 @@ private:
     std::unique_ptr<RowWriter> writer_;
 };
 
-} // namespace
-
-namespace {
-
 // What may be read row by row of a file of so many bytes, in bytes of pixels: each takes its time.
 Status checkRows(const RowReader& rows, std::size_t fileBytes, const LoadLimits& limits)
 {
@@ -112,9 +99,6 @@ Status checkRows(const RowReader& rows, std::size_t fileBytes, const LoadLimits&
 
 Result<std::unique_ptr<RowReader>> openAnyRows(const fs::path& file, const LoadLimits& limits)
 {
-    const auto size = usableFileSize(file, SIZE_MAX); // no more than a strip is held
-    if (!size)
-        return size.error();
     File stream(std::fopen(file.c_str(), "rb"));
     if (!stream)
         return inputError(fmt::format("{}: cannot be opened for reading", file.string()));
@@ -126,10 +110,8 @@ Result<std::unique_ptr<RowReader>> openAnyRows(const fs::path& file, const LoadL
     } else if (const ImageFormat* const known = imageFormatOf(head); known && known->readsRows) {
         if (!limits.sandbox.program.empty())
             return openRowsSandboxed(file, limits);
-        const auto formats = imageFormats();
-        if (!formats)
-            return reworded(formats.error(), fmt::format("{}: {}", file.string(), formats.error().message));
-        return (*formats)->openRows(file, head, limits);
+        const auto formats = imageFormats(file.string());
+        return formats ? (*formats)->openRows(file, head, limits) : formats.error();
     }
     return openWhole(file, limits);
 }
@@ -138,9 +120,11 @@ Result<std::unique_ptr<RowReader>> openAnyRows(const fs::path& file, const LoadL
 
 Result<std::unique_ptr<RowReader>> openRows(const fs::path& file, const LoadLimits& limits)
 {
+    const auto size = usableFileSize(file, SIZE_MAX); // no more than a strip is held
+    if (!size)
+        return size.error();
     auto rows = openAnyRows(file, limits);
-    const auto size = usableFileSize(file, SIZE_MAX);
-    if (rows && size)
+    if (rows)
         if (Status fits = checkRows(**rows, *size, limits); !fits)
             return fits.error();
     return rows;
@@ -155,9 +139,9 @@ Result<std::unique_ptr<RowWriter>> createRows(const fs::path& file, const RowFor
     if (!output)
         return output.error();
     if (!writesItself(file)) {
-        const auto formats = imageFormats();
+        const auto formats = imageFormats(name);
         if (!formats)
-            return reworded(formats.error(), fmt::format("{}: {}", name, formats.error().message));
+            return formats.error();
         auto writer = (*formats)->createRows(output->path(), format, threads, name);
         if (!writer)
             return output->failed(writer.error());

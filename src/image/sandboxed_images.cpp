@@ -1,11 +1,10 @@
-#include "sandboxed_images.hpp"
+#include "codecs.hpp"
 
 #include <fmt/format.h>
 
 #include "files/sandbox/process.hpp"
 #include "files/sandbox/scene_wire.hpp"
-#include "image/frame_key.hpp"
-#include "image/size.hpp"
+#include "image/checks.hpp"
 
 namespace cotan {
 
@@ -32,13 +31,10 @@ public:
         name = file;
         exchangeRowFacts(process_->answer(), *this);
         frame = std::string(frameText(frame));
-        if (channels < 1 || channels > 4)
+        if (channels < 1 || channels > 4 || width <= 0 || height <= 0 || width > limits.imageSide
+            || height > limits.imageSide)
             process_->answer().refuse();
-        if (width <= 0 || height <= 0 || width > limits.imageSide || height > limits.imageSide)
-            process_->answer().refuse();
-        if (!process_->answer().good())
-            return process_->failure();
-        return Done{};
+        return process_->answer().good() ? Status(Done{}) : process_->failure();
     }
 
     Status read(Image& strip) override
@@ -53,9 +49,7 @@ public:
         if (strip.data.size() != expected)
             process_->answer().refuse();
         strip.data.resize(expected);
-        if (!process_->answer().good())
-            return process_->failure();
-        return Done{};
+        return process_->answer().good() ? Status(Done{}) : process_->failure();
     }
 
 private:

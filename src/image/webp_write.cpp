@@ -1,13 +1,100 @@
-// WebP files as another one is.
+#include "codecs.hpp"
+
+#include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstring>
+#include <utility>
 
+#include <fmt/format.h>
 #include <webp/encode.h>
+#include <webp/mux.h>
 
-#include "webp.hpp"
+#include "numbers.hpp"
 
 namespace cotan {
+
+// ---- animations ----------------------------------------------------------------------------
+
+namespace {
+
+constexpr float kQuality = 90;
+
+struct Deleter {
+    void operator()(WebPAnimEncoder* encoder) const { WebPAnimEncoderDelete(encoder); }
+};
+
+// libwebp's encoder keeps what is packed of the pictures in memory.
+class WebpAnimation : public AnimationWriter {
+public:
+    WebpAnimation(OutputFile output, const AnimationFormat& format, std::string name)
+        : output_(std::move(output)), format_(format), name_(std::move(name))
+    {
+        WebPAnimEncoderOptions options;
+        WebPAnimEncoderOptionsInit(&options);
+        options.allow_mixed = 1; // flat pictures are smaller and better without loss
+        encoder_.reset(WebPAnimEncoderNew(format.width, format.height, &options));
+    }
+
+    Status add(const Image& picture) override
+    {
+        WebPConfig config;
+        WebPPicture pixels;
+        if (!encoder_ || !WebPConfigPreset(&config, WEBP_PRESET_PICTURE, kQuality) || !WebPPictureInit(&pixels))
+            return failed("not enough memory");
+        pixels.use_argb = 1;
+        pixels.width = picture.width;
+        pixels.height = picture.height;
+        const bool added = WebPPictureImportRGBA(&pixels, picture.bytes8(), picture.width * 4)
+            && WebPAnimEncoderAdd(encoder_.get(), &pixels, timeOf(count_), &config);
+        WebPPictureFree(&pixels);
+        if (!added)
+            return failed(WebPAnimEncoderGetError(encoder_.get()));
+        ++count_;
+        return Done{};
+    }
+
+    Status finish() override
+    {
+        WebPData data;
+        WebPDataInit(&data);
+        const bool made = encoder_ && WebPAnimEncoderAdd(encoder_.get(), nullptr, timeOf(count_), nullptr)
+            && WebPAnimEncoderAssemble(encoder_.get(), &data);
+        Status written = made ? writeBytes(output_.path(), std::as_bytes(std::span(data.bytes, data.size)))
+                              : failed(encoder_ ? WebPAnimEncoderGetError(encoder_.get()) : "not enough memory");
+        WebPDataClear(&data);
+        if (!written)
+            return output_.failed(written.error());
+        return output_.commit();
+    }
+
+private:
+    // Milliseconds at which a picture comes; what is rounded does not add up.
+    int timeOf(std::size_t picture) const { return int(std::lround(1000 * double(picture) / format_.rate)); }
+
+    Status failed(const char* why) const
+    {
+        return outputError(fmt::format("{}: libwebp: {}", name_, std::string(why).empty() ? "failed" : why));
+    }
+
+    OutputFile output_;
+    AnimationFormat format_;
+    std::string name_;
+    std::unique_ptr<WebPAnimEncoder, Deleter> encoder_;
+    std::size_t count_ = 0;
+};
+
+} // namespace
+
+Result<std::unique_ptr<AnimationWriter>> createWebpAnimation(const std::filesystem::path& file,
+                                                             const AnimationFormat& format)
+{
+    auto output = OutputFile::begin(file);
+    if (!output)
+        return output.error();
+    return std::unique_ptr<AnimationWriter>(new WebpAnimation(std::move(*output), format, file.string()));
+}
+
+// ---- pictures as another one is ------------------------------------------------------------
 
 namespace {
 
@@ -107,12 +194,10 @@ int qualityFor(double quantiser)
 // The content of a chunk of a file that was found sound; empty where there is none.
 std::span<const std::byte> chunkOf(std::span<const std::byte> file, const char* name)
 {
+    Numbers numbers(file);
     for (std::size_t at = 12; at + 8 <= file.size();) {
-        std::uint32_t size = 0;
-        for (int i = 3; i >= 0; --i)
-            size = size << 8 | std::uint32_t(file[at + 4 + std::size_t(i)]);
-        const std::size_t length = std::min<std::size_t>(size, file.size() - at - 8);
-        if (std::memcmp(&file[at], name, 4) == 0)
+        const std::size_t length = std::min<std::size_t>(numbers.at(at + 4, 4), file.size() - at - 8);
+        if (numbers.says(at, name))
             return file.subspan(at + 8, length);
         at += 8 + length + length % 2;
     }

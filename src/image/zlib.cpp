@@ -1,7 +1,7 @@
 #include <fmt/format.h>
 #include <zlib.h>
 
-#include "ktx2.hpp"
+#include "codecs.hpp"
 
 namespace cotan {
 

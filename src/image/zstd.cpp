@@ -1,7 +1,7 @@
 #include <fmt/format.h>
 #include <zstd.h>
 
-#include "ktx2.hpp"
+#include "codecs.hpp"
 
 namespace cotan {
 

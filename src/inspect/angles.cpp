@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <numbers>
 
+#include <fmt/format.h>
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
 
@@ -61,6 +63,21 @@ template<class Color> Image colored(const Image& source, Color color)
     return image;
 }
 
+// Over the range that occurs, near is white and far dark.
+Image depthAsColor(const Image& depth)
+{
+    float nearest = 1e30f, farthest = 0;
+    for (std::size_t i = 0; i < depth.pixelCount(); ++i) {
+        const float* p = depth.floats() + i * 4;
+        if (p[3] > 0) {
+            nearest = std::min(nearest, p[0]);
+            farthest = std::max(farthest, p[0]);
+        }
+    }
+    const float span = std::max(farthest - nearest, 1e-20f);
+    return colored(depth, [&](glm::vec3 d) { return glm::vec3(255 - 215 * (d.x - nearest) / span); });
+}
+
 } // namespace
 
 std::vector<float> anglesBetween(const Image& a, const Image& b)
@@ -115,35 +132,66 @@ Image heatMap(const std::vector<float>& degrees, int width, int height)
     return image;
 }
 
-Image directionsAsColor(const Image& directions)
-{
-    return colored(directions, [](glm::vec3 d) { return (d * 0.5f + 0.5f) * 255.0f; });
-}
-
-Image uvAsColor(const Image& uv)
-{
-    return colored(uv, [](glm::vec3 c) { return (c - glm::floor(c)) * 255.0f; });
-}
-
-Image depthAsColor(const Image& depth)
-{
-    float nearest = 1e30f, farthest = 0;
-    for (std::size_t i = 0; i < depth.pixelCount(); ++i) {
-        const float* p = depth.floats() + i * 4;
-        if (p[3] > 0) {
-            nearest = std::min(nearest, p[0]);
-            farthest = std::max(farthest, p[0]);
-        }
-    }
-    const float span = std::max(farthest - nearest, 1e-20f);
-    return colored(depth, [&](glm::vec3 d) { return glm::vec3(255 - 215 * (d.x - nearest) / span); });
-}
-
 Image asColor(Output output, const Image& image)
 {
-    return output == Output::uv   ? uvAsColor(image)
-        : output == Output::depth ? depthAsColor(image)
-                                  : directionsAsColor(image);
+    if (output == Output::depth)
+        return depthAsColor(image);
+    if (output == Output::uv)
+        return colored(image, [](glm::vec3 c) { return (c - glm::floor(c)) * 255.0f; });
+    return colored(image, [](glm::vec3 d) { return (d * 0.5f + 0.5f) * 255.0f; });
+}
+
+void AngleCounter::add(float degrees)
+{
+    if (!(degrees >= 0) || !std::isfinite(degrees))
+        return;
+    values_.add(double(degrees));
+    over1_ += degrees > 1;
+    over5_ += degrees > 5;
+}
+
+AngleStatistics AngleCounter::statistics()
+{
+    if (values_.count() == 0)
+        return {};
+    const double n = double(values_.count());
+    return {.count = values_.count(),
+            .mean = values_.mean(),
+            .median = values_.percentile(0.5),
+            .percentile95 = values_.percentile(0.95),
+            .percentile99 = values_.percentile(0.99),
+            .maximum = values_.maximum(),
+            .over1 = double(over1_) / n,
+            .over5 = double(over5_) / n};
+}
+
+AngleStatistics angleStatistics(const std::vector<float>& degrees)
+{
+    AngleCounter counter;
+    for (float d : degrees)
+        counter.add(d);
+    return counter.statistics();
+}
+
+std::string toText(const AngleStatistics& s)
+{
+    if (s.count == 0)
+        return "nothing was compared";
+    return fmt::format("mean {:.3f}, median {:.3f}, 95 % {:.3f}, 99 % {:.3f}, max {:.2f} degrees; "
+                       "over 1: {:.1f} %, over 5: {:.1f} %",
+                       s.mean, s.median, s.percentile95, s.percentile99, s.maximum, s.over1 * 100, s.over5 * 100);
+}
+
+Json toJson(const AngleStatistics& s)
+{
+    return {{"pixels", s.count},
+            {"mean_degrees", s.mean},
+            {"median_degrees", s.median},
+            {"percentile95_degrees", s.percentile95},
+            {"percentile99_degrees", s.percentile99},
+            {"max_degrees", s.maximum},
+            {"share_over_1_degree", s.over1},
+            {"share_over_5_degrees", s.over5}};
 }
 
 } // namespace cotan

@@ -28,16 +28,9 @@ double shareOpposed(const std::vector<float>& degrees);
 // where nothing was compared. unorm8.
 Image heatMap(const std::vector<float>& degrees, int width, int height);
 
-// Directions as a picture: n * 0.5 + 0.5 where there is surface, transparent elsewhere. unorm8.
-Image directionsAsColor(const Image& directions);
-
-// uv as a picture: the fractional parts as red and green. unorm8.
-Image uvAsColor(const Image& uv);
-
-// Depth as a picture: near is white, far is dark, over the range that occurs. unorm8.
-Image depthAsColor(const Image& depth);
-
-// A float picture of that kind by the fitting one of the three.
+// A float picture of that kind as one of unorm8. Directions are n * 0.5 + 0.5 where there is surface, transparent
+// elsewhere; of uv the fractional parts are red and green; of depths near is white, far is dark, over the range that
+// occurs.
 Image asColor(Output output, const Image& image);
 
 } // namespace cotan

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
-#include <cstring>
 #include <unordered_map>
 
 #include <glm/geometric.hpp>
@@ -16,20 +16,14 @@ namespace {
 
 using glm::dvec3;
 
-struct Key {
-    std::array<float, 6> p; // both ends, the smaller first
-    friend bool operator==(const Key& a, const Key& b) { return std::memcmp(a.p.data(), b.p.data(), sizeof a.p) == 0; }
-};
+using Key = std::array<std::uint32_t, 6>; // the bits of both ends, the smaller first
 
 struct KeyHash {
     std::size_t operator()(const Key& key) const
     {
         std::uint64_t h = 1469598103934665603u; // FNV-1a by words
-        for (const float value : key.p) {
-            std::uint32_t bits = 0;
-            std::memcpy(&bits, &value, sizeof bits);
+        for (const std::uint32_t bits : key)
             h = (h ^ bits) * 1099511628211u;
-        }
         return std::size_t(h ^ (h >> 29));
     }
 };
@@ -64,7 +58,7 @@ void addEdgesOf(const Mesh& mesh, const Texture& map, const glm::mat4& toWorld, 
             const glm::vec3 p = mesh.positions[v[a]] + 0.0f, q = mesh.positions[v[b]] + 0.0f; // no negative zeros
             if (p == q)
                 continue;
-            const auto [found, fresh] = known.try_emplace(Key{{p.x, p.y, p.z, q.x, q.y, q.z}});
+            const auto [found, fresh] = known.try_emplace(std::bit_cast<Key>(std::array{p, q}));
             Half& half = found->second;
             if (fresh) {
                 half = {uvOf(a), uvOf(b), positive, edges.size(), 0};

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <memory>
+#include <set>
 
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
@@ -11,6 +12,7 @@
 
 #include "bake/lint/triangle_uv.hpp"
 #include "cotan/lint.hpp"
+#include "cotan/maps.hpp"
 #include "scene/bounds.hpp"
 
 namespace cotan {
@@ -192,6 +194,27 @@ std::vector<ProblemArea> problemAreas(const Scene& scene, std::size_t most)
     for (ProblemArea& area : areas)
         getPastOthers(scene, area.corners, area.camera);
     return areas;
+}
+
+std::vector<std::string> mapFaults(const Scene& scene)
+{
+    std::vector<std::string> sentences;
+    std::set<int> seen;
+    for (const Material& m : scene.materials) {
+        const int image = m.normalMap.image;
+        if (!m.normalMap.present() || std::size_t(image) >= scene.images.size() || !seen.insert(image).second)
+            continue;
+        const Image& map = scene.images[std::size_t(image)];
+        if (!hasPixels(map))
+            continue;
+        const maps::GreenVerdict verdict = maps::greenOf(map);
+        const bool readUp = m.normalFormat.greenUp && !m.greenReversed; // else it is read as its tangents mean it
+        const auto faults = maps::faultsOf(verdict.statistics, readUp ? &verdict : nullptr);
+        if (!faults.empty())
+            sentences.push_back(maps::sentenceOf(map.name.empty() ? fmt::format("Image {}", image) : map.name, faults,
+                                                 verdict.statistics));
+    }
+    return sentences;
 }
 
 } // namespace cotan

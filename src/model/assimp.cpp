@@ -20,8 +20,6 @@
 
 #include "assimp_convert.hpp"
 #include "files/bytes.hpp"
-#include "files/extension.hpp"
-#include "files/folder.hpp"
 #include "scene/scene_check.hpp"
 #include "source_material.hpp"
 #include "text_lines.hpp"

@@ -8,7 +8,6 @@
 #include <fmt/format.h>
 
 #include "files/bytes.hpp"
-#include "files/extension.hpp"
 #include "files/file_registry.hpp"
 #include "files/sandbox/process.hpp"
 #include "files/sandbox/scene_wire.hpp"

@@ -11,7 +11,6 @@
 #include "cotan/model.hpp"
 #include "cotan/portable.hpp"
 #include "files/bytes.hpp"
-#include "files/folder.hpp"
 #include "obj_text.hpp"
 #include "scene/geometry.hpp"
 #include "source_material.hpp"

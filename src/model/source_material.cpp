@@ -13,7 +13,7 @@
 
 #include "cotan/image.hpp"
 #include "cotan/maps.hpp"
-#include "files/folder.hpp"
+#include "files/bytes.hpp"
 #include "image/component_types.hpp"
 #include "maps/texels.hpp"
 

@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 
 #include "cotan/model.hpp"
-#include "files/extension.hpp"
+#include "files/bytes.hpp"
 #include "files/file_registry.hpp"
 #include "picture/option_words.hpp"
 #include "scene/bounds.hpp"

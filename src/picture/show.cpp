@@ -1,5 +1,4 @@
 // What of a model a picture shows: light, a vector, an inspection, an error.
-#include "bake/reports.hpp"
 #include "core/named_values.hpp"
 #include "cotan/inspect.hpp"
 #include "cotan/picture.hpp"

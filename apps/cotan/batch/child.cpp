@@ -11,7 +11,6 @@
 #include <unistd.h>
 
 #include "files/bytes.hpp"
-#include "files/extension.hpp"
 #include "files/file_registry.hpp"
 #include "files/output.hpp"
 #include "files/sandbox/confine.hpp"

@@ -17,7 +17,6 @@
 
 #include "files/bytes.hpp"
 #include "files/output.hpp"
-#include "files/plan.hpp"
 #include "files/sandbox/request.hpp"
 #include "process.hpp"
 

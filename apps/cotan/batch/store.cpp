@@ -14,7 +14,6 @@
 
 #include "files/bytes.hpp"
 #include "files/output.hpp"
-#include "files/plan.hpp"
 
 namespace cotan {
 

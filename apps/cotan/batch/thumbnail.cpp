@@ -11,7 +11,7 @@
 #include <jpeglib.h>
 
 #include "cotan/image.hpp"
-#include "files/extension.hpp"
+#include "files/bytes.hpp"
 #include "files/report/html.hpp"
 
 namespace cotan {

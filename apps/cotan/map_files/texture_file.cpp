@@ -9,9 +9,9 @@
 #include <fmt/format.h>
 
 #include "files/output.hpp"
+#include "image/checks.hpp"
 #include "image/dds.hpp"
 #include "image/format_table.hpp"
-#include "image/frame_key.hpp"
 #include "maps/block.hpp"
 
 namespace cotan::maps {

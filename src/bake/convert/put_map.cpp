@@ -7,7 +7,7 @@
 
 #include "bake/convert/map_jobs.hpp"
 #include "cotan/image.hpp"
-#include "files/extension.hpp"
+#include "files/bytes.hpp"
 #include "gltf/json/lookup.hpp"
 #include "gltf/json/views.hpp"
 

@@ -1,6 +1,8 @@
 #include "files/report/json.hpp"
 
 #include <algorithm>
+#include <cassert>
+#include <iterator>
 
 #include <nlohmann/json.hpp>
 
@@ -35,6 +37,19 @@ nlohmann::ordered_json converted(const Json& json)
         },
         json.value());
 }
+
+// What reports are called; the last three are of the library, in C, Python and JavaScript.
+constexpr std::string_view kFormats[] = {
+    "cotan-accuracy",        "cotan-bake",        "cotan-batch",        "cotan-compare",
+    "cotan-convert",         "cotan-cost",        "cotan-figures",      "cotan-lint",
+    "cotan-map-blend",       "cotan-map-convert", "cotan-map-detect",   "cotan-map-diff",
+    "cotan-map-from-height", "cotan-map-info",    "cotan-map-mips",     "cotan-map-to-height",
+    "cotan-render",          "cotan-shader",      "cotan-tangents",     "cotan-view",
+    "cotan-convert-result",  "cotan-lint-result", "cotan-render-result"};
+
+// Of each of them so far. A field may be added within a version. One that goes, is renamed, or changes its type or
+// meaning, raises that of its report alone.
+constexpr int kVersion = 1;
 
 } // namespace
 
@@ -81,6 +96,25 @@ void Json::erase(std::string_view name)
 std::string toText(const Json& json)
 {
     return converted(json).dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+}
+
+Json versioned(std::string_view format, const Json& report)
+{
+    [[maybe_unused]] const bool known = std::ranges::find(kFormats, format) != std::end(kFormats);
+    assert(known);
+    Json all = {{"format", format}, {"version", kVersion}};
+    all.update(report);
+    return all;
+}
+
+Json versioned(const Json& report)
+{
+    const auto& members = std::get<Json::Object>(report.value());
+    const auto command = std::ranges::find(members, "command", &Json::Object::value_type::first);
+    assert(command != members.end());
+    std::string format = "cotan-" + std::get<std::string>(command->second.value()); // "cotan-map-detect"
+    std::ranges::replace(format, ' ', '-');
+    return versioned(format, report);
 }
 
 } // namespace cotan

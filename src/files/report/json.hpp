@@ -65,4 +65,12 @@ private:
 // replaced.
 std::string toText(const Json& json);
 
+// The report with "format" and "version" before its own members: what it is called, and which version of its fields
+// this program writes. format: a name of the list in json.cpp. docs/reference/json.md lists the fields;
+// tests/json_fields_test.py holds it against what commands write.
+Json versioned(std::string_view format, const Json& report);
+
+// The same for a command's, by its own member "command".
+Json versioned(const Json& report);
+
 } // namespace cotan

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cerrno>
 #include <cmath>
-#include <csignal>
 #include <cstddef>
 #include <vector>
 
@@ -60,70 +59,6 @@ constexpr std::uint32_t kArchitecture = 0; // no filter
 constexpr std::uint32_t kForeign = 0;
 #endif
 
-// What no reader does. Files are Landlock's affair, but for what it leaves out: owners, modes, times.
-constexpr long kForbidden[] = {
-    SYS_execve,
-    SYS_execveat,
-    SYS_ptrace,
-    SYS_process_vm_readv,
-    SYS_process_vm_writev,
-    SYS_kill,
-    SYS_tkill,
-    SYS_rt_sigqueueinfo,
-    SYS_rt_tgsigqueueinfo,
-    SYS_pidfd_open,
-    SYS_pidfd_getfd,
-    SYS_pidfd_send_signal,
-    SYS_socket,
-    SYS_socketpair,
-    SYS_connect,
-    SYS_bind,
-    SYS_listen,
-    SYS_accept,
-    SYS_accept4,
-    SYS_io_uring_setup,
-    SYS_bpf,
-    SYS_perf_event_open,
-    SYS_userfaultfd,
-    SYS_keyctl,
-    SYS_add_key,
-    SYS_request_key,
-    SYS_mount,
-    SYS_umount2,
-    SYS_chroot,
-    SYS_pivot_root,
-    SYS_unshare,
-    SYS_setns,
-    SYS_fchmod,
-    SYS_fchmodat,
-    SYS_fchown,
-    SYS_fchownat,
-    SYS_utimensat,
-    SYS_setxattr,
-    SYS_lsetxattr,
-    SYS_fsetxattr,
-    SYS_removexattr,
-    SYS_lremovexattr,
-    SYS_fremovexattr,
-    SYS_shmget,
-    SYS_shmat,
-    SYS_msgget,
-    SYS_mq_open,
-    SYS_setsid,
-    SYS_setpgid,
-    SYS_ioctl,  // a terminal would take what is put into its input for the user's
-#ifdef SYS_fork // the old calls that newer machines do without
-    SYS_fork,
-    SYS_vfork,
-    SYS_chmod,
-    SYS_chown,
-    SYS_lchown,
-    SYS_utime,
-    SYS_utimes,
-    SYS_futimesat,
-#endif
-};
-
 constexpr std::uint32_t kAllow = SECCOMP_RET_ALLOW, kRefuse = SECCOMP_RET_ERRNO | EPERM;
 
 struct SystemCallFilter {
@@ -141,6 +76,7 @@ struct SystemCallFilter {
         add(BPF_JMP | BPF_JEQ | BPF_K, std::uint32_t(number), 0, 1);
         give(verdict);
     }
+    void refuse(auto... numbers) { (call(numbers, kRefuse), ...); }
     // A call that is allowed while `test` holds for the low half of argument i.
     void callWith(long number, int argument, std::uint16_t test, std::uint32_t value)
     {
@@ -151,6 +87,26 @@ struct SystemCallFilter {
         give(kRefuse);
     }
 };
+
+// What no reader does. Files are Landlock's affair, but for what it leaves out: owners, modes, times.
+void refuseCalls(SystemCallFilter& filter)
+{
+    filter.refuse(SYS_execve, SYS_execveat, SYS_ptrace, SYS_process_vm_readv, SYS_process_vm_writev);
+    filter.refuse(SYS_kill, SYS_tkill, SYS_rt_sigqueueinfo, SYS_rt_tgsigqueueinfo);
+    filter.refuse(SYS_pidfd_open, SYS_pidfd_getfd, SYS_pidfd_send_signal);
+    filter.refuse(SYS_socket, SYS_socketpair, SYS_connect, SYS_bind, SYS_listen, SYS_accept, SYS_accept4);
+    filter.refuse(SYS_io_uring_setup, SYS_bpf, SYS_perf_event_open, SYS_userfaultfd);
+    filter.refuse(SYS_keyctl, SYS_add_key, SYS_request_key);
+    filter.refuse(SYS_mount, SYS_umount2, SYS_chroot, SYS_pivot_root, SYS_unshare, SYS_setns);
+    filter.refuse(SYS_fchmod, SYS_fchmodat, SYS_fchown, SYS_fchownat, SYS_utimensat);
+    filter.refuse(SYS_setxattr, SYS_lsetxattr, SYS_fsetxattr, SYS_removexattr, SYS_lremovexattr, SYS_fremovexattr);
+    filter.refuse(SYS_shmget, SYS_shmat, SYS_msgget, SYS_mq_open, SYS_setsid, SYS_setpgid);
+    filter.refuse(SYS_ioctl); // a terminal would take what is put into its input for the user's
+#ifdef SYS_fork
+    // The old calls that newer machines do without.
+    filter.refuse(SYS_fork, SYS_vfork, SYS_chmod, SYS_chown, SYS_lchown, SYS_utime, SYS_utimes, SYS_futimesat);
+#endif
+}
 
 void forbidCalls()
 {
@@ -163,8 +119,7 @@ void forbidCalls()
     filter.load(offsetof(seccomp_data, nr));
     filter.add(BPF_JMP | BPF_JGE | BPF_K, kForeign, 0, 1);
     filter.give(kRefuse);
-    for (const long number : kForbidden)
-        filter.call(number, kRefuse);
+    refuseCalls(filter);
     filter.call(SYS_clone3, SECCOMP_RET_ERRNO | ENOSYS);                // its flags cannot be seen; clone's can
     filter.callWith(SYS_clone, 0, BPF_JSET, 0x00010000);                // CLONE_THREAD
     filter.callWith(SYS_tgkill, 0, BPF_JEQ, std::uint32_t(::getpid())); // abort()

@@ -1,8 +1,15 @@
-// Where there are no processes.
+// Where there are neither processes nor modules.
+#include "files/module.hpp"
 #include "files/sandbox/confine.hpp"
 #include "files/sandbox/process.hpp"
 
 namespace cotan {
+
+Result<const void*> loadModule(const ModulePlaces& places, const char*, const std::function<bool(const void*)>&,
+                               const char* what)
+{
+    return unavailableError(std::string(what) + " needs the module " + places.name + ", which is not loaded here");
+}
 
 Result<std::unique_ptr<ReaderProcess>> ReaderProcess::start(ReaderRequest request)
 {

@@ -13,7 +13,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "files/extension.hpp"
+#include "files/bytes.hpp"
 #include "files/file_registry.hpp"
 #include "files/sandbox/spawn.hpp"
 

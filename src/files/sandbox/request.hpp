@@ -52,25 +52,16 @@ struct ReaderRequest {
 
 template<class W, class T> void exchangeLimits(W& w, T& limits)
 {
-    w.number(limits.fileBytes);
-    w.number(limits.vertices);
-    w.number(limits.triangles);
-    w.number(limits.nodes);
-    w.number(limits.imageSide);
-    w.number(limits.imageBytes);
-    w.number(limits.allImageBytes);
-    w.number(limits.imageBytesBeyond);
-    w.number(limits.sandbox.megabytes);
-    w.number(limits.sandbox.seconds);
+    exchangeAll(w, limits.fileBytes, limits.vertices, limits.triangles, limits.nodes, limits.imageSide,
+                limits.imageBytes, limits.allImageBytes, limits.imageBytesBeyond, limits.sandbox.megabytes,
+                limits.sandbox.seconds);
 }
 
 template<class W, class T> void exchangeRequest(W& w, T& request)
 {
     w.number(request.version);
     w.choice(request.kind, ReaderKind::draco);
-    w.text(request.name);
-    w.array(request.bytes);
-    w.number(request.fileBytes);
+    exchangeAll(w, request.name, request.bytes, request.fileBytes);
     exchangeLimits(w, request.limits);
     w.number(request.parent);
 }
@@ -86,8 +77,7 @@ enum class ReaderFrame {
 template<class W, class T> void exchangeError(W& w, T& error)
 {
     w.number(error.kind);
-    w.text(error.message);
-    w.flag(error.memory);
+    exchangeAll(w, error.message, error.memory);
 }
 
 } // namespace cotan

@@ -11,39 +11,31 @@ namespace cotan {
 
 template<class W, class T> void exchangeImage(W& w, T& image)
 {
-    w.text(image.name);
-    w.number(image.width);
-    w.number(image.height);
+    exchangeAll(w, image.name, image.width, image.height);
     w.choice(image.type, PixelType::float32);
-    w.array(image.data);
-    w.text(image.frame);
-    w.number(image.channels);
+    exchangeAll(w, image.data, image.frame, image.channels);
 }
 
 // What is known of a picture before its rows.
 template<class W, class T> void exchangeRowFacts(W& w, T& rows)
 {
-    w.number(rows.width);
-    w.number(rows.height);
+    exchangeAll(w, rows.width, rows.height);
     w.choice(rows.type, PixelType::float32);
-    w.flag(rows.alpha);
-    w.flag(rows.whole);
-    w.text(rows.frame);
-    w.number(rows.channels);
+    exchangeAll(w, rows.alpha, rows.whole, rows.frame, rows.channels);
 }
 
 template<class W, class T> void exchangeTexture(W& w, T& texture)
 {
-    w.number(texture.image);
-    w.number(texture.texcoord);
+    exchangeAll(w, texture.image, texture.texcoord);
     w.choice(texture.sampler.wrapU, Wrap::clamp);
     w.choice(texture.sampler.wrapV, Wrap::clamp);
     w.choice(texture.sampler.magnify, Filter::linear);
     w.choice(texture.sampler.minify, Filter::linear);
     w.choice(texture.sampler.mip, MipFilter::linear);
-    w.number(texture.uRow);
-    w.number(texture.vRow);
+    exchangeAll(w, texture.uRow, texture.vRow);
 }
+
+template<class W, class... T> void exchangeTextures(W& w, T&... textures) { (exchangeTexture(w, textures), ...); }
 
 template<class W, class T> void exchangeConvention(W& w, T& c)
 {
@@ -57,100 +49,57 @@ template<class W, class T> void exchangeConvention(W& w, T& c)
 // What extensions add to a material.
 template<class W, class T> void exchangeLayers(W& w, T& m)
 {
-    w.number(m.coat.strength);
-    w.number(m.coat.roughness);
-    w.number(m.coat.normalScale);
+    exchangeAll(w, m.coat.strength, m.coat.roughness, m.coat.normalScale);
     exchangeConvention(w, m.coat.normalFormat);
-    exchangeTexture(w, m.coat.map);
-    exchangeTexture(w, m.coat.roughnessMap);
-    exchangeTexture(w, m.coat.normalMap);
-    w.number(m.anisotropy.strength);
-    w.number(m.anisotropy.rotation);
+    exchangeTextures(w, m.coat.map, m.coat.roughnessMap, m.coat.normalMap);
+    exchangeAll(w, m.anisotropy.strength, m.anisotropy.rotation);
     exchangeTexture(w, m.anisotropy.map);
-    w.number(m.specular.ior);
-    w.number(m.specular.strength);
-    w.number(m.specular.color);
-    exchangeTexture(w, m.specular.map);
-    exchangeTexture(w, m.specular.colorMap);
-    w.number(m.sheen.color);
-    w.number(m.sheen.roughness);
-    exchangeTexture(w, m.sheen.colorMap);
-    exchangeTexture(w, m.sheen.roughnessMap);
+    exchangeAll(w, m.specular.ior, m.specular.strength, m.specular.color);
+    exchangeTextures(w, m.specular.map, m.specular.colorMap);
+    exchangeAll(w, m.sheen.color, m.sheen.roughness);
+    exchangeTextures(w, m.sheen.colorMap, m.sheen.roughnessMap);
     w.number(m.transmission.strength);
     exchangeTexture(w, m.transmission.map);
 }
 
 template<class W, class T> void exchangeMaterial(W& w, T& m)
 {
-    w.text(m.name);
-    w.number(m.baseColor);
-    w.number(m.metallic);
-    w.number(m.roughness);
-    w.number(m.emissive);
-    w.number(m.occlusionStrength);
-    w.number(m.normalScale);
+    exchangeAll(w, m.name, m.baseColor, m.metallic, m.roughness, m.emissive, m.occlusionStrength, m.normalScale);
     exchangeConvention(w, m.normalFormat);
     int frame = m.normalFrame ? int(*m.normalFrame) : -1;
     w.number(frame);
     if constexpr (!std::is_const_v<T>)
         m.normalFrame = isFrame(frame) ? std::optional(Frame(frame)) : std::nullopt;
     w.flag(m.greenReversed);
-    exchangeTexture(w, m.baseColorMap);
-    exchangeTexture(w, m.metallicRoughnessMap);
-    exchangeTexture(w, m.normalMap);
-    exchangeTexture(w, m.occlusionMap);
-    exchangeTexture(w, m.emissiveMap);
+    exchangeTextures(w, m.baseColorMap, m.metallicRoughnessMap, m.normalMap, m.occlusionMap, m.emissiveMap);
     w.choice(m.alphaMode, AlphaMode::blend);
-    w.number(m.alphaCutoff);
-    w.flag(m.doubleSided);
-    w.flag(m.unlit);
+    exchangeAll(w, m.alphaCutoff, m.doubleSided, m.unlit);
     exchangeLayers(w, m);
     w.text(m.tangentsFor);
 }
 
 template<class W, class T> void exchangeMesh(W& w, T& mesh)
 {
-    w.text(mesh.name);
-    w.number(mesh.material);
-    w.array(mesh.positions);
-    w.array(mesh.normals);
-    w.array(mesh.tangents);
-    w.array(mesh.texcoords[0]);
-    w.array(mesh.texcoords[1]);
-    w.array(mesh.colors);
-    w.array(mesh.cotangentsU);
-    w.array(mesh.cotangentsV);
-    w.array(mesh.indices);
+    exchangeAll(w, mesh.name, mesh.material, mesh.positions, mesh.normals, mesh.tangents, mesh.texcoords[0],
+                mesh.texcoords[1], mesh.colors, mesh.cotangentsU, mesh.cotangentsV, mesh.indices);
 }
 
 template<class W, class T> void exchangeLight(W& w, T& light)
 {
     w.choice(light.kind, LightKind::spot);
-    w.number(light.color);
-    w.number(light.intensity);
-    w.number(light.position);
-    w.number(light.direction);
-    w.number(light.range);
-    w.number(light.innerCone);
-    w.number(light.outerCone);
+    exchangeAll(w, light.color, light.intensity, light.position, light.direction, light.range, light.innerCone,
+                light.outerCone);
 }
 
 template<class W, class T> void exchangeCamera(W& w, T& camera)
 {
-    w.text(camera.name);
-    w.flag(camera.orthographic);
-    w.number(camera.verticalFieldOfView);
-    w.number(camera.verticalExtent);
-    w.number(camera.eye);
-    w.number(camera.target);
-    w.number(camera.up);
+    exchangeAll(w, camera.name, camera.orthographic, camera.verticalFieldOfView, camera.verticalExtent, camera.eye,
+                camera.target, camera.up);
 }
 
 template<class W, class T> void exchangeInstance(W& w, T& instance)
 {
-    w.text(instance.name);
-    w.number(instance.mesh);
-    w.number(instance.toWorld);
+    exchangeAll(w, instance.name, instance.mesh, instance.toWorld);
 }
 
 template<class W, class T> void exchangeScene(W& w, T& scene)

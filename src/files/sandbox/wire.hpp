@@ -1,5 +1,5 @@
 // Values as bytes between two processes of the same program, each described once for both ways:
-//     template<class Wire, class T> void exchange(Wire& wire, T& value) { wire.number(value.a); wire.text(value.b); }
+//     template<class Wire, class T> void exchange(Wire& wire, T& value) { exchangeAll(wire, value.a, value.b); }
 // WireOut takes the value apart; WireIn makes one from bytes that it does not trust: flags are 0 or 1, choices in
 // their range, and memory is taken as bytes arrive, not as a count claims.
 #pragma once
@@ -171,5 +171,22 @@ private:
     std::size_t next_ = 0, end_ = 0;
     bool ended_ = false, senseless_ = false;
 };
+
+// Flags, texts, arrays and numbers, each as its type says, in this order. What is one of few has a choice().
+template<class Wire, class... T> void exchangeAll(Wire& wire, T&... values)
+{
+    const auto one = [&]<class V>(V& value) {
+        static_assert(!std::is_enum_v<V>);
+        if constexpr (std::is_same_v<std::remove_const_t<V>, bool>)
+            wire.flag(value);
+        else if constexpr (std::is_same_v<std::remove_const_t<V>, std::string>)
+            wire.text(value);
+        else if constexpr (std::is_trivially_copyable_v<V>)
+            wire.number(value);
+        else
+            wire.array(value);
+    };
+    (one(values), ...);
+}
 
 } // namespace cotan

@@ -1,9 +1,11 @@
-// The size check that every image passes before anything is allocated for it.
+// What an image file says of itself, checked: its size, before anything is allocated for it, and its frame.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 
 #include <fmt/format.h>
 
@@ -28,6 +30,19 @@ inline std::optional<Error> checkImageSize(std::int64_t width, std::int64_t heig
     if (limits.expect)
         limits.expect(std::size_t(bytes));
     return std::nullopt;
+}
+
+// The key under which picture files say for which frame a normal map was made: text of PNG, an attribute of OpenEXR, a
+// key of KTX2.
+inline constexpr std::string_view kFrameKey = "cotanFrame";
+inline constexpr std::size_t kMaxFrameText = 64;
+
+// A value of that key as it may go into messages: up to 64 printable characters of ASCII, no spaces around. Others are
+// empty: nothing is said.
+inline std::string_view frameText(std::string_view value)
+{
+    const bool printable = std::ranges::all_of(value, [](char c) { return c > ' ' && c < 0x7f; });
+    return printable && value.size() <= kMaxFrameText ? value : std::string_view{};
 }
 
 } // namespace cotan
