@@ -18,7 +18,7 @@ using namespace gltf_edit;
 
 namespace {
 
-struct Output {
+struct WrittenFile {
     fs::path file;
     std::vector<std::byte> bytes;
 };
@@ -204,7 +204,7 @@ std::vector<std::string> ownImages(const fs::path& file, const LoadLimits& limit
 // Images that were put into the document become files beside the model, MODEL-IMAGE.png. A name that a file has
 // already is taken only if that file belongs to the model that is replaced; else it gets a number.
 void putImagesBeside(GltfDocument& document, const fs::path& file, const LoadLimits& limits,
-                     std::vector<Output>& outputs)
+                     std::vector<WrittenFile>& outputs)
 {
     const GltfSource& source = *document.source;
     const std::size_t old = source.views.size();
@@ -222,7 +222,7 @@ void putImagesBeside(GltfDocument& document, const fs::path& file, const LoadLim
         const std::string ending(format == kImageFormats.end() ? ".png" : format->endings[0]);
         const auto taken = [&](const fs::path& target) {
             std::error_code error;
-            const bool here = std::ranges::find(outputs, target, &Output::file) != outputs.end();
+            const bool here = std::ranges::find(outputs, target, &WrittenFile::file) != outputs.end();
             const bool input = std::ranges::find(read, fs::weakly_canonical(target, error)) != read.end();
             const bool ours = std::ranges::find(own, encodePercent(target.filename().string())) != own.end();
             return here || input || (fs::exists(target, error) && !ours);
@@ -239,14 +239,14 @@ void putImagesBeside(GltfDocument& document, const fs::path& file, const LoadLim
 
 // Image files go to the same place relative to the new folder; what is there already has to be the same.
 void copyImages(const GltfSource& source, const Json& root, const fs::path& folder, const LoadLimits& limits,
-                std::vector<Output>& outputs)
+                std::vector<WrittenFile>& outputs)
 {
     std::error_code error;
     if (fs::equivalent(folder, source.file.folder, error))
         return;
     for (const auto& [i, file] : imageFiles(source, root)) {
         const fs::path target = folder / file.lexically_relative(source.file.folder);
-        if (std::ranges::find(outputs, target, &Output::file) != outputs.end())
+        if (std::ranges::find(outputs, target, &WrittenFile::file) != outputs.end())
             continue;
         std::vector<std::byte> bytes = readOrFail(source, file, limits);
         if (fs::exists(target, error)) {
@@ -262,11 +262,11 @@ void copyImages(const GltfSource& source, const Json& root, const fs::path& fold
 
 // All or none: each file is written beside its place, and none is put there before the last is written. The first, the
 // model, comes last.
-Status writeTogether(std::span<const Output> outputs)
+Status writeTogether(std::span<const WrittenFile> outputs)
 {
     std::vector<OutputFile> files;
     for (std::size_t i = outputs.size(); i-- > 0;) {
-        const Output& output = outputs[i];
+        const WrittenFile& output = outputs[i];
         std::error_code error;
         fs::create_directories(folderOf(output.file), error);
         auto file = OutputFile::begin(output.file);
@@ -287,7 +287,7 @@ GltfWritten write(GltfDocument document, const fs::path& file, const LoadLimits&
         throw outputError(fmt::format("{}: the folder {} does not exist", file.string(), folderOf(file).string()));
     GltfWritten written;
     written.bytesBefore = sizeBefore(*document.source);
-    std::vector<Output> outputs(1);
+    std::vector<WrittenFile> outputs(1);
     outputs[0].file = file;
     if (binary)
         embedImages(document, limits);
@@ -306,7 +306,7 @@ GltfWritten write(GltfDocument document, const fs::path& file, const LoadLimits&
         const auto bytes = std::as_bytes(std::span(text));
         outputs[0].bytes.assign(bytes.begin(), bytes.end());
     }
-    for (const Output& output : outputs)
+    for (const WrittenFile& output : outputs)
         written.bytesAfter += output.bytes.size();
     if (!binary)
         copyImages(*document.source, layout.root, folderOf(file), limits, outputs);
@@ -314,12 +314,12 @@ GltfWritten write(GltfDocument document, const fs::path& file, const LoadLimits&
         throw done.error();
     std::set<fs::path> images;
     for (const auto& [i, path] : imageFiles(*document.source, layout.root)) {
-        const auto isImage = [&, &image = path](const Output& o) { return fs::equivalent(o.file, image, error); };
+        const auto isImage = [&, &image = path](const WrittenFile& o) { return fs::equivalent(o.file, image, error); };
         if (std::ranges::none_of(outputs, isImage))
             images.insert(path);
     }
     written.bytesAfter += totalSize(images);
-    for (const Output& output : outputs)
+    for (const WrittenFile& output : outputs)
         written.files.push_back(output.file);
     written.notes = std::move(document.notes);
     return written;
