@@ -69,7 +69,6 @@ TEST(LowTree, nearestPointIsThatOfASearchThroughAllTriangles)
     const Triangles t = randomTriangles(random, 60);
     const auto tree = LowTree::make(t.positions, t.indices, t.shown, 1);
     ASSERT_TRUE(tree) << tree.error().message;
-    EXPECT_EQ(tree->triangleCount(), 60u);
     std::uniform_real_distribution<float> unit(-1.5f, 1.5f);
     std::size_t corners = 0, edges = 0, inside = 0, none = 0;
     for (int i = 0; i < 3000; ++i) {
@@ -173,8 +172,6 @@ TEST(LowTree, facesAreUnitByTheOrderOfCornersAndZeroWithoutArea)
     EXPECT_EQ(tree->face(0), glm::vec3(0, 0, 1));
     EXPECT_EQ(tree->face(1), glm::vec3(0, 0, -1));
     EXPECT_EQ(tree->face(2), glm::vec3(0));
-    EXPECT_EQ(tree->corner(1, 0), glm::vec3(0, 2, 0));
-    EXPECT_EQ(tree->corner(2, 2), glm::vec3(1, 0, 0));
 }
 
 } // namespace
