@@ -75,13 +75,6 @@ void eachRow(std::vector<Stored>& grid, int width, int height, const Work& work)
     });
 }
 
-void transformRows(Grid& grid, int width, int height, bool inverse)
-{
-    const Fft fft{std::size_t(width)};
-    eachRow<Complex>(grid, width, height,
-                     [&](std::span<Complex> row) { inverse ? fft.inverse(row) : fft.forward(row); });
-}
-
 // The same for every column, several at a time for the cache's sake.
 template<class Number, class Stored, class Work>
 void eachColumn(std::vector<Stored>& grid, int width, int height, const Work& work)
@@ -98,13 +91,6 @@ void eachColumn(std::vector<Stored>& grid, int width, int height, const Work& wo
             for (std::size_t x = 0; x < count; ++x)
                 grid[y * std::size_t(width) + std::size_t(first) + x] = Stored(columns[x * rows + y]);
     });
-}
-
-void transformColumns(Grid& grid, int width, int height, bool inverse)
-{
-    const Fft fft{std::size_t(height)};
-    eachColumn<Complex>(grid, width, height,
-                        [&](std::span<Complex> column) { inverse ? fft.inverse(column) : fft.forward(column); });
 }
 
 struct Power {
@@ -160,15 +146,16 @@ void solvePeriodic(const Image& map, const ToHeightSettings& s, Heights& result)
         }
     });
     result.invalid = invalid;
-    transformRows(grid, width, height, false);
-    transformColumns(grid, width, height, false);
+    const Fft across{std::size_t(width)}, down{std::size_t(height)};
+    eachRow<Complex>(grid, width, height, [&](std::span<Complex> row) { across.forward(row); });
+    eachColumn<Complex>(grid, width, height, [&](std::span<Complex> column) { down.forward(column); });
     const double n = double(map.pixelCount());
     result.meanTilt = std::atan(double(std::abs(grid[0])) / n) * 180 / std::numbers::pi;
     const Power power = solve(grid, std::size_t(width), std::size_t(height), s.kernel);
     result.slope = std::sqrt(power.slope) / n; // Parseval: sum |x|^2 = sum |X|^2 / N
     result.residual = std::sqrt(power.residual) / n;
-    transformColumns(grid, width, height, true);
-    transformRows(grid, width, height, true);
+    eachColumn<Complex>(grid, width, height, [&](std::span<Complex> column) { down.inverse(column); });
+    eachRow<Complex>(grid, width, height, [&](std::span<Complex> row) { across.inverse(row); });
     result.texels.resize(grid.size());
     std::ranges::transform(grid, result.texels.begin(), [](std::complex<float> c) { return c.real(); });
 }
@@ -211,16 +198,6 @@ template<class Work> std::size_t eachSlope(const Image& map, const ToHeightSetti
 }
 
 using Row = std::vector<glm::vec2>;
-
-// The share of the neighbours above, in the middle and below, that a kernel takes across its derivative.
-std::array<float, 3> sharesAcross(Kernel kernel)
-{
-    if (kernel == Kernel::sobel)
-        return {0.25f, 0.5f, 0.25f};
-    if (kernel == Kernel::scharr)
-        return {3.0f / 16, 10.0f / 16, 3.0f / 16};
-    return {0, 1, 0};
-}
 
 // Slopes beyond the border, where heights go on as the border's own. Along a slope's direction its mirror image
 // has the other sign.
