@@ -1,10 +1,10 @@
 // MikkTSpace, written from its description. The steps: weld equal vertices; a tangent direction
 // and an orientation for every triangle; neighbours across shared edges; groups of triangles of
 // one orientation that hang together around a vertex; an angle-weighted average per group.
-#include <algorithm>
 #include <array>
 #include <bit>
 #include <cstddef>
+#include <functional>
 #include <numeric>
 #include <utility>
 

@@ -7,10 +7,6 @@
 #include <cstdint>
 #include <vector>
 
-#include <glm/common.hpp>
-#include <glm/geometric.hpp>
-#include <glm/vec2.hpp>
-
 #include "maps/texels.hpp"
 
 namespace cotan::maps {

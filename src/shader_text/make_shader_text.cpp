@@ -4,7 +4,6 @@
 #include <set>
 
 #include "entry.hpp"
-#include "godot.hpp"
 #include "languages.hpp"
 #include "parse.hpp"
 #include "specialise.hpp"
