@@ -52,20 +52,12 @@ void forEachPlace(const char* frame, const cotan_vertex_places* given, const aut
     }
 }
 
-void applyFrames(const char* frame, const auto* places, const float* texels, float* normals)
+// turn: texels to normals, or the other way.
+void turnByFrames(const char* frame, const auto* places, const float* from, float* to, const auto& turn)
 {
-    require(texels && normals, "texels and normals: expected arrays, found null");
-    forEachPlace(frame, places, [&](std::size_t i, const f32::cotan_frame& f) {
-        store(normals, i, f32::cotan_apply(f, vec3At(texels, i)));
-    });
-}
-
-void encodeByFrames(const char* frame, const auto* places, const float* normals, float* texels)
-{
-    require(texels && normals, "texels and normals: expected arrays, found null");
-    forEachPlace(frame, places, [&](std::size_t i, const f32::cotan_frame& f) {
-        store(texels, i, f32::cotan_encode(f, vec3At(normals, i)));
-    });
+    require(from && to, "texels and normals: expected arrays, found null");
+    forEachPlace(frame, places,
+                 [&](std::size_t i, const f32::cotan_frame& f) { store(to, i, turn(f, vec3At(from, i))); });
 }
 
 // The words of the kinds are not asked of the table of frames, which cotan/tangents would have to carry.
@@ -111,25 +103,25 @@ const char* cotan_frame_name(int frame)
 cotan_status cotan_frame_apply(const char* frame, const cotan_places* places, const float* texels, float* normals,
                                char* message, size_t message_size)
 {
-    return call(message, message_size, [&] { applyFrames(frame, places, texels, normals); });
+    return call(message, message_size, [&] { turnByFrames(frame, places, texels, normals, f32::cotan_apply); });
 }
 
 cotan_status cotan_frame_encode(const char* frame, const cotan_places* places, const float* normals, float* texels,
                                 char* message, size_t message_size)
 {
-    return call(message, message_size, [&] { encodeByFrames(frame, places, normals, texels); });
+    return call(message, message_size, [&] { turnByFrames(frame, places, normals, texels, f32::cotan_encode); });
 }
 
 cotan_status cotan_vertex_frame_apply(const char* frame, const cotan_vertex_places* places, const float* texels,
                                       float* normals, char* message, size_t message_size)
 {
-    return call(message, message_size, [&] { applyFrames(frame, places, texels, normals); });
+    return call(message, message_size, [&] { turnByFrames(frame, places, texels, normals, f32::cotan_apply); });
 }
 
 cotan_status cotan_vertex_frame_encode(const char* frame, const cotan_vertex_places* places, const float* normals,
                                        float* texels, char* message, size_t message_size)
 {
-    return call(message, message_size, [&] { encodeByFrames(frame, places, normals, texels); });
+    return call(message, message_size, [&] { turnByFrames(frame, places, normals, texels, f32::cotan_encode); });
 }
 
 cotan_status cotan_tangents(const char* kind, const cotan_mesh* mesh, int threads, float* tangents, char* message,

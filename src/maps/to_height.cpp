@@ -93,9 +93,19 @@ void eachColumn(std::vector<Stored>& grid, int width, int height, const Work& wo
     });
 }
 
+// Of the slopes of a row: their squares and what no height explains of these, summed.
 struct Power {
     double slope = 0, residual = 0;
+    glm::dvec2 slopes{0}; // the sum of themselves
 };
+
+Power total(const std::vector<Power>& rows)
+{
+    Power all;
+    for (const Power& row : rows)
+        all.slope += row.slope, all.residual += row.residual, all.slopes += row.slopes;
+    return all;
+}
 
 // In place: the transform of p + i q becomes that of the height; k and -k together, as both are
 // needed to part P from Q.
@@ -125,10 +135,7 @@ Power solve(Grid& grid, std::size_t width, std::size_t height, Kernel kernel)
             }
         }
     });
-    Power all;
-    for (const Power& row : rows)
-        all.slope += row.slope, all.residual += row.residual;
-    return all;
+    return total(rows);
 }
 
 void solvePeriodic(const Image& map, const ToHeightSettings& s, Heights& result)
@@ -307,7 +314,6 @@ void solveFree(const Image& map, const ToHeightSettings& s, Heights& result)
     spectral ? solveFreeSpectral(map, s, result) : solveFreeKernel(map, s, result);
 
     std::vector<Power> rows(height);
-    std::vector<glm::dvec2> sums(height, glm::dvec2(0));
     eachSlope(map, s, [&](std::size_t x, int y, const Row&, const Row& here, const Row& below) {
         Power& power = rows[std::size_t(y)];
         if (spectral) {
@@ -319,18 +325,13 @@ void solveFree(const Image& map, const ToHeightSettings& s, Heights& result)
             power.residual += forward && y == 0 ? 0 : off.y * off.y;
         }
         power.slope += double(glm::dot(here[x], here[x]));
-        sums[std::size_t(y)] += glm::dvec2(here[x]);
+        power.slopes += glm::dvec2(here[x]);
     });
-    Power all;
-    glm::dvec2 sum(0);
-    for (std::size_t y = 0; y < height; ++y) {
-        all.slope += rows[y].slope, all.residual += rows[y].residual;
-        sum += sums[y];
-    }
+    const Power all = total(rows);
     const double n = double(map.pixelCount());
     result.slope = std::sqrt(all.slope / n);
     result.residual = std::sqrt(all.residual / n);
-    result.meanTilt = std::atan(glm::length(sum) / n) * 180 / std::numbers::pi;
+    result.meanTilt = std::atan(glm::length(all.slopes) / n) * 180 / std::numbers::pi;
 }
 
 } // namespace
