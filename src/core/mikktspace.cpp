@@ -1,6 +1,7 @@
 // MikkTSpace, written from its description. The steps: weld equal vertices; a tangent direction
 // and an orientation for every triangle; neighbours across shared edges; groups of triangles of
 // one orientation that hang together around a vertex; an angle-weighted average per group.
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cstddef>
@@ -312,7 +313,8 @@ bool mikktspace::makeTangents(const MeshView& mesh, int threads, const Listener&
     CornersAt at;
     auto makeRoom = [&] { // fresh memory takes half as long
         out = zeros<glm::vec4>(mesh.indices.size());
-        at = noCorners(mesh);
+        at = {makeLargeArray<std::uint32_t>(mesh.positions.size()), makeLargeArray<std::uint32_t>(mesh.indices.size())};
+        std::fill_n(at.first.get(), mesh.positions.size(), kNone);
     };
     const tangents::Task beside{[](void* room) { (*static_cast<decltype(makeRoom)*>(room))(); }, &makeRoom};
     LargeArray<std::uint32_t> firstVertex = tangents::weld(mesh, used, beside);

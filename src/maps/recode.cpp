@@ -175,10 +175,11 @@ void undo(const Damage& damage, Image& image)
     if (!damage.any())
         return;
     changeTexels(image, [&](glm::vec4& t) {
-        if (damage.curve == Damage::Curve::srgb)
-            t = {fromSrgb(t.x), fromSrgb(t.y), fromSrgb(t.z), t.w};
-        else if (damage.curve == Damage::Curve::linearised)
-            t = {toSrgb(t.x), toSrgb(t.y), toSrgb(t.z), t.w};
+        for (int c = 0; c < 3; ++c)
+            if (damage.curve == Damage::Curve::srgb)
+                t[c] = f32::cotan_srgb_to_linear(t[c]);
+            else if (damage.curve == Damage::Curve::linearised)
+                t[c] = f32::cotan_linear_to_srgb(t[c]);
         if (damage.order == Damage::Order::bgr)
             std::swap(t.x, t.z);
         else if (damage.order == Damage::Order::grb)

@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <functional>
 #include <span>
 #include <vector>
@@ -33,10 +32,6 @@ constexpr std::array<float, 3> sharesAcross(Kernel kernel)
         return {3.0f / 16, 10.0f / 16, 3.0f / 16};
     return {0, 1, 0};
 }
-
-// The curve of sRGB, on stored values.
-inline float fromSrgb(float c) { return c <= 0.04045f ? c / 12.92f : std::pow((c + 0.055f) / 1.055f, 2.4f); }
-inline float toSrgb(float c) { return c <= 0.0031308f ? c * 12.92f : 1.055f * std::pow(c, 1 / 2.4f) - 0.055f; }
 
 // Grey pixels with an alpha that varies: greyAlpha. Red constant with an alpha that varies, green
 // varying: alphaGreen. Otherwise rg.

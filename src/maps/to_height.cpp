@@ -167,16 +167,6 @@ void solvePeriodic(const Image& map, const ToHeightSettings& s, Heights& result)
     std::ranges::transform(grid, result.texels.begin(), [](std::complex<float> c) { return c.real(); });
 }
 
-void transformCosine(std::vector<float>& grid, int width, int height, bool inverse)
-{
-    const Fft across{std::size_t(width)}, down{std::size_t(height)};
-    const auto one = [inverse](const Fft& fft, std::span<double> x) {
-        inverse ? cosineInverse(fft, x) : cosineForward(fft, x);
-    };
-    eachRow<double>(grid, width, height, [&](std::span<double> row) { one(across, row); });
-    eachColumn<double>(grid, width, height, [&](std::span<double> column) { one(down, column); });
-}
-
 // Calls work(x, y, slopes of the row above, of this row, of the row below). Bands of rows run side by
 // side, so work may write to what belongs to row y only. The difference that a map asks for between
 // neighbours is the mean of their slopes.
@@ -250,14 +240,17 @@ glm::vec2 slopeOf(Kernel kernel, const std::vector<float>& heights, int x, int y
 // cosine of that frequency; not above 0: nothing.
 template<class PowerOf> void divide(std::vector<float>& h, int width, int height, PowerOf power)
 {
-    transformCosine(h, width, height, false);
+    const Fft across{std::size_t(width)}, down{std::size_t(height)};
+    eachRow<double>(h, width, height, [&](std::span<double> row) { cosineForward(across, row); });
+    eachColumn<double>(h, width, height, [&](std::span<double> column) { cosineForward(down, column); });
     for (int y = 0; y < height; ++y)
         for (int x = 0; x < width; ++x) {
             const double p = power(std::numbers::pi * x / width, std::numbers::pi * y / height);
             float& v = h[std::size_t(y) * std::size_t(width) + std::size_t(x)];
             v = p > 0 ? float(double(v) / p) : 0.0f;
         }
-    transformCosine(h, width, height, true);
+    eachRow<double>(h, width, height, [&](std::span<double> row) { cosineInverse(across, row); });
+    eachColumn<double>(h, width, height, [&](std::span<double> column) { cosineInverse(down, column); });
 }
 
 // The wanted differences between neighbours are the means of their slopes; none across the border. Minus their
