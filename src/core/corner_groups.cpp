@@ -330,7 +330,7 @@ CornerGroups groupCorners(const MeshView& mesh, std::size_t threads, const Avera
         return {};
     const Chains chains = chainsOf(mesh, groups.first);
     const bool done = listener(kChained)
-        && runPartsWithProgress(count, threads, listener, kChained, 1, [&](std::size_t begin, std::size_t end) {
+        && runPartsWithProgress(count, threads, listener, kChained, [&](std::size_t begin, std::size_t end) {
                           Averaging averaging(mesh, chains, groups.sides, averages);
                           for (std::size_t v = begin; v != end; ++v)
                               if (groups.first[v] == v)

@@ -207,7 +207,7 @@ constexpr double kWelded = 0.2, kDerived = 0.5, kListed = 0.6;
 bool averageByVertex(const Triangles& t, const CornersAt& at, std::size_t threads, const Listener& listener,
                      std::span<glm::vec4> out)
 {
-    return runPartsWithProgress(t.mesh.positions.size(), threads, listener, kListed, 1,
+    return runPartsWithProgress(t.mesh.positions.size(), threads, listener, kListed,
                                 [&](std::size_t begin, std::size_t end) {
                                     Members members;
                                     ManyCorners many;

@@ -140,13 +140,8 @@ std::string perSet(int sets, std::string_view pattern)
     return text;
 }
 
-std::string sumOfSets(int sets, std::string_view word)
-{
-    std::string sum = fill("{}0", word);
-    for (int k = 1; k < sets; ++k)
-        sum += fill(" + {}{}", word, k);
-    return sum;
-}
+// "slope0 + slope1" of the word slope.
+std::string sumOfSets(int sets, std::string_view word) { return perSet(sets, fill(" + {}{{0}}", word)).substr(3); }
 
 std::string fromSeveralSets(Frame frame, Form form, int sets)
 {
