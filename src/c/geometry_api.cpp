@@ -19,7 +19,7 @@ void forEachPlace(const char* frame, const cotan_places* given, const auto& work
 {
     const auto kind = frameFromName(word(frame, "frame"));
     if (!kind || readsVertices(*kind))
-        fail(ErrorKind::usage, "frame: expected one that is made from differences, found '" + std::string(frame) + "'");
+        fail(ErrorKind::usage, "frame: expected one that is made from differences, found '", frame, "'");
     const cotan_places& p = checked(given, "places");
     require(p.count == 0 || (p.normals && p.dpdx && p.dpdy && p.duvdx && p.duvdy),
             "places: expected five arrays, found null");
@@ -35,7 +35,7 @@ void forEachPlace(const char* frame, const cotan_vertex_places* given, const aut
     const cotan_vertex_places& p = checked(given, "places");
     const auto kind = frameFromName(word(frame, "frame"));
     if (!kind || !readsVertices(*kind))
-        fail(ErrorKind::usage, "frame: expected one that is made at the vertices, found '" + std::string(frame) + "'");
+        fail(ErrorKind::usage, "frame: expected one that is made at the vertices, found '", frame, "'");
     const bool smooth = readsCotangents(*kind);
     require(p.count == 0 || (p.normals && (smooth ? p.cotangents_u && p.cotangents_v : p.tangents != nullptr)),
             smooth ? "places: expected normals and two arrays of cotangents, found null"
@@ -65,7 +65,7 @@ Frame tangentKind(const char* kind)
 {
     const std::string_view which = word(kind, "kind");
     if (which != "vertex" && which != "mikktspace")
-        fail(ErrorKind::usage, "kind: expected mikktspace or vertex, found '" + std::string(which) + "'");
+        fail(ErrorKind::usage, "kind: expected mikktspace or vertex, found '", which, "'");
     return which == "vertex" ? Frame::vertex : Frame::mikktspace;
 }
 
