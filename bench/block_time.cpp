@@ -20,7 +20,7 @@
 #include "core/loops.hpp"
 #include "cotan/image.hpp"
 #include "image/dds.hpp"
-#include "maps/block.hpp"
+#include "map_files/block.hpp"
 
 namespace {
 

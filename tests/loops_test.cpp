@@ -1,4 +1,4 @@
-// The loops of core/loops.hpp where there is no oneTBB: on several threads all the same.
+// The loops of core/loops.hpp, and map_files/pipeline.hpp, where there is no oneTBB: on several threads all the same.
 #include <gtest/gtest.h>
 
 #include <atomic>
@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "core/loops.hpp"
+#include "map_files/pipeline.hpp"
 
 #ifdef COTAN_WITH_TBB
 #error "this test is for the loops without oneTBB"

@@ -133,5 +133,12 @@ TEST(Blend, texels_that_are_no_direction_leave_the_other_map)
     EXPECT_NEAR(out.floats()[0], detail.floats()[0], 1e-6);
 }
 
+TEST(Blend, a_strength_beyond_floats_leaves_the_base)
+{
+    const Image base = mapOf(20, 12, kHills), detail = mapOf(20, 12, kGrain);
+    const float infinite = std::numeric_limits<float>::infinity();
+    EXPECT_LT(largestAngle(blended(base, detail, {.strength = infinite}), base), kRounding);
+}
+
 } // namespace
 } // namespace cotan::maps

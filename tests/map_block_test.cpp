@@ -1,5 +1,5 @@
 // BC5 and BC4, read back by the definition of their blocks.
-#include "maps/block.hpp"
+#include "map_files/block.hpp"
 
 #include <algorithm>
 #include <array>

@@ -9,6 +9,7 @@ cotan_test(tangents_gltf_test
 
 # Loops as they are without oneTBB, which no part that has it would compile.
 cotan_test(loops_test SOURCES loops_test.cpp LIBRARIES cotan_core)
+target_include_directories(loops_test PRIVATE ${PROJECT_SOURCE_DIR}/apps/cotan)
 
 # Where size_t has 32 bits.
 add_test(NAME Core.isRightWhereSizesHave32Bits

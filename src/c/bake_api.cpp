@@ -33,9 +33,8 @@ void readHigh(const cotan_bake_options& o, BakeModelOptions& options, HighModel&
     options.ownMaps = wanted == "map";
     options.bake.highNormals = valueOf(kHighNormals, wanted, "options.high_normals");
     if (!options.ownMaps && (o.high_map_count > 0 || o.high_frame || o.high_convention))
-        fail(ErrorKind::usage,
-             "options.high_normals: expected map where a map, frame or convention is given, found '"
-                 + std::string(wanted) + "'");
+        fail(ErrorKind::usage, "options.high_normals: expected map where a map, frame or convention is given, found '",
+             wanted, "'");
     options.highFrame = frameOr(o.high_frame, Frame::mikktspace, "options.high_frame");
     if (o.high_convention)
         options.highFormat = inScene(conventionOf(o.high_convention, "options.high_convention"));
@@ -87,8 +86,8 @@ BakeModelOptions bakeOptionsOf(const cotan_bake_options& o, const cotan_picture&
 void checkMask(const cotan_picture& mask, const cotan_picture& map)
 {
     checkedPicture(&mask, "options.mask");
-    if (mask.bits != 8 || mask.width != map.width || mask.height != map.height)
-        fail(ErrorKind::usage, "options.mask: expected 8 bits and the size of the map");
+    require(mask.bits == 8 && mask.width == map.width && mask.height == map.height,
+            "options.mask: expected 8 bits and the size of the map");
 }
 
 // An error of bakeModel, about the field of C that this is: of its own structs the message begins with another.
@@ -126,9 +125,7 @@ void bakeInto(const Scene& low, HighModel high, const cotan_bake_options* given,
     BakeModelOptions options = bakeOptionsOf(o, out);
     readHigh(o, options, high);
     if (options.material >= int(low.materials.size()))
-        fail(ErrorKind::usage,
-             "options.material: expected 0 to " + std::to_string(low.materials.size()) + ", found "
-                 + std::to_string(o.material));
+        fail(ErrorKind::usage, "options.material: expected 0 to ", low.materials.size(), ", found ", o.material);
     auto done = bakeModel(low, std::move(high), options, progressOf(o.progress, o.user));
     if (!done)
         throw Failure{aboutFieldOfC(done.error())};

@@ -28,7 +28,19 @@ struct Failure {
     Error error;
 };
 
-[[noreturn]] inline void fail(ErrorKind kind, std::string message) { throw Failure{{kind, std::move(message)}}; }
+// parts: of the message, texts and whole numbers.
+template<class... Parts> [[noreturn]] void fail(ErrorKind kind, const Parts&... parts)
+{
+    std::string message;
+    const auto add = [&](const auto& part) {
+        if constexpr (requires { std::to_string(part); })
+            message += std::to_string(part);
+        else
+            message += part;
+    };
+    (add(parts), ...);
+    throw Failure{{kind, std::move(message)}};
+}
 
 inline void require(bool holds, const char* expectation)
 {
@@ -55,16 +67,14 @@ inline Progress progressOf(cotan_progress progress, void* user)
 inline void requireSize(std::size_t size, std::size_t least, const char* name)
 {
     if (size < least)
-        fail(ErrorKind::usage,
-             std::string(name) + ".size: expected " + std::to_string(least) + " or more, found "
-                 + std::to_string(size));
+        fail(ErrorKind::usage, name, ".size: expected ", least, " or more, found ", size);
 }
 
 // Structs of newer callers are longer; of this version they have to be whole.
 template<class T> const T& checked(const T* argument, const char* name)
 {
     if (!argument)
-        fail(ErrorKind::usage, std::string(name) + ": expected a struct, found null");
+        fail(ErrorKind::usage, name, ": expected a struct, found null");
     requireSize(argument->size, sizeof(T), name);
     return *argument;
 }
@@ -90,7 +100,7 @@ template<class T> T optionsOf(const T* given, const char* name)
 inline std::string_view word(const char* text, const char* name)
 {
     if (!text)
-        fail(ErrorKind::usage, std::string(name) + ": expected a name, found null");
+        fail(ErrorKind::usage, name, ": expected a name, found null");
     return text;
 }
 
@@ -115,8 +125,7 @@ Value valueOf(const Named<Value> (&all)[count], std::string_view wanted, const c
 {
     if (const auto value = cotan::valueOf(all, wanted))
         return *value;
-    fail(ErrorKind::usage,
-         std::string(name) + ": expected " + eitherOf(wordsOf(all)) + ", found '" + std::string(wanted) + "'");
+    fail(ErrorKind::usage, name, ": expected ", eitherOf(wordsOf(all)), ", found '", wanted, "'");
 }
 
 // Cut to the place that there is, with a zero at its end.

@@ -69,9 +69,8 @@ ConvertModelOptions optionsFor(const cotan_convert_options& o, const ModelFiles&
     convert.keepTangents = o.keep_tangents != 0;
     convert.keepMaps = o.keep_maps != 0;
     if (convert.keepMaps && readsTangents(convert.frames.to))
-        fail(ErrorKind::usage,
-             "options.to: expected a frame without tangents for maps that are kept, found "
-                 + std::string(name(convert.frames.to)));
+        fail(ErrorKind::usage, "options.to: expected a frame without tangents for maps that are kept, found ",
+             name(convert.frames.to));
     require(!convert.keepMaps || convert.bits == 0, "options.bits: expected 0 where maps are kept");
     const std::string_view expansion = o.expansion ? o.expansion : "biased";
     require(expansion == "biased" || expansion == "exact", "options.expansion: expected biased or exact");
@@ -103,9 +102,7 @@ cotan_conversion::Picture& pictureAt(cotan_conversion* conversion, std::size_t n
 {
     require(conversion, "conversion: expected one, found null");
     if (number >= conversion->pictures.size())
-        fail(ErrorKind::usage,
-             "number: expected less than " + std::to_string(conversion->pictures.size()) + ", found "
-                 + std::to_string(number));
+        fail(ErrorKind::usage, "number: expected less than ", conversion->pictures.size(), ", found ", number);
     return conversion->pictures[number];
 }
 

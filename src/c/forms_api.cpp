@@ -12,7 +12,7 @@ namespace {
 std::span<const glm::vec3> vectors(const float* array, std::size_t count, const char* name)
 {
     if (!array && count != 0)
-        fail(ErrorKind::usage, std::string(name) + ": expected an array, found null");
+        fail(ErrorKind::usage, name, ": expected an array, found null");
     return {reinterpret_cast<const glm::vec3*>(array), count};
 }
 
@@ -21,7 +21,7 @@ template<class T> std::vector<T> copied(std::span<const T> values) { return {val
 template<class Value, class Out> void put(const std::vector<Value>& values, Out* out, const char* name)
 {
     if (!out && !values.empty())
-        fail(ErrorKind::usage, std::string(name) + ": expected an array, found null");
+        fail(ErrorKind::usage, name, ": expected an array, found null");
     if (!values.empty())
         std::memcpy(out, values.data(), values.size() * sizeof(Value));
 }

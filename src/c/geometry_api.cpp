@@ -19,7 +19,7 @@ void forEachPlace(const char* frame, const cotan_places* given, const auto& work
 {
     const auto kind = frameFromName(word(frame, "frame"));
     if (!kind || readsVertices(*kind))
-        fail(ErrorKind::usage, "frame: expected one that is made from differences, found '" + std::string(frame) + "'");
+        fail(ErrorKind::usage, "frame: expected one that is made from differences, found '", frame, "'");
     const cotan_places& p = checked(given, "places");
     require(p.count == 0 || (p.normals && p.dpdx && p.dpdy && p.duvdx && p.duvdy),
             "places: expected five arrays, found null");
@@ -35,7 +35,7 @@ void forEachPlace(const char* frame, const cotan_vertex_places* given, const aut
     const cotan_vertex_places& p = checked(given, "places");
     const auto kind = frameFromName(word(frame, "frame"));
     if (!kind || !readsVertices(*kind))
-        fail(ErrorKind::usage, "frame: expected one that is made at the vertices, found '" + std::string(frame) + "'");
+        fail(ErrorKind::usage, "frame: expected one that is made at the vertices, found '", frame, "'");
     const bool smooth = readsCotangents(*kind);
     require(p.count == 0 || (p.normals && (smooth ? p.cotangents_u && p.cotangents_v : p.tangents != nullptr)),
             smooth ? "places: expected normals and two arrays of cotangents, found null"
@@ -52,20 +52,12 @@ void forEachPlace(const char* frame, const cotan_vertex_places* given, const aut
     }
 }
 
-void applyFrames(const char* frame, const auto* places, const float* texels, float* normals)
+// turn: texels to normals, or the other way.
+void turnByFrames(const char* frame, const auto* places, const float* from, float* to, const auto& turn)
 {
-    require(texels && normals, "texels and normals: expected arrays, found null");
-    forEachPlace(frame, places, [&](std::size_t i, const f32::cotan_frame& f) {
-        store(normals, i, f32::cotan_apply(f, vec3At(texels, i)));
-    });
-}
-
-void encodeByFrames(const char* frame, const auto* places, const float* normals, float* texels)
-{
-    require(texels && normals, "texels and normals: expected arrays, found null");
-    forEachPlace(frame, places, [&](std::size_t i, const f32::cotan_frame& f) {
-        store(texels, i, f32::cotan_encode(f, vec3At(normals, i)));
-    });
+    require(from && to, "texels and normals: expected arrays, found null");
+    forEachPlace(frame, places,
+                 [&](std::size_t i, const f32::cotan_frame& f) { store(to, i, turn(f, vec3At(from, i))); });
 }
 
 // The words of the kinds are not asked of the table of frames, which cotan/tangents would have to carry.
@@ -73,7 +65,7 @@ Frame tangentKind(const char* kind)
 {
     const std::string_view which = word(kind, "kind");
     if (which != "vertex" && which != "mikktspace")
-        fail(ErrorKind::usage, "kind: expected mikktspace or vertex, found '" + std::string(which) + "'");
+        fail(ErrorKind::usage, "kind: expected mikktspace or vertex, found '", which, "'");
     return which == "vertex" ? Frame::vertex : Frame::mikktspace;
 }
 
@@ -111,25 +103,25 @@ const char* cotan_frame_name(int frame)
 cotan_status cotan_frame_apply(const char* frame, const cotan_places* places, const float* texels, float* normals,
                                char* message, size_t message_size)
 {
-    return call(message, message_size, [&] { applyFrames(frame, places, texels, normals); });
+    return call(message, message_size, [&] { turnByFrames(frame, places, texels, normals, f32::cotan_apply); });
 }
 
 cotan_status cotan_frame_encode(const char* frame, const cotan_places* places, const float* normals, float* texels,
                                 char* message, size_t message_size)
 {
-    return call(message, message_size, [&] { encodeByFrames(frame, places, normals, texels); });
+    return call(message, message_size, [&] { turnByFrames(frame, places, normals, texels, f32::cotan_encode); });
 }
 
 cotan_status cotan_vertex_frame_apply(const char* frame, const cotan_vertex_places* places, const float* texels,
                                       float* normals, char* message, size_t message_size)
 {
-    return call(message, message_size, [&] { applyFrames(frame, places, texels, normals); });
+    return call(message, message_size, [&] { turnByFrames(frame, places, texels, normals, f32::cotan_apply); });
 }
 
 cotan_status cotan_vertex_frame_encode(const char* frame, const cotan_vertex_places* places, const float* normals,
                                        float* texels, char* message, size_t message_size)
 {
-    return call(message, message_size, [&] { encodeByFrames(frame, places, normals, texels); });
+    return call(message, message_size, [&] { turnByFrames(frame, places, normals, texels, f32::cotan_encode); });
 }
 
 cotan_status cotan_tangents(const char* kind, const cotan_mesh* mesh, int threads, float* tangents, char* message,

@@ -22,26 +22,22 @@ inline void checkIndices(const std::string& name, std::size_t vertexCount, std::
                          const std::uint32_t* indices)
 {
     if (indexCount % 3 != 0)
-        fail(ErrorKind::usage, name + "index_count: expected a multiple of 3");
+        fail(ErrorKind::usage, name, "index_count: expected a multiple of 3");
     if (indexCount != 0 && !indices)
-        fail(ErrorKind::usage, name + "indices: expected an array, found null");
+        fail(ErrorKind::usage, name, "indices: expected an array, found null");
     for (std::size_t i = 0; i < indexCount; ++i)
         if (indices[i] >= vertexCount)
-            fail(ErrorKind::input,
-                 name + "indices[" + std::to_string(i) + "]: expected less than " + std::to_string(vertexCount)
-                     + ", found " + std::to_string(indices[i]));
+            fail(ErrorKind::input, name, "indices[", i, "]: expected less than ", vertexCount, ", found ", indices[i]);
 }
 
 inline const cotan_mesh& checkedMesh(const cotan_mesh* given, const char* called, bool needsUv,
                                      bool needsNormals = true)
 {
     const cotan_mesh& m = checked(given, called);
-    const std::string name = called;
     if (m.vertex_count != 0 && !(m.positions && (m.normals || !needsNormals) && (m.texcoords || !needsUv)))
-        fail(ErrorKind::usage,
-             name + ": expected positions" + (needsNormals ? ", normals" : "") + (needsUv ? " and texcoords" : "")
-                 + ", found null");
-    checkIndices(name + ".", m.vertex_count, m.index_count, m.indices);
+        fail(ErrorKind::usage, called, ": expected positions", needsNormals ? ", normals" : "",
+             needsUv ? " and texcoords" : "", ", found null");
+    checkIndices(std::string(called) + ".", m.vertex_count, m.index_count, m.indices);
     return m;
 }
 
@@ -52,11 +48,10 @@ inline void checkFinite(const std::string& name, const float* numbers, std::size
 {
     for (std::size_t i = 0; i < each * vertices; ++i)
         if (!std::isfinite(numbers[i]))
-            fail(ErrorKind::input,
-                 name + '[' + std::to_string(i / each) + "]: expected finite numbers, found "
-                     + (std::isnan(numbers[i]) ? "nan"
-                            : numbers[i] > 0   ? "inf"
-                                               : "-inf"));
+            fail(ErrorKind::input, name, "[", i / each, "]: expected finite numbers, found ",
+                 std::isnan(numbers[i]) ? "nan"
+                     : numbers[i] > 0   ? "inf"
+                                        : "-inf");
 }
 
 // The arrays of a checked mesh; those that are left out are empty.
@@ -106,7 +101,7 @@ inline Scene sceneOf(std::vector<Mesh> meshes, const std::string& name)
 inline const Scene& sceneOf(const cotan_model* model, const char* name)
 {
     if (!model)
-        fail(ErrorKind::usage, std::string(name) + ": expected a model, found null");
+        fail(ErrorKind::usage, name, ": expected a model, found null");
     return model->scene;
 }
 

@@ -59,26 +59,29 @@ public:
             return {};
         return [this](const Image& image) -> Result<Bytes> {
             const cotan_picture picture = pictureOf(image);
-            const void* bytes = nullptr;
-            std::size_t size = 0;
-            const bool fine = f_.encode(f_.user, &picture, &bytes, &size) == 0 && (bytes || size == 0);
-            Bytes png = fine ? copied(bytes, size) : Bytes();
-            done();
-            return fine ? Result<Bytes>(std::move(png))
-                        : outputError(image.name + ": the caller did not encode the picture");
+            return given([&](auto... bytes) { return f_.encode(f_.user, &picture, bytes...); },
+                         outputError(image.name + ": the caller did not encode the picture"));
         };
     }
 
 private:
-    Result<Bytes> read(const std::string& file) const
+    // A copy of the bytes that a function of the caller's sets; the error where it sets none.
+    Result<Bytes> given(const auto& function, Error error) const
     {
         const void* bytes = nullptr;
         std::size_t size = 0;
-        const bool fine = f_.read && f_.read(f_.user, file.c_str(), &bytes, &size) == 0 && (bytes || size == 0);
-        Bytes read = fine ? copied(bytes, size) : Bytes();
-        if (f_.read)
-            done();
-        return fine ? Result<Bytes>(std::move(read)) : inputError(file + ": there is no such file beside the model");
+        const bool fine = function(&bytes, &size) == 0 && (bytes || size == 0);
+        Result<Bytes> copy = fine ? Result<Bytes>(copied(bytes, size)) : Result<Bytes>(std::move(error));
+        done();
+        return copy;
+    }
+
+    Result<Bytes> read(const std::string& file) const
+    {
+        Error missing = inputError(file + ": there is no such file beside the model");
+        if (!f_.read)
+            return missing;
+        return given([&](auto... bytes) { return f_.read(f_.user, file.c_str(), bytes...); }, std::move(missing));
     }
 
     Result<Image> decode(std::span<const std::byte> bytes, const std::string& name) const

@@ -23,7 +23,7 @@ inline PixelType typeOf(const cotan_picture& p, const char* name)
     if (p.bits == 8)
         return PixelType::unorm8;
     if (p.bits != 16 && p.bits != 32)
-        fail(ErrorKind::usage, std::string(name) + ".bits: expected 8, 16 or 32, found " + std::to_string(p.bits));
+        fail(ErrorKind::usage, name, ".bits: expected 8, 16 or 32, found ", p.bits);
     return p.bits == 16 ? PixelType::unorm16 : PixelType::float32;
 }
 
@@ -32,15 +32,12 @@ inline const cotan_picture& checkedPicture(const cotan_picture* given, const cha
     const cotan_picture& p = checked(given, name);
     typeOf(p, name);
     if (p.width < 1 || p.height < 1 || p.width > kMaxSide || p.height > kMaxSide)
-        fail(ErrorKind::usage,
-             std::string(name) + ": expected 1 to 65536 pixels a side, found " + std::to_string(p.width) + " x "
-                 + std::to_string(p.height));
+        fail(ErrorKind::usage, name, ": expected 1 to 65536 pixels a side, found ", p.width, " x ", p.height);
     if (std::uint64_t(p.width) * std::uint64_t(p.height) > kMaxPixels)
-        fail(ErrorKind::unavailable,
-             std::string(name) + ": expected at most " + std::to_string(kMaxPixels) + " pixels in all, found "
-                 + std::to_string(p.width) + " x " + std::to_string(p.height));
+        fail(ErrorKind::unavailable, name, ": expected at most ", kMaxPixels, " pixels in all, found ", p.width, " x ",
+             p.height);
     if (!p.pixels)
-        fail(ErrorKind::usage, std::string(name) + ".pixels: expected an array, found null");
+        fail(ErrorKind::usage, name, ".pixels: expected an array, found null");
     return p;
 }
 
@@ -57,9 +54,8 @@ inline const cotan_picture& output(const cotan_picture* given, const char* name,
 {
     const cotan_picture& p = checkedPicture(given, name);
     if (p.width != like.width || p.height != like.height)
-        fail(ErrorKind::usage,
-             std::string(name) + ": expected " + std::to_string(like.width) + " x " + std::to_string(like.height)
-                 + " pixels, found " + std::to_string(p.width) + " x " + std::to_string(p.height));
+        fail(ErrorKind::usage, name, ": expected ", like.width, " x ", like.height, " pixels, found ", p.width, " x ",
+             p.height);
     return p;
 }
 
@@ -76,7 +72,7 @@ inline Frame frameOr(const char* given, Frame otherwise, const char* name)
     std::string known;
     for (const FrameInfo& frame : frames())
         known += (known.empty() ? "" : ", ") + std::string(frame.name);
-    fail(ErrorKind::usage, std::string(name) + ": expected one of " + known + "; found '" + given + "'");
+    fail(ErrorKind::usage, name, ": expected one of ", known, "; found '", given, "'");
 }
 
 inline Convention conventionOf(const char* words, const char* name)
@@ -89,7 +85,7 @@ inline Convention storableAs(const char* words, const char* name, PixelType type
 {
     const Convention convention = conventionOf(words, name);
     if (convention.expansion == Expansion::signedValues && type != PixelType::float32)
-        fail(ErrorKind::usage, std::string(name) + ": signed values need a picture of 32 bits");
+        fail(ErrorKind::usage, name, ": signed values need a picture of 32 bits");
     return convention;
 }
 

@@ -36,8 +36,8 @@ Wanted readWords(const cotan_render_options& o)
 void readFrom(const ModelFiles& source, PictureOptions& options)
 {
     if (!options.model.empty() || !options.shape.empty())
-        fail(ErrorKind::usage,
-             "model: expected bytes or a file or a shape, found also '" + options.model + options.shape + "'");
+        fail(ErrorKind::usage, "model: expected bytes or a file or a shape, found also '", options.model, options.shape,
+             "'");
     const LoadLimits limits = source.limits();
     options.model = source.name();
     options.readFile = limits.readFile;

@@ -15,20 +15,18 @@ cotan_status cotan_shader_text(const char* language, const char* frame, const ch
         shader_text::Choice choice;
         const auto known = shader_text::languageFromName(word(language, "language"));
         if (!known)
-            fail(ErrorKind::usage,
-                 "language: expected " + shader_text::languageNames() + ", found '" + std::string(language) + "'");
+            fail(ErrorKind::usage, "language: expected ", shader_text::languageNames(), ", found '", language, "'");
         const std::string_view words = word(frame, "frame"), name = words.substr(0, words.find(','));
         const auto which = frameFromName(name);
         if (!which)
-            fail(ErrorKind::usage, "frame: there is none named '" + std::string(name) + "'");
+            fail(ErrorKind::usage, "frame: there is none named '", name, "'");
         choice.language = *known;
         choice.frame = *which;
         if (name.size() < words.size()) { // "triangle,vertex": a comma, then the stage
             const std::string_view stage = words.substr(name.size() + 1);
             const auto wanted = shader_text::stageFromName(stage);
             if (!wanted)
-                fail(ErrorKind::usage,
-                     "stage: expected fragment, vertex, mesh or compute, found '" + std::string(stage) + "'");
+                fail(ErrorKind::usage, "stage: expected fragment, vertex, mesh or compute, found '", stage, "'");
             choice.stage = *wanted;
         }
         choice.convention = valueOf(parseSampledConvention(word(convention, "convention")), "convention");

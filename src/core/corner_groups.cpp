@@ -103,17 +103,12 @@ struct Sum {
         v += g.v;
         weight += g.weight;
     }
+    Sum average() const
+    {
+        const float scale = isEmpty() ? 0 : 1 / weight;
+        return {u * scale, v * scale, 1};
+    }
 };
-
-struct Average {
-    glm::vec3 u, v;
-};
-
-Average averageOf(const Sum& sum)
-{
-    const float scale = sum.isEmpty() ? 0 : 1 / sum.weight;
-    return {sum.u * scale, sum.v * scale};
-}
 
 // Adds the gradients of a corner's triangle; returns the weight that they got.
 float addCorner(const Edges& e, glm::vec3 n, Sum& sum)
@@ -254,7 +249,7 @@ private:
 
     void storeAll(std::uint32_t first, const Sum (&sums)[2])
     {
-        const Average averages[2] = {averageOf(sums[0]), averageOf(sums[1])};
+        const Sum averages[2] = {sums[0].average(), sums[1].average()};
         const auto isEmpty = [&](std::size_t slot) { return sums[slot % 2].isEmpty(); };
         for (std::uint32_t v = first; v != kNone; v = chains_.equalVertex[v]) {
             sides_[v] = sideOrNearest(sides_[v], first, isEmpty);
@@ -268,7 +263,7 @@ private:
         }
     }
 
-    void store(const Average& average, std::uint32_t vertex)
+    void store(const Sum& average, std::uint32_t vertex)
     {
         if (!averages_.cotangents)
             return;
@@ -335,7 +330,7 @@ CornerGroups groupCorners(const MeshView& mesh, std::size_t threads, const Avera
         return {};
     const Chains chains = chainsOf(mesh, groups.first);
     const bool done = listener(kChained)
-        && runPartsWithProgress(count, threads, listener, kChained, 1, [&](std::size_t begin, std::size_t end) {
+        && runPartsWithProgress(count, threads, listener, kChained, [&](std::size_t begin, std::size_t end) {
                           Averaging averaging(mesh, chains, groups.sides, averages);
                           for (std::size_t v = begin; v != end; ++v)
                               if (groups.first[v] == v)

@@ -15,8 +15,7 @@
 
 namespace cotan {
 
-inline constexpr std::size_t kLargePage = 2u << 20;   // bytes
-inline constexpr std::size_t kLarge = 4 * kLargePage; // most of what is smaller malloc has at hand
+inline constexpr std::size_t kLarge = 8u << 20; // bytes: four large pages; most of what is smaller malloc has at hand
 
 // Wishes for large pages there: the first touch of fresh memory takes a fraction of the time then.
 inline void wishLargePages([[maybe_unused]] void* memory, [[maybe_unused]] std::size_t bytes)

@@ -5,6 +5,7 @@
 #include <array>
 #include <bit>
 #include <cstddef>
+#include <functional>
 #include <numeric>
 #include <utility>
 
@@ -206,7 +207,7 @@ constexpr double kWelded = 0.2, kDerived = 0.5, kListed = 0.6;
 bool averageByVertex(const Triangles& t, const CornersAt& at, std::size_t threads, const Listener& listener,
                      std::span<glm::vec4> out)
 {
-    return runPartsWithProgress(t.mesh.positions.size(), threads, listener, kListed, 1,
+    return runPartsWithProgress(t.mesh.positions.size(), threads, listener, kListed,
                                 [&](std::size_t begin, std::size_t end) {
                                     Members members;
                                     ManyCorners many;
@@ -312,7 +313,8 @@ bool mikktspace::makeTangents(const MeshView& mesh, int threads, const Listener&
     CornersAt at;
     auto makeRoom = [&] { // fresh memory takes half as long
         out = zeros<glm::vec4>(mesh.indices.size());
-        at = noCorners(mesh);
+        at = {makeLargeArray<std::uint32_t>(mesh.positions.size()), makeLargeArray<std::uint32_t>(mesh.indices.size())};
+        std::fill_n(at.first.get(), mesh.positions.size(), kNone);
     };
     const tangents::Task beside{[](void* room) { (*static_cast<decltype(makeRoom)*>(room))(); }, &makeRoom};
     LargeArray<std::uint32_t> firstVertex = tangents::weld(mesh, used, beside);

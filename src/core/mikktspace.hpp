@@ -84,27 +84,23 @@ struct CornersAt {
     }
 };
 
-// Memory for that, without corners yet.
-CornersAt noCorners(const MeshView& mesh);
-
+// at: without corners yet.
 void addCorners(const Triangles& t, std::size_t threads, CornersAt& at);
 
 // Which of the corners at one vertex are neighbours: across the edge that leaves the vertex at corner i,
 // and across the one that comes back to it, is the corner left[i], right[i]; kNone where there is none.
-// As indices into the list of corners. Of the edges between the same two vertices the k-th that runs one
-// way meets the k-th that runs the other way.
+// As indices into the list of corners, in lists as long as the longest needed so far. Of the edges between the same two
+// vertices the k-th that runs one way meets the k-th that runs the other way.
 struct Ring {
     std::vector<std::uint32_t> left, right;
 
+    // In time n log n.
     void make(const Triangles& t, std::span<const std::uint32_t> corners);
 
 private:
-    std::uint32_t count = 0;                    // of corners; the lists are as long as the longest needed so far
     std::vector<std::uint32_t> leaving, coming; // the edges' other vertices
     std::vector<std::uint32_t> byLeaving, byComing;
     std::vector<std::uint64_t> keys; // another vertex, and the corner below it
-
-    void pair();
 };
 
 // The corners that hang together with `seed`, as far as take(corner) says yes: it is asked for each in

@@ -5,14 +5,6 @@
 
 namespace cotan::mikktspace {
 
-CornersAt noCorners(const MeshView& mesh)
-{
-    CornersAt at{makeLargeArray<std::uint32_t>(mesh.positions.size()),
-                 makeLargeArray<std::uint32_t>(mesh.indices.size())};
-    std::fill_n(at.first.get(), mesh.positions.size(), kNone);
-    return at;
-}
-
 void addCorners(const Triangles& t, std::size_t threads, CornersAt& at)
 {
     const std::size_t vertices = t.mesh.positions.size();
@@ -35,7 +27,7 @@ void addCorners(const Triangles& t, std::size_t threads, CornersAt& at)
 
 void Ring::make(const Triangles& t, std::span<const std::uint32_t> corners)
 {
-    count = static_cast<std::uint32_t>(corners.size());
+    const auto count = static_cast<std::uint32_t>(corners.size());
     if (left.size() < count)
         for (auto* list : {&leaving, &coming, &left, &right})
             list->resize(count);
@@ -44,13 +36,7 @@ void Ring::make(const Triangles& t, std::span<const std::uint32_t> corners)
         coming[i] = t.vertices[previousCorner(corners[i])];
         left[i] = right[i] = kNone;
     }
-    pair();
-}
-
-// In time n log n.
-void Ring::pair()
-{
-    const auto sorted = [this](const std::vector<std::uint32_t>& others, std::vector<std::uint32_t>& order) {
+    const auto sorted = [&](const std::vector<std::uint32_t>& others, std::vector<std::uint32_t>& order) {
         keys.resize(count);
         order.resize(count);
         for (std::uint32_t i = 0; i < count; ++i)

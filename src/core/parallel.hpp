@@ -112,11 +112,10 @@ struct Listener {
     bool operator()(double share) const { return !hear || hear(who, share); }
 };
 
-// As runParts, and tells the shares between `from` and `to` after each of at most 65536 items, from any thread. Returns
+// As runParts, and tells the shares from `from` to 1 after each of at most 65536 items, from any thread. Returns
 // false where the listener has said to stop; the rest is not done then.
 template<class Run>
-bool runPartsWithProgress(std::size_t count, std::size_t threads, const Listener& listener, double from, double to,
-                          const Run& run)
+bool runPartsWithProgress(std::size_t count, std::size_t threads, const Listener& listener, double from, const Run& run)
 {
     const std::size_t usual = threads == 1 ? 1 : std::min(count, threads * 8);
     const std::size_t parts = listener.hear ? std::max(usual, count / 65536) : usual;
@@ -126,7 +125,7 @@ bool runPartsWithProgress(std::size_t count, std::size_t threads, const Listener
         if (stopped)
             return;
         run(partBegin(count, i, parts), partBegin(count, i + 1, parts));
-        if (!listener(from + (to - from) * double(++done) / double(parts)))
+        if (!listener(from + (1 - from) * double(++done) / double(parts)))
             stopped = true;
     });
     return !stopped;

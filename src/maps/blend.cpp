@@ -1,14 +1,11 @@
 #include "cotan/maps.hpp"
+#include "cotan/vector.hpp"
 
 #include <algorithm>
 #include <atomic>
 #include <cmath>
 #include <cstdint>
 #include <vector>
-
-#include <glm/common.hpp>
-#include <glm/geometric.hpp>
-#include <glm/vec2.hpp>
 
 #include "maps/texels.hpp"
 
@@ -44,11 +41,8 @@ std::vector<Tap> tapsOf(int i, int count, int size, int tiles)
     return taps;
 }
 
-glm::vec3 unitOrZero(const glm::vec3& v)
-{
-    const float length = glm::length(v);
-    return length > 1e-3f ? v / length : glm::vec3(0);
-}
+// Zero where there is next to none, or too much for floats.
+glm::vec3 direction(const glm::vec3& v) { return unitOr(v, glm::vec3(0), 1e-3f); }
 
 // Rows of the detail at the base's resolution, unit; zero where it has no direction.
 class DetailRows {
@@ -66,13 +60,13 @@ public:
         for (const Tap& tap : tapsOf(row, height_, detail_.height, tilesY_)) {
             decodeRow(detail_, tap.texel, convention_, line);
             for (std::size_t x = 0; x < sum.size(); ++x)
-                sum[x] += unitOrZero(line[x]) * tap.weight;
+                sum[x] += direction(line[x]) * tap.weight;
         }
         for (std::size_t x = 0; x < out.size(); ++x) {
             glm::vec3 v(0);
             for (const Tap& tap : across_[x])
                 v += sum[std::size_t(tap.texel)] * tap.weight;
-            out[x] = unitOrZero(v);
+            out[x] = direction(v);
         }
     }
 
@@ -125,18 +119,18 @@ Image blend(const Image& base, const Image& detail, const BlendSettings& s, std:
             details.load(s.firstRow + y, detailRow);
             for (std::size_t x = 0; x < width; ++x) {
                 const float mask = s.mask ? maskAt(*s.mask, int(x), s.firstRow + y, base.width, height) : 1.0f;
-                const glm::vec3 b = unitOrZero(baseRow[x]);
+                const glm::vec3 b = direction(baseRow[x]);
                 glm::vec3 d = detailRow[x];
                 badHere += b == glm::vec3(0) || d == glm::vec3(0);
-                d = unitOrZero({d.x * s.strength * mask, d.y * s.strength * mask, d.z});
+                d = direction({d.x * s.strength * mask, d.y * s.strength * mask, d.z});
                 glm::vec3 n = b == glm::vec3(0) ? d : b;
                 // A detail of no strength is no detail, also for the modes that flatten the base with it.
                 if (b != glm::vec3(0) && d != glm::vec3(0) && mask * s.strength != 0)
                     n = blendTexels(b, d, s.mode);
                 texels[x] = encodeTexel(n, s.to, s.type);
-                if (s.dither)
-                    texels[x] = dithered(texels[x], stepsOf(s.type), int(x), s.firstRow + y);
             }
+            if (s.dither)
+                ditherRow(texels, s.type, s.firstRow + y);
             storeRow(out, y, texels);
         }
         bad += badHere;

@@ -25,14 +25,6 @@ int wrapped(int i, int size, Wrap wrap)
     return i < 0 ? std::min(-i - 1, size - 1) : std::max(2 * size - 1 - i, 0); // the edge row is repeated
 }
 
-// Weights across the derivative: side, middle, side.
-std::array<float, 2> smoothing(Kernel kernel)
-{
-    if (kernel == Kernel::sobel)
-        return {0.25f, 0.5f};
-    return {3.0f / 16, 10.0f / 16}; // scharr
-}
-
 // A row of heights with one more texel at either end.
 void loadHeights(const Image& image, int row, Wrap wrap, std::vector<float>& heights)
 {
@@ -57,7 +49,8 @@ glm::vec2 difference(const std::vector<float>& above, const std::vector<float>& 
         return {here[x + 1] - here[x], above[x] - here[x]};
     if (kernel == Kernel::central) // not with weights of 0: a corner that is not a number would count
         return 0.5f * glm::vec2(here[x + 1] - here[x - 1], above[x] - below[x]);
-    const auto [side, middle] = smoothing(kernel);
+    const std::array<float, 3> shares = sharesAcross(kernel);
+    const float side = shares[0], middle = shares[1];
     const float right = side * (above[x + 1] + below[x + 1]) + middle * here[x + 1];
     const float left = side * (above[x - 1] + below[x - 1]) + middle * here[x - 1];
     const float up = side * (above[x - 1] + above[x + 1]) + middle * above[x];
@@ -88,9 +81,9 @@ Image normalsFromHeight(const Image& height, const FromHeightSettings& s, std::s
                 badHere += !finite;
                 const glm::vec3 normal = finite ? glm::normalize(glm::vec3(-slope, 1)) : glm::vec3(0, 0, 1);
                 texels[x] = encodeTexel(normal, s.to, s.type);
-                if (s.dither)
-                    texels[x] = dithered(texels[x], stepsOf(s.type), int(x), s.firstRow + y);
             }
+            if (s.dither)
+                ditherRow(texels, s.type, s.firstRow + y);
             storeRow(out, y, texels);
             above.swap(here);
             here.swap(below);

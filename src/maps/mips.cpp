@@ -30,6 +30,14 @@ struct Level {
     std::vector<Moments> texels;
 };
 
+// The rows of a level, as smaller() and encoded() ask for them.
+auto rowsOf(const Level& level)
+{
+    return [&level](int y, std::vector<Moments>& row) {
+        std::copy_n(level.texels.begin() + std::ptrdiff_t(y) * level.width, row.size(), row.begin());
+    };
+}
+
 Moments momentsOf(const glm::vec3& decoded)
 {
     const float length = glm::length(decoded);
@@ -160,15 +168,8 @@ std::vector<MipLevel> mipChain(const Image& map, const MipSettings& settings)
     Level level;
     for (int width = map.width, height = map.height; width > 1 || height > 1;
          width = level.width, height = level.height) {
-        const Level larger = std::move(level);
-        const auto fromLevel = [&](int y, std::vector<Moments>& row) {
-            std::copy_n(larger.texels.begin() + std::ptrdiff_t(y) * larger.width, row.size(), row.begin());
-        };
-        level = chain.size() == 1 ? smaller(width, height, fromMap) : smaller(width, height, fromLevel);
-        const auto fromThis = [&](int y, std::vector<Moments>& row) {
-            std::copy_n(level.texels.begin() + std::ptrdiff_t(y) * level.width, row.size(), row.begin());
-        };
-        chain.push_back(encoded(level.width, level.height, settings, fromThis));
+        level = chain.size() == 1 ? smaller(width, height, fromMap) : smaller(width, height, rowsOf(level));
+        chain.push_back(encoded(level.width, level.height, settings, rowsOf(level)));
     }
     return chain;
 }

@@ -109,7 +109,7 @@ template<class Band, class Work> void sumBands(const Image& image, Band& all, Wo
 
 void addStoredValues(const Image& image, Sums& sums)
 {
-    static const Curve decoded(fromSrgb), encoded(toSrgb);
+    static const Curve decoded(f32::cotan_srgb_to_linear), encoded(f32::cotan_linear_to_srgb);
     const int bits = bitsPerComponent(image.type);
     const float top = bits == 32 ? 2.0f : std::exp2(float(bits)), middle = top / 2; // of floats: 2c - 1 either way
     sumBands(image, sums, [=](Sums& s, const glm::vec4& t, const glm::vec4& left) {
@@ -206,7 +206,7 @@ struct Directions {
 
 void addDirections(const Image& image, const Convention& convention, Transfer transfer, Directions& sums)
 {
-    static const Curve decoded(fromSrgb), encoded(toSrgb);
+    static const Curve decoded(f32::cotan_srgb_to_linear), encoded(f32::cotan_linear_to_srgb);
     const bool xyz = convention.channels == Channels::xyz;
     sumBands(image, sums, [&](Directions& d, glm::vec4 t, const glm::vec4& left) {
         if (outsideCharts(t)) {

@@ -101,14 +101,17 @@ float ditherNoise(std::uint32_t x, std::uint32_t y, std::uint32_t component)
 
 } // namespace
 
-glm::vec4 dithered(glm::vec4 texel, float steps, int x, int y)
+void ditherRow(std::span<glm::vec4> texels, PixelType type, int y)
 {
-    for (int c = 0; c < 3 && steps > 0; ++c) {
-        const float scaled = texel[c] * steps;
-        if (std::abs(scaled - std::round(scaled)) >= 1e-3f)
-            texel[c] = (scaled + ditherNoise(std::uint32_t(x), std::uint32_t(y), std::uint32_t(c))) / steps;
-    }
-    return texel;
+    if (type == PixelType::float32)
+        return;
+    const float steps = type == PixelType::unorm8 ? 255.0f : 65535.0f; // per unit of a stored component
+    for (std::size_t x = 0; x < texels.size(); ++x)
+        for (int c = 0; c < 3; ++c) {
+            const float scaled = texels[x][c] * steps;
+            if (std::abs(scaled - std::round(scaled)) >= 1e-3f)
+                texels[x][c] = (scaled + ditherNoise(std::uint32_t(x), std::uint32_t(y), std::uint32_t(c))) / steps;
+        }
 }
 
 Image recode(const Image& map, const RecodeSettings& s, RecodeCounts& counts)
@@ -137,9 +140,9 @@ Image recode(const Image& map, const RecodeSettings& s, RecodeCounts& counts)
                 const float alpha = keepAlpha ? texels[x].w : 1.0f;
                 texels[x] = encodeTexel(n, s.to, s.type, keepLength);
                 texels[x].w = alpha;
-                if (s.dither)
-                    texels[x] = dithered(texels[x], stepsOf(s.type), int(x), s.firstRow + y);
             }
+            if (s.dither)
+                ditherRow(texels, s.type, s.firstRow + y);
             storeRow(out, y, texels);
         }
         invalid += badHere;
@@ -171,22 +174,16 @@ void undo(const Damage& damage, Image& image)
 {
     if (!damage.any())
         return;
-    forRowBands(image.height, [&](int first, int last) {
-        std::vector<glm::vec4> row(std::size_t(image.width));
-        for (int y = first; y < last; ++y) {
-            loadRow(image, y, row);
-            for (glm::vec4& t : row) {
-                if (damage.curve == Damage::Curve::srgb)
-                    t = {fromSrgb(t.x), fromSrgb(t.y), fromSrgb(t.z), t.w};
-                else if (damage.curve == Damage::Curve::linearised)
-                    t = {toSrgb(t.x), toSrgb(t.y), toSrgb(t.z), t.w};
-                if (damage.order == Damage::Order::bgr)
-                    std::swap(t.x, t.z);
-                else if (damage.order == Damage::Order::grb)
-                    std::swap(t.x, t.y);
-            }
-            storeRow(image, y, row);
-        }
+    changeTexels(image, [&](glm::vec4& t) {
+        for (int c = 0; c < 3; ++c)
+            if (damage.curve == Damage::Curve::srgb)
+                t[c] = f32::cotan_srgb_to_linear(t[c]);
+            else if (damage.curve == Damage::Curve::linearised)
+                t[c] = f32::cotan_linear_to_srgb(t[c]);
+        if (damage.order == Damage::Order::bgr)
+            std::swap(t.x, t.z);
+        else if (damage.order == Damage::Order::grb)
+            std::swap(t.x, t.y);
     });
 }
 

@@ -109,14 +109,8 @@ void unswizzle(Image& image, Swizzle from)
 {
     if (from == Swizzle::rg)
         return;
-    forRowBands(image.height, [&](int first, int last) {
-        std::vector<glm::vec4> row(std::size_t(image.width));
-        for (int y = first; y < last; ++y) {
-            loadRow(image, y, row);
-            for (glm::vec4& t : row)
-                t = from == Swizzle::greyAlpha ? glm::vec4(t.x, t.w, 0.5f, 1) : glm::vec4(t.w, t.y, 0.5f, 1);
-            storeRow(image, y, row);
-        }
+    changeTexels(image, [&](glm::vec4& t) {
+        t = from == Swizzle::greyAlpha ? glm::vec4(t.x, t.w, 0.5f, 1) : glm::vec4(t.w, t.y, 0.5f, 1);
     });
 }
 

@@ -4,9 +4,11 @@
 // map of any convention decodes into it; which way v runs does not matter here.
 #pragma once
 
-#include <cmath>
+#include <algorithm>
+#include <array>
 #include <functional>
 #include <span>
+#include <vector>
 
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
@@ -21,15 +23,15 @@ namespace cotan::maps {
 // Where slopes of normals are counted, steeper ones are taken as this: half a degree from lying down.
 constexpr float kSteepestSlope = 128;
 
-// Steps per unit of a stored component; 0 of floats.
-constexpr float stepsOf(PixelType type)
+// The share of the neighbours on one side, in the middle and on the other, that a kernel takes across its derivative.
+constexpr std::array<float, 3> sharesAcross(Kernel kernel)
 {
-    return type == PixelType::unorm8 ? 255.0f : type == PixelType::unorm16 ? 65535.0f : 0.0f;
+    if (kernel == Kernel::sobel)
+        return {0.25f, 0.5f, 0.25f};
+    if (kernel == Kernel::scharr)
+        return {3.0f / 16, 10.0f / 16, 3.0f / 16};
+    return {0, 1, 0};
 }
-
-// The curve of sRGB, on stored values.
-inline float fromSrgb(float c) { return c <= 0.04045f ? c / 12.92f : std::pow((c + 0.055f) / 1.055f, 2.4f); }
-inline float toSrgb(float c) { return c <= 0.0031308f ? c * 12.92f : 1.055f * std::pow(c, 1 / 2.4f) - 0.055f; }
 
 // Grey pixels with an alpha that varies: greyAlpha. Red constant with an alpha that varies, green
 // varying: alphaGreen. Otherwise rg.
@@ -71,8 +73,21 @@ glm::vec4 encodeTexel(glm::vec3 normal, const Convention& convention, PixelType 
 // must depend on the rows only.
 void forRowBands(int height, const std::function<void(int first, int last)>& work);
 
-// A texel with noise of half a step of 1/steps, the same on every run, on its first three components; those that are a
-// step already (within 0.001) stay: dithering must not make noise of what is exact, such as flat. steps 0: as it is.
-glm::vec4 dithered(glm::vec4 texel, float steps, int x, int y);
+// Row by row: loaded, each texel by change(texel), and stored.
+template<class Change> void changeTexels(Image& image, const Change& change)
+{
+    forRowBands(image.height, [&](int first, int last) {
+        std::vector<glm::vec4> row(std::size_t(image.width));
+        for (int y = first; y < last; ++y) {
+            loadRow(image, y, row);
+            std::ranges::for_each(row, change);
+            storeRow(image, y, row);
+        }
+    });
+}
+
+// Adds noise of half a step to the first three components of row y of a picture, the same on every run; those that are
+// a step already (within 0.001) stay: dithering must not make noise of what is exact, such as flat. Floats stay.
+void ditherRow(std::span<glm::vec4> texels, PixelType type, int y);
 
 } // namespace cotan::maps

@@ -75,13 +75,6 @@ void eachRow(std::vector<Stored>& grid, int width, int height, const Work& work)
     });
 }
 
-void transformRows(Grid& grid, int width, int height, bool inverse)
-{
-    const Fft fft{std::size_t(width)};
-    eachRow<Complex>(grid, width, height,
-                     [&](std::span<Complex> row) { inverse ? fft.inverse(row) : fft.forward(row); });
-}
-
 // The same for every column, several at a time for the cache's sake.
 template<class Number, class Stored, class Work>
 void eachColumn(std::vector<Stored>& grid, int width, int height, const Work& work)
@@ -100,16 +93,19 @@ void eachColumn(std::vector<Stored>& grid, int width, int height, const Work& wo
     });
 }
 
-void transformColumns(Grid& grid, int width, int height, bool inverse)
-{
-    const Fft fft{std::size_t(height)};
-    eachColumn<Complex>(grid, width, height,
-                        [&](std::span<Complex> column) { inverse ? fft.inverse(column) : fft.forward(column); });
-}
-
+// Of the slopes of a row: their squares and what no height explains of these, summed.
 struct Power {
     double slope = 0, residual = 0;
+    glm::dvec2 slopes{0}; // the sum of themselves
 };
+
+Power total(const std::vector<Power>& rows)
+{
+    Power all;
+    for (const Power& row : rows)
+        all.slope += row.slope, all.residual += row.residual, all.slopes += row.slopes;
+    return all;
+}
 
 // In place: the transform of p + i q becomes that of the height; k and -k together, as both are
 // needed to part P from Q.
@@ -139,10 +135,7 @@ Power solve(Grid& grid, std::size_t width, std::size_t height, Kernel kernel)
             }
         }
     });
-    Power all;
-    for (const Power& row : rows)
-        all.slope += row.slope, all.residual += row.residual;
-    return all;
+    return total(rows);
 }
 
 void solvePeriodic(const Image& map, const ToHeightSettings& s, Heights& result)
@@ -160,27 +153,18 @@ void solvePeriodic(const Image& map, const ToHeightSettings& s, Heights& result)
         }
     });
     result.invalid = invalid;
-    transformRows(grid, width, height, false);
-    transformColumns(grid, width, height, false);
+    const Fft across{std::size_t(width)}, down{std::size_t(height)};
+    eachRow<Complex>(grid, width, height, [&](std::span<Complex> row) { across.forward(row); });
+    eachColumn<Complex>(grid, width, height, [&](std::span<Complex> column) { down.forward(column); });
     const double n = double(map.pixelCount());
     result.meanTilt = std::atan(double(std::abs(grid[0])) / n) * 180 / std::numbers::pi;
     const Power power = solve(grid, std::size_t(width), std::size_t(height), s.kernel);
     result.slope = std::sqrt(power.slope) / n; // Parseval: sum |x|^2 = sum |X|^2 / N
     result.residual = std::sqrt(power.residual) / n;
-    transformColumns(grid, width, height, true);
-    transformRows(grid, width, height, true);
+    eachColumn<Complex>(grid, width, height, [&](std::span<Complex> column) { down.inverse(column); });
+    eachRow<Complex>(grid, width, height, [&](std::span<Complex> row) { across.inverse(row); });
     result.texels.resize(grid.size());
     std::ranges::transform(grid, result.texels.begin(), [](std::complex<float> c) { return c.real(); });
-}
-
-void transformCosine(std::vector<float>& grid, int width, int height, bool inverse)
-{
-    const Fft across{std::size_t(width)}, down{std::size_t(height)};
-    const auto one = [inverse](const Fft& fft, std::span<double> x) {
-        inverse ? cosineInverse(fft, x) : cosineForward(fft, x);
-    };
-    eachRow<double>(grid, width, height, [&](std::span<double> row) { one(across, row); });
-    eachColumn<double>(grid, width, height, [&](std::span<double> column) { one(down, column); });
 }
 
 // Calls work(x, y, slopes of the row above, of this row, of the row below). Bands of rows run side by
@@ -211,16 +195,6 @@ template<class Work> std::size_t eachSlope(const Image& map, const ToHeightSetti
 }
 
 using Row = std::vector<glm::vec2>;
-
-// The share of the neighbours above, in the middle and below, that a kernel takes across its derivative.
-std::array<float, 3> sharesAcross(Kernel kernel)
-{
-    if (kernel == Kernel::sobel)
-        return {0.25f, 0.5f, 0.25f};
-    if (kernel == Kernel::scharr)
-        return {3.0f / 16, 10.0f / 16, 3.0f / 16};
-    return {0, 1, 0};
-}
 
 // Slopes beyond the border, where heights go on as the border's own. Along a slope's direction its mirror image
 // has the other sign.
@@ -266,14 +240,17 @@ glm::vec2 slopeOf(Kernel kernel, const std::vector<float>& heights, int x, int y
 // cosine of that frequency; not above 0: nothing.
 template<class PowerOf> void divide(std::vector<float>& h, int width, int height, PowerOf power)
 {
-    transformCosine(h, width, height, false);
+    const Fft across{std::size_t(width)}, down{std::size_t(height)};
+    eachRow<double>(h, width, height, [&](std::span<double> row) { cosineForward(across, row); });
+    eachColumn<double>(h, width, height, [&](std::span<double> column) { cosineForward(down, column); });
     for (int y = 0; y < height; ++y)
         for (int x = 0; x < width; ++x) {
             const double p = power(std::numbers::pi * x / width, std::numbers::pi * y / height);
             float& v = h[std::size_t(y) * std::size_t(width) + std::size_t(x)];
             v = p > 0 ? float(double(v) / p) : 0.0f;
         }
-    transformCosine(h, width, height, true);
+    eachRow<double>(h, width, height, [&](std::span<double> row) { cosineInverse(across, row); });
+    eachColumn<double>(h, width, height, [&](std::span<double> column) { cosineInverse(down, column); });
 }
 
 // The wanted differences between neighbours are the means of their slopes; none across the border. Minus their
@@ -330,7 +307,6 @@ void solveFree(const Image& map, const ToHeightSettings& s, Heights& result)
     spectral ? solveFreeSpectral(map, s, result) : solveFreeKernel(map, s, result);
 
     std::vector<Power> rows(height);
-    std::vector<glm::dvec2> sums(height, glm::dvec2(0));
     eachSlope(map, s, [&](std::size_t x, int y, const Row&, const Row& here, const Row& below) {
         Power& power = rows[std::size_t(y)];
         if (spectral) {
@@ -342,18 +318,13 @@ void solveFree(const Image& map, const ToHeightSettings& s, Heights& result)
             power.residual += forward && y == 0 ? 0 : off.y * off.y;
         }
         power.slope += double(glm::dot(here[x], here[x]));
-        sums[std::size_t(y)] += glm::dvec2(here[x]);
+        power.slopes += glm::dvec2(here[x]);
     });
-    Power all;
-    glm::dvec2 sum(0);
-    for (std::size_t y = 0; y < height; ++y) {
-        all.slope += rows[y].slope, all.residual += rows[y].residual;
-        sum += sums[y];
-    }
+    const Power all = total(rows);
     const double n = double(map.pixelCount());
     result.slope = std::sqrt(all.slope / n);
     result.residual = std::sqrt(all.residual / n);
-    result.meanTilt = std::atan(glm::length(sum) / n) * 180 / std::numbers::pi;
+    result.meanTilt = std::atan(glm::length(all.slopes) / n) * 180 / std::numbers::pi;
 }
 
 } // namespace

@@ -1,7 +1,5 @@
 #include "entry.hpp"
 
-#include "godot.hpp"
-
 namespace cotan::shader_text {
 
 namespace {
@@ -63,6 +61,16 @@ const char* const kTrianglePixel =
     "    cotan_vec3 v = cotan_unpack_triangle_v(words);\n"
     "    return cotan_perturb_{}(normal, u, v, m);\n}}\n";
 
+// The same where the language cannot unpack.
+const char* const kTriangleVectorsPixel =
+    "// The perturbed normal, unit.\n"
+    "// normal: interpolated. On back faces leave it as it is and turn the result.\n"
+    "// u, v: the vectors of the triangle, the same at every pixel of it, in normal's space.\n"
+    "// texel: the normal map as sampled.\n"
+    "COTAN_FUNCTION cotan_vec3 cotan_perturb_normal_on_triangle(cotan_vec3 normal, cotan_vec3 u, cotan_vec3 v, "
+    "cotan_vec3 texel)\n{{\n"
+    "    return cotan_perturb_{}(normal, u, v, cotan_decode(texel));\n}}\n";
+
 // What the form `seen` asks for beside the others.
 const char* const kSideParameter = ", cotan_real side";
 const char* const kSide =
@@ -105,16 +113,6 @@ std::string fromDifferences(Frame frame, Form form)
                 head, info(frame).word, normalFor(frame));
 }
 
-// The same where the language cannot unpack.
-const char* const kTriangleVectorsPixel =
-    "// The perturbed normal, unit.\n"
-    "// normal: interpolated. On back faces leave it as it is and turn the result.\n"
-    "// u, v: the vectors of the triangle, the same at every pixel of it, in normal's space.\n"
-    "// texel: the normal map as sampled.\n"
-    "COTAN_FUNCTION cotan_vec3 cotan_perturb_normal_on_triangle(cotan_vec3 normal, cotan_vec3 u, cotan_vec3 v, "
-    "cotan_vec3 texel)\n{{\n"
-    "    return cotan_perturb_{}(normal, u, v, cotan_decode(texel));\n}}\n";
-
 std::string ofTriangle(const Choice& choice)
 {
     const std::string fromEdges = fromDifferences(choice.frame, Form::fused);
@@ -142,13 +140,8 @@ std::string perSet(int sets, std::string_view pattern)
     return text;
 }
 
-std::string sumOfSets(int sets, std::string_view word)
-{
-    std::string sum = fill("{}0", word);
-    for (int k = 1; k < sets; ++k)
-        sum += fill(" + {}{}", word, k);
-    return sum;
-}
+// "slope0 + slope1" of the word slope.
+std::string sumOfSets(int sets, std::string_view word) { return perSet(sets, fill(" + {}{{0}}", word)).substr(3); }
 
 std::string fromSeveralSets(Frame frame, Form form, int sets)
 {

@@ -1,6 +1,8 @@
-// The function that a caller uses, as portable text; the comment at the top; and what both are written with.
+// What is put around the portable text: the function that a caller uses, the comment at the top, and a spatial shader
+// of Godot; and what they are written with.
 #pragma once
 
+#include <algorithm>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -29,6 +31,25 @@ bool hasScreenEntry(const Choice& choice);
 
 // The comment at the top: what it is, what it needs, how it is called, its limits, whom to thank.
 std::string introduction(const Choice& choice, Form form);
+
+inline bool hasSet(const Choice& choice, Set set) { return std::ranges::find(choice.sets, set) != choice.sets.end(); }
+
+// ---- Godot ----------------------------------------------------------------------------------
+
+// Whether the choice is the whole shader, not its functions alone.
+bool isGodotShader(const Choice& choice);
+
+// Errors (usage): what Godot's shaders cannot see.
+Status checkGodot(const Choice& choice, Form form);
+
+// What light() calls.
+std::vector<std::string> functionsOfLight();
+
+// The part "Needs" of the comment at the top.
+std::string godotNeeds(const Choice& choice);
+
+// The functions with what is before and after them.
+std::string godotShader(const Choice& choice, const std::string& functions);
 
 // ---- text with gaps -------------------------------------------------------------------------
 

@@ -1,14 +1,10 @@
-#include "godot.hpp"
-
-#include <algorithm>
-
 #include "entry.hpp"
 
 namespace cotan::shader_text {
 
 namespace {
 
-bool hasLight(const Choice& choice) { return std::ranges::find(choice.sets, Set::light) != choice.sets.end(); }
+bool hasLight(const Choice& choice) { return hasSet(choice, Set::light); }
 
 // Whether two vectors come with the mesh: U and V of its triangles, or cotangents.
 bool hasVectors(const Choice& choice) { return readsTriangleVectors(choice.frame) || readsCotangents(choice.frame); }

@@ -1,7 +1,4 @@
-#include <algorithm>
-
 #include "entry.hpp"
-#include "godot.hpp"
 #include "languages.hpp"
 
 namespace cotan::shader_text {
@@ -151,8 +148,6 @@ std::string limits(const Choice& choice, Form form)
                                                            : ".\n");
     return text + std::string(infoOf(choice.language).limits);
 }
-
-bool hasSet(const Choice& choice, Set set) { return std::ranges::find(choice.sets, set) != choice.sets.end(); }
 
 // What the sets leave to the caller.
 std::string ofSets(const Choice& choice)

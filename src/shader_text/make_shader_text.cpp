@@ -4,7 +4,6 @@
 #include <set>
 
 #include "entry.hpp"
-#include "godot.hpp"
 #include "languages.hpp"
 #include "parse.hpp"
 #include "specialise.hpp"
@@ -65,15 +64,6 @@ std::vector<std::string> rootsOf(const Module& module, const Choice& choice)
     return roots;
 }
 
-// What the language cannot do.
-Status checkLanguage(const Choice& choice, Form form)
-{
-    for (const Set set : choice.sets)
-        if (!hasSet(choice.language, set))
-            return usageError(fill("the set {}: Godot does this itself; expected gradient, blend or light", name(set)));
-    return choice.language == Language::godot ? checkGodot(choice, form) : Status(Done{});
-}
-
 Result<Form> formOf(const Choice& choice)
 {
     const bool several = choice.uvSets > 1;
@@ -96,9 +86,11 @@ Result<Form> formOf(const Choice& choice)
     const Form form = choice.form ? *choice.form : fusedByItself ? Form::fused : Form::total;
     if (choice.stage != Stage::all && (!readsTriangleVectors(choice.frame) || form != Form::fused))
         return usageError("a stage: expected the frame triangle in its fused form; found another");
-    if (Status possible = checkLanguage(choice, form); !possible)
-        return possible.error();
-    return form;
+    for (const Set set : choice.sets)
+        if (!hasSet(choice.language, set))
+            return usageError(fill("the set {}: Godot does this itself; expected gradient, blend or light", name(set)));
+    const Status possible = choice.language == Language::godot ? checkGodot(choice, form) : Done{};
+    return possible ? Result<Form>(form) : possible.error();
 }
 
 } // namespace

@@ -1,6 +1,8 @@
 #include "specialise.hpp"
 
 #include <algorithm>
+#include <iterator>
+#include <ranges>
 #include <set>
 #include <span>
 
@@ -143,33 +145,24 @@ void simplify(Function& function)
 Module neededBy(const Module& module, const std::vector<std::string>& roots)
 {
     std::set<std::string> wanted(roots.begin(), roots.end());
-    std::vector<bool> taken(module.functions.size());
-    Module needed;
     // Uses come after definitions, so one walk backwards finds all.
-    for (std::size_t i = module.functions.size(); i-- > 0;) {
-        const Function& f = module.functions[i];
-        if (!wanted.count(f.name))
+    for (const Function& f : std::views::reverse(module.functions)) {
+        if (!wanted.contains(f.name))
             continue;
-        taken[i] = true;
         wanted.insert(f.type);
         for (const Variable& p : f.parameters)
             wanted.insert(p.type);
+        for (const Statement& s : f.body)
+            wanted.insert(s.type);
         visitBody(f.body, [&](const Expression& e) {
             if (e.kind == Kind::call)
                 wanted.insert(e.text);
         });
     }
-    for (const Struct& s : module.structs) {
-        bool used = wanted.count(s.name) > 0;
-        for (std::size_t i = 0; i < taken.size() && !used; ++i)
-            for (const Statement& statement : module.functions[i].body)
-                used |= taken[i] && statement.type == s.name;
-        if (used)
-            needed.structs.push_back(s);
-    }
-    for (std::size_t i = 0; i < taken.size(); ++i)
-        if (taken[i])
-            needed.functions.push_back(module.functions[i]);
+    Module needed;
+    const auto isWanted = [&](const auto& one) { return wanted.contains(one.name); };
+    std::ranges::copy_if(module.structs, std::back_inserter(needed.structs), isWanted);
+    std::ranges::copy_if(module.functions, std::back_inserter(needed.functions), isWanted);
     return needed;
 }
 

@@ -29,7 +29,6 @@ glm::vec3 turned(const glm::vec3& n, const CotangentFrame<double>& frame, bool f
 Image stored(const Baked& values, const RecodeSettings& s, std::size_t& clamped)
 {
     Image out = makeImage(values.width, values.height, s.type);
-    const float steps = s.type == PixelType::unorm8 ? 255.0f : s.type == PixelType::unorm16 ? 65535.0f : 0.0f;
     std::vector<glm::vec4> row(std::size_t(values.width));
     const bool tangent = s.to.kind != MapKind::objectSpace;
     for (int y = 0; y < values.height; ++y) {
@@ -37,9 +36,9 @@ Image stored(const Baked& values, const RecodeSettings& s, std::size_t& clamped)
             const glm::vec3 n = values.values[std::size_t(y) * row.size() + x];
             clamped += tangent && n.z < 0 && s.to.channels != Channels::xyz;
             row[x] = encodeTexel(n, s.to, s.type);
-            if (s.dither)
-                row[x] = dithered(row[x], steps, int(x), y);
         }
+        if (s.dither)
+            ditherRow(row, s.type, y);
         storeRow(out, y, row);
     }
     return out;

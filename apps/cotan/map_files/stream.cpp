@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/loops.hpp"
+#include "pipeline.hpp"
 
 namespace cotan::maps {
 

@@ -8,11 +8,11 @@
 
 #include <fmt/format.h>
 
+#include "block.hpp"
 #include "files/output.hpp"
 #include "image/checks.hpp"
 #include "image/dds.hpp"
 #include "image/format_table.hpp"
-#include "maps/block.hpp"
 
 namespace cotan::maps {
 

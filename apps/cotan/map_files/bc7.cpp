@@ -1,6 +1,6 @@
 // BC7 of normal maps, in its mode 6: red, green, blue and alpha on one line in each block, between two ends of 7 bits
 // and one that the channels share, at 16 places. Microsoft, BC7 Format; Khronos Data Format 1.3, section 20.
-#include "maps/block.hpp"
+#include "block.hpp"
 
 #include <algorithm>
 #include <array>

@@ -1,4 +1,4 @@
-#include "maps/block.hpp"
+#include "block.hpp"
 
 #include <algorithm>
 #include <array>
