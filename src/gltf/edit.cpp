@@ -111,11 +111,10 @@ GltfDocument open(const std::filesystem::path& path, const LoadLimits& limits)
     auto source = std::make_shared<GltfSource>();
     source->path = path;
     source->bytes = modelBytes;
-    source->root = std::move(model.file.json);
     source->file = std::move(model.file);
     source->views = std::move(model.views);
     GltfDocument document;
-    rootOf(document) = source->root;
+    rootOf(document) = source->file.json;
     if (!rootOf(document).contains("bufferViews")) // a member that is added later would leave no reference in place
         rootOf(document)["bufferViews"] = Json::array();
     document.source = std::move(source);

@@ -15,7 +15,7 @@ namespace {
 bool isAsRead(const GltfDocument& document, const char* collection, std::size_t index)
 {
     const Json& now = rootOf(document)[collection];
-    return index < now.size() && now[index] == document.source->root[collection][index];
+    return index < now.size() && now[index] == document.source->file.json[collection][index];
 }
 
 // What of a stream the primitive still has, as the extension names it: ids by attribute. Empty where the positions or
@@ -121,7 +121,7 @@ void notePlainViews(GltfDocument& document)
 // Items that the file used, or that were added, and that nothing uses now.
 std::vector<bool> released(const GltfDocument& document, Collection collection)
 {
-    std::vector<bool> before = usedItems(document.source->root, collection);
+    std::vector<bool> before = usedItems(document.source->file.json, collection);
     if (collection == Collection::bufferViews) // decoded, nothing refers to them
         for (const GltfPacked::Primitive& packed : document.source->file.packed.primitives)
             before[packed.draco["bufferView"].get<std::size_t>()] = true;
@@ -158,7 +158,7 @@ std::vector<Part> partsOf(const GltfDocument& document)
             part.bytes = document.source->file.buffers[part.buffer].subspan(part.offset,
                                                                             extension["byteLength"].get<std::size_t>());
         } else if (part.fromFile) {
-            const gltf::BufferView view = gltf::readBufferView(document.source->root["bufferViews"][i]);
+            const gltf::BufferView view = gltf::readBufferView(document.source->file.json["bufferViews"][i]);
             part.buffer = view.buffer;
             part.offset = view.offset;
         }

@@ -21,9 +21,8 @@ using gltf::Json;
 struct GltfSource {
     std::filesystem::path path;
     std::size_t bytes = 0;              // of the model file itself
-    GltfFile file;                      // folder and buffers
+    GltfFile file;                      // folder, buffers, and the JSON as read
     std::vector<gltf::ViewBytes> views; // of the file
-    Json root;                          // as read
 };
 
 namespace gltf_edit {

@@ -60,7 +60,7 @@ std::size_t sizeBefore(const GltfSource& source)
     std::set<fs::path> files;
     for (const auto& [file, bytes] : source.file.bufferFiles)
         files.insert(file);
-    for (const auto& [image, file] : imageFiles(source, source.root))
+    for (const auto& [image, file] : imageFiles(source, source.file.json))
         files.insert(file);
     return source.bytes + totalSize(files);
 }
@@ -175,8 +175,8 @@ std::string plainName(const std::string& name)
 std::string nameOfImage(const GltfSource& source, const Json& root, std::size_t i)
 {
     std::string name = root["images"][i].value("name", std::string());
-    if (name.empty() && i < countOf(source.root, "images") && isExternal(source.root["images"][i]))
-        name = fs::path(source.root["images"][i]["uri"].get<std::string>()).stem().string();
+    if (name.empty() && i < countOf(source.file.json, "images") && isExternal(source.file.json["images"][i]))
+        name = fs::path(source.file.json["images"][i]["uri"].get<std::string>()).stem().string();
     return name.empty() ? fmt::format("image{}", i) : plainName(name);
 }
 
@@ -210,7 +210,7 @@ void putImagesBeside(GltfDocument& document, const fs::path& file, const LoadLim
     const std::size_t old = source.views.size();
     const std::vector<std::string> own = ownImages(file, limits);
     std::vector<fs::path> read;
-    for (const auto& [i, path] : imageFiles(source, source.root))
+    for (const auto& [i, path] : imageFiles(source, source.file.json))
         read.push_back(path);
     for (std::size_t i = 0; i < countOf(rootOf(document), "images"); ++i) {
         Json& image = rootOf(document)["images"][i];

@@ -158,7 +158,7 @@ Result<GltfDocument> gltfDocumentOf(const Scene& scene)
         return sound.error();
     GltfDocument document;
     auto source = std::make_shared<GltfSource>();
-    source->root = Json::object();
+    source->file.json = Json::object();
     document.source = std::move(source);
     Json& root = rootOf(document);
     root = {{"asset", {{"version", "2.0"}, {"generator", "cotan"}}}, {"scene", 0}};

@@ -1,5 +1,6 @@
 #include "gltf_file.hpp"
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <optional>
@@ -165,6 +166,15 @@ Result<std::vector<std::byte>> readGltfResource(const GltfFile& file, const fs::
         return inputError(fmt::format("{}: the file has {} bytes, the limit is {}", resource.string(), bytes->size(),
                                       limits.fileBytes));
     return bytes;
+}
+
+void takeBytes(std::size_t& taken, std::size_t bytes, std::size_t most, const char* what, std::size_t fileBytes,
+               const std::string& field)
+{
+    if (bytes > most - std::min(taken, most))
+        failGltf("{}: {} {} bytes with it, the limit is {} for a file of {}", field, what, taken + bytes, most,
+                 fileBytes);
+    taken += bytes;
 }
 
 GltfFile openGltf(const fs::path& path, const LoadLimits& limits, GltfWarnings& warnings)

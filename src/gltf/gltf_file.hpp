@@ -94,6 +94,11 @@ void checkGltfAnimations(const gltf::Json& root);
 // Throws GltfProblem: damaged streams; ErrorKind::unavailable where this build lacks the decoder.
 void unpackGltf(GltfFile& file, const LoadLimits& limits);
 
+// Adds bytes to those that are taken already. Throws GltfProblem where they are more than `most` with it. what: the
+// message's subject and verb; fileBytes: the size of the file, for the message too.
+void takeBytes(std::size_t& taken, std::size_t bytes, std::size_t most, const char* what, std::size_t fileBytes,
+               const std::string& field);
+
 namespace gltf {
 
 // A buffer view as EXT_meshopt_compression has it.

@@ -61,11 +61,8 @@ private:
     // Counts bytes before they are decoded. Numbers are below 2^60.
     void take(std::size_t bytes, const std::string& field)
     {
-        const std::size_t most = limits_.geometryBytes + 64 * file_.size;
-        if (bytes > most - std::min(file_.unpacked, most))
-            failGltf("{}: decoded geometry takes {} bytes with it, the limit is {} for a file of {}", field,
-                     file_.unpacked + bytes, most, file_.size);
-        file_.unpacked += bytes;
+        takeBytes(file_.unpacked, bytes, limits_.geometryBytes + 64 * file_.size, "decoded geometry takes", file_.size,
+                  field);
     }
 
     // A new buffer and a view of all of it; returns what the JSON of the view has to say.
