@@ -25,20 +25,6 @@ Run runIn(const ViewBytes& from, int view, std::size_t offset, std::size_t strid
     return {from.bytes.data() + std::min(offset, from.bytes.size()), stride, count};
 }
 
-void checkFiniteRun(const Run& run, std::size_t components, const std::string& field)
-{
-    if (!run.first)
-        return;
-    for (std::size_t i = 0; i < run.count; ++i) {
-        for (std::size_t c = 0; c < components; ++c) {
-            float x = 0;
-            std::memcpy(&x, run.at(i) + c * sizeof x, sizeof x);
-            if (!std::isfinite(x))
-                failGltf("{}: expected finite numbers, found {} in element {}", field, x, i);
-        }
-    }
-}
-
 // ---- conversion -----------------------------------------------------------------------------
 
 template<class Out, class Stored> Out convert(Stored value, bool normalized)
@@ -163,8 +149,14 @@ void checkFinite(const Elements& elements, const std::string& field)
     if (elements.accessor.componentType != kFloat)
         return;
     const std::size_t components = componentCount(elements.accessor.type);
-    checkFiniteRun(elements.dense, components, field);
-    checkFiniteRun(elements.sparseValues, components, field);
+    for (const Run& run : {elements.dense, elements.sparseValues})
+        for (std::size_t i = 0; run.first && i < run.count; ++i)
+            for (std::size_t c = 0; c < components; ++c) {
+                float x = 0;
+                std::memcpy(&x, run.at(i) + c * sizeof x, sizeof x);
+                if (!std::isfinite(x))
+                    failGltf("{}: expected finite numbers, found {} in element {}", field, x, i);
+            }
 }
 
 const char* nameOfComponent(int componentType)

@@ -102,6 +102,30 @@ void findViews(GltfModel& model)
     });
 }
 
+// Fills GltfModel::views and ::accessors. Checks all buffer views, and all accessors with their sparse parts, against
+// the buffers and against the allowance, and refuses NaN and infinity in float accessors other than texture
+// coordinates. The readers below rely on it.
+void findAccessors(GltfModel& model)
+{
+    findViews(model);
+    const std::set<int> texcoords = texcoordAccessors(model.structure);
+    // Accessors without a view are zeros that cost the file nothing, and many may share one view: what they add up to
+    // bounds memory and time. Counts are below 2^53 and elements at most 64 bytes, so one of them overflows nothing.
+    const std::size_t most = gltfAllowance(model);
+    std::size_t total = 0, i = 0;
+    model.accessors = gltf::readAll(&model.file.json, "accessors", [&](const Json& json) {
+        const std::string field = fmt::format("accessors[{}]", i);
+        const Accessor a = gltf::readAccessor(json);
+        Elements elements = gltf::findElements(
+            a, [&](std::size_t view) { return model.views[view]; }, field);
+        takeBytes(total, a.count * gltf::elementSize(a), most, "the accessors take", model.file.size, field);
+        gltf::checkSparse(elements, field);
+        if (!texcoords.contains(int(i++)))
+            gltf::checkFinite(elements, field);
+        return elements;
+    });
+}
+
 template<class T>
 std::vector<T> makeArray(GltfModel& model, std::size_t count, const T& value, const std::string& field)
 {
@@ -131,41 +155,13 @@ void readGltfModel(GltfModel& model)
     unpackGltf(model.file, model.limits);
     chooseGltfVariant(model);
     model.structure = gltf::readStructure(model.file.json);
-    findGltfAccessors(model);
+    findAccessors(model);
     poseGltf(model);
 }
 
 void takeGltfBytes(GltfModel& model, std::size_t bytes, const std::string& field)
 {
-    const std::size_t most = gltfAllowance(model);
-    if (bytes > most - std::min(model.bytesTaken, most))
-        failGltf("{}: the geometry takes {} bytes with it, the limit is {} for a file of {}", field,
-                 model.bytesTaken + bytes, most, model.file.size);
-    model.bytesTaken += bytes;
-}
-
-void findGltfAccessors(GltfModel& model)
-{
-    findViews(model);
-    const std::set<int> texcoords = texcoordAccessors(model.structure);
-    // Accessors without a view are zeros that cost the file nothing, and many may share one view: what they add up to
-    // bounds memory and time. Counts are below 2^53 and elements at most 64 bytes, so one of them overflows nothing.
-    const std::size_t most = gltfAllowance(model);
-    std::size_t total = 0, i = 0;
-    model.accessors = gltf::readAll(&model.file.json, "accessors", [&](const Json& json) {
-        const std::string field = fmt::format("accessors[{}]", i);
-        const Accessor a = gltf::readAccessor(json);
-        Elements elements = gltf::findElements(
-            a, [&](std::size_t view) { return model.views[view]; }, field);
-        total += a.count * gltf::elementSize(a);
-        if (total > most)
-            failGltf("{}: the accessors take {} bytes with it, the limit is {} for a file of {}", field, total, most,
-                     model.file.size);
-        gltf::checkSparse(elements, field);
-        if (!texcoords.contains(int(i++)))
-            gltf::checkFinite(elements, field);
-        return elements;
-    });
+    takeBytes(model.bytesTaken, bytes, gltfAllowance(model), "the geometry takes", model.file.size, field);
 }
 
 std::vector<glm::vec4> readGltfColors(GltfModel& model, int accessor, const Choice& choice, const std::string& field)

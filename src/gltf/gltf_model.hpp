@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -19,15 +20,6 @@
 
 namespace cotan::gltf {
 
-// A material without its textures, and how it uses those.
-struct MaterialSource {
-    Material factors;
-    TextureUse baseColor, metallicRoughness, normal, occlusion, emissive;
-    TextureUse coat, coatRoughness, coatNormal, anisotropy, specular, specularColor, sheenColor, sheenRoughness,
-        transmission;
-    std::string frame; // that the maps were made for, by the extras; empty if they say nothing
-};
-
 // Lights and cameras stand at the origin and look along -z, until a node places them.
 struct Structure {
     std::vector<std::vector<int>> scenes; // the nodes that each lists
@@ -37,14 +29,15 @@ struct Structure {
     std::vector<Skin> skins;
     std::vector<Camera> cameras;
     std::vector<Light> lights;
-    std::vector<MaterialSource> materials;
-    std::vector<Texture> textures;
-    std::vector<Image> images; // their URIs point into the JSON
-    std::vector<Sampler> samplers;
 };
 
 // root: has passed checkGltfShape. Throws GltfProblem where a camera or a spot light is not described.
 Structure readStructure(const Json& root);
+
+// A material without the frame of its maps. texture(owner, slot): the one that a member of the material, or of an
+// object in it, asks for; it is called for layers that are there alone.
+using TextureOf = std::function<cotan::Texture(const Json& owner, const char* slot)>;
+Material readMaterial(const Json& source, const TextureOf& texture);
 
 // Calls read(object) for each of a collection of the root, or of an extension of it.
 template<class Read> auto readAll(const Json* owner, const char* collection, const Read& read)
@@ -68,7 +61,7 @@ struct GltfModel {
     GltfWarnings warnings;
     gltf::Structure structure;
     std::vector<gltf::ViewBytes> views;    // the buffer views
-    std::vector<gltf::Elements> accessors; // all have passed findGltfAccessors
+    std::vector<gltf::Elements> accessors; // all have been checked
     std::size_t verticesTaken = 0;         // against limits.vertices
     std::size_t trianglesTaken = 0;        // against limits.triangles
     std::size_t bytesTaken = 0;            // by arrays of vertices and triangles, against gltfAllowance
@@ -93,11 +86,6 @@ std::size_t findNamed(const std::vector<std::string>& names, const std::string& 
 
 // Counts bytes before they are allocated. field: for the message where they are too many.
 void takeGltfBytes(GltfModel& model, std::size_t bytes, const std::string& field);
-
-// Fills GltfModel::views and ::accessors. Checks all buffer views, and all accessors with their sparse
-// parts, against the buffers and against the allowance, and refuses NaN and infinity in float accessors
-// other than texture coordinates. The readers below rely on it.
-void findGltfAccessors(GltfModel& model);
 
 // The elements of an accessor. field: for messages, what the accessor is used as. An element type or
 // component type that cannot be used so is refused, and so is an array that goes over the allowance.

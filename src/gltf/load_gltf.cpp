@@ -4,6 +4,7 @@
 #include <tuple>
 #include <utility>
 
+#include "gltf/json/lookup.hpp"
 #include "material.hpp"
 #include "mesh.hpp"
 #include "scene/normal_maps.hpp"
@@ -68,7 +69,7 @@ private:
     {
         const int material = primitive.mesh.material;
         const gltf::TextureUse map =
-            material < 0 ? gltf::TextureUse{} : model_.structure.materials[std::size_t(material)].normal;
+            material < 0 ? gltf::TextureUse{} : normalMapOf(model_.file.json, std::size_t(material));
         return finishGltfMesh(std::move(primitive), map.texture < 0 ? -1 : map.texcoord, model_.warnings);
     }
 
@@ -170,8 +171,10 @@ Scene load(const std::filesystem::path& path, const LoadLimits& limits)
 {
     GltfModel model;
     open(model, path, limits);
-    gltf::Json images = std::move(model.file.json["images"]); // whose URIs are all that is still read from the JSON
-    model.file.json = std::move(images);
+    gltf::Json kept; // what materials are made of: all that is still read from the JSON
+    for (const char* const collection : {"materials", "textures", "samplers", "images"})
+        kept[collection] = std::move(model.file.json[collection]);
+    model.file.json = std::move(kept);
     return build(model, path, nullptr);
 }
 

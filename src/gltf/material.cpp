@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <atomic>
+#include <optional>
 
 #include "core/loops.hpp"
 #include "cotan/image.hpp"
 #include "files/bytes.hpp"
+#include "gltf/json/lookup.hpp"
 #include "image/component_types.hpp"
 
 namespace cotan {
@@ -17,7 +19,7 @@ Texture GltfMaterials::texture(const gltf::TextureUse& use, const Mesh& mesh, co
     Texture texture;
     if (use.texture < 0)
         return texture;
-    const gltf::Texture& source = model_.structure.textures[std::size_t(use.texture)];
+    const gltf::Texture source = textureAt(model_.file.json, use.texture);
     // Its own, or the one that an extension gives it in another format.
     const int image = source.image >= 0 || model_.limits.pixels == Pixels::all ? source.image : source.foreign;
     if (image < 0) {
@@ -32,8 +34,7 @@ Texture GltfMaterials::texture(const gltf::TextureUse& use, const Mesh& mesh, co
         return texture;
     }
     texture.texcoord = set;
-    if (source.sampler >= 0)
-        texture.sampler = model_.structure.samplers[std::size_t(source.sampler)];
+    texture.sampler = samplerOf(model_.file.json, source);
     texture.uRow = use.uRow;
     texture.vRow = use.vRow;
     const auto [slot, isNew] = slots_.emplace(firstEqual(image), int(scene_.images.size()));
@@ -47,41 +48,19 @@ Material GltfMaterials::make(int index, const Mesh& mesh)
 {
     if (index < 0)
         return {};
-    const gltf::MaterialSource& source = model_.structure.materials[std::size_t(index)];
-    const auto map = [&](const gltf::TextureUse& use, const char* name) {
-        return texture(use, mesh, fmt::format("materials[{}].{}", index, name));
-    };
-    Material material = source.factors;
-    if (!source.frame.empty()) {
-        material.normalFrame = frameFromName(source.frame);
-        if (!material.normalFrame)
-            model_.warnings.add(
-                fmt::format("materials[{}].extras.{}", index, gltf::kFrameExtra),
-                fmt::format("expected the name of a frame, found '{}'; left out", oneLine(source.frame)));
+    const gltf::Json& source = model_.file.json["materials"][std::size_t(index)];
+    std::optional<Frame> frame;
+    if (const std::string named = gltf::frameText(source); !named.empty()) {
+        frame = frameFromName(named);
+        if (!frame)
+            model_.warnings.add(fmt::format("materials[{}].extras.{}", index, gltf::kFrameExtra),
+                                fmt::format("expected the name of a frame, found '{}'; left out", oneLine(named)));
     }
-    material.baseColorMap = map(source.baseColor, "baseColorTexture");
-    material.metallicRoughnessMap = map(source.metallicRoughness, "metallicRoughnessTexture");
-    material.normalMap = map(source.normal, "normalTexture");
-    material.occlusionMap = map(source.occlusion, "occlusionTexture");
-    material.emissiveMap = map(source.emissive, "emissiveTexture");
-    // Layers that are not there need no pictures.
-    if (material.coat.strength > 0) {
-        material.coat.map = map(source.coat, "clearcoatTexture");
-        material.coat.roughnessMap = map(source.coatRoughness, "clearcoatRoughnessTexture");
-        material.coat.normalMap = map(source.coatNormal, "clearcoatNormalTexture");
-    }
-    if (material.anisotropy.strength > 0)
-        material.anisotropy.map = map(source.anisotropy, "anisotropyTexture");
-    if (material.specular.strength > 0) {
-        material.specular.map = map(source.specular, "specularTexture");
-        material.specular.colorMap = map(source.specularColor, "specularColorTexture");
-    }
-    if (material.sheen.present()) {
-        material.sheen.colorMap = map(source.sheenColor, "sheenColorTexture");
-        material.sheen.roughnessMap = map(source.sheenRoughness, "sheenRoughnessTexture");
-    }
-    if (material.transmission.strength > 0)
-        material.transmission.map = map(source.transmission, "transmissionTexture");
+    Material material = gltf::readMaterial(source, [&](const gltf::Json& owner, const char* slot) {
+        return texture(gltf::readTextureUse(gltf::member(owner, slot)), mesh,
+                       fmt::format("materials[{}].{}", index, slot));
+    });
+    material.normalFrame = frame;
     return material;
 }
 
@@ -106,9 +85,14 @@ struct ImageSource {
 
 std::string imageField(int image) { return fmt::format("images[{}]", image); }
 
+gltf::Image imageAt(const GltfModel& model, int image)
+{
+    return gltf::readImage(model.file.json["images"][std::size_t(image)]);
+}
+
 ImageSource findImage(const GltfModel& model, int image, bool mayMiss = false)
 {
-    const gltf::Image& entry = model.structure.images[std::size_t(image)];
+    const gltf::Image entry = imageAt(model, image);
     const std::string field = imageField(image);
     ImageSource source;
     source.name = oneLine(entry.name);
@@ -188,7 +172,7 @@ std::uint64_t GltfMaterials::bytesOfFiles() const
 {
     std::uint64_t bytes = model_.file.size;
     for (const auto& [image, slot] : slots_) {
-        const gltf::Image& entry = model_.structure.images[std::size_t(image)];
+        const gltf::Image entry = imageAt(model_, image);
         if (!entry.uri || entry.uri->starts_with("data:") || model_.file.readFile)
             continue;
         bool outside = false;
@@ -203,7 +187,7 @@ std::uint64_t GltfMaterials::bytesOfFiles() const
 // The first image of the file that has the same bytes in a view; those with a URI stand for themselves.
 int GltfMaterials::firstEqual(int image)
 {
-    const gltf::Image& entry = model_.structure.images[std::size_t(image)];
+    const gltf::Image entry = imageAt(model_, image);
     if (entry.uri || entry.view < 0)
         return image;
     const std::span<const std::byte> bytes = model_.views[std::size_t(entry.view)].bytes;
@@ -274,7 +258,7 @@ void lookAt(const GltfModel& model, int image, bool used)
 
 void GltfMaterials::checkUnusedImages() const
 {
-    for (int i = 0; i < int(model_.structure.images.size()); ++i) {
+    for (int i = 0; i < int(countOf(model_.file.json, "images")); ++i) {
         const bool used = slots_.contains(i);
         if (used && model_.limits.pixels != Pixels::none)
             continue; // it was decoded

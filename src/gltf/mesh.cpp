@@ -31,21 +31,16 @@ template<class T> void spread(std::vector<T>& values, const std::vector<std::uin
     values = std::move(copy);
 }
 
-// glTF asks for flat normals where a primitive has none: every corner gets a vertex of its own
-// with its triangle's normal. Triangles without area get a zero normal.
+// glTF asks for flat normals where a primitive has none. Triangles without area get a zero normal.
 void makeFlat(Mesh& mesh)
 {
-    spread(mesh.positions, mesh.indices);
-    spread(mesh.texcoords[0], mesh.indices);
-    spread(mesh.texcoords[1], mesh.indices);
-    spread(mesh.colors, mesh.indices);
+    separateCorners(mesh);
     mesh.normals.assign(mesh.positions.size(), glm::vec3(0));
     for (std::size_t i = 0; i < mesh.indices.size(); i += 3) {
         const glm::dvec3 a = mesh.positions[i], b = mesh.positions[i + 1], c = mesh.positions[i + 2];
         const glm::vec3 n = unitOrZero(glm::cross(b - a, c - a));
         std::fill_n(mesh.normals.begin() + std::ptrdiff_t(i), 3, n);
     }
-    std::iota(mesh.indices.begin(), mesh.indices.end(), 0u);
 }
 
 void normalizeNormals(Mesh& mesh, const std::string& field, GltfWarnings& warnings)
@@ -175,6 +170,15 @@ glm::vec3 unitNormal(const glm::vec3& normal)
 {
     constexpr double kRounding = 2e-6; // as far as floats and six decimals go; quantised normals are up to 0.007 off
     return std::abs(glm::length(glm::dvec3(normal)) - 1) > kRounding ? unitOrZero(normal) : normal;
+}
+
+void separateCorners(Mesh& mesh)
+{
+    spread(mesh.positions, mesh.indices);
+    spread(mesh.texcoords[0], mesh.indices);
+    spread(mesh.texcoords[1], mesh.indices);
+    spread(mesh.colors, mesh.indices);
+    std::iota(mesh.indices.begin(), mesh.indices.end(), 0u);
 }
 
 Mesh finishGltfMesh(GltfPrimitive&& source, int normalMapSet, GltfWarnings& warnings)

@@ -44,6 +44,9 @@ void skinGltfPrimitive(GltfPrimitive& primitive, const std::vector<glm::dmat4>& 
 // that differ, and weld their vertices. Zero where it has no length.
 glm::vec3 unitNormal(const glm::vec3& normal);
 
+// Gives each corner of the triangles a vertex of its own: positions, uv and colors; the indices then count up.
+void separateCorners(Mesh& mesh);
+
 // Makes the mesh: unit normals (flat ones where the file has none), tangents with w = +-1. What is
 // odd about them is said. normalMapSet: the uv set that the material's normal map uses, or -1.
 Mesh finishGltfMesh(GltfPrimitive&& primitive, int normalMapSet, GltfWarnings& warnings);
