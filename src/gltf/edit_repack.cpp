@@ -139,7 +139,7 @@ void repackViews(GltfDocument& document, const std::vector<bool>& removed)
         kept[view].push_back({a, begin, end, size});
     }
     // Views that something else than the dense part of an accessor uses.
-    const std::vector<bool> other = usedItems(rootOf(document), Collection::bufferViews, "accessors/*/bufferView");
+    const std::vector<bool> other = usedItems(rootOf(document), kBufferViews, "accessors/*/bufferView");
     for (std::size_t view = 0; view < views; ++view) {
         if (!lost[view] || kept[view].empty() || other[view] || packedView(document, view)) // the last: as it came
             continue;

@@ -11,7 +11,7 @@
 
 namespace cotan {
 
-using gltf::Accessor, gltf::Choice, gltf::Elements, gltf::ElementType, gltf::Json;
+using gltf::Accessor, gltf::Elements, gltf::Json;
 
 namespace {
 
@@ -47,32 +47,25 @@ void chooseGltfVariant(GltfModel& model)
     if (model.limits.variant.empty())
         return;
     const std::size_t variant = findVariant(root, model.limits.variant), materials = countOf(root, "materials");
-    const auto meshes = root.find("meshes");
-    for (std::size_t m = 0; meshes != root.end() && m < meshes->size(); ++m) {
-        Json& primitives = (*meshes)[m]["primitives"];
-        for (std::size_t p = 0; p < primitives.size(); ++p) {
-            const Json* const mappings = gltf::member(gltf::extension(primitives[p], kVariants), "mappings");
-            if (!mappings || !mappings->is_array())
-                continue;
-            const auto found = std::find_if(mappings->begin(), mappings->end(),
-                                            [&](const Json& mapping) { return names(mapping, variant); });
-            if (found == mappings->end())
-                continue;
-            const Json material = found->value("material", Json());
-            if (!material.is_number_unsigned() || material.get<std::uint64_t>() >= materials)
-                failGltf("{}.extensions.{}: expected the number of one of {} materials, found {}", primitiveField(m, p),
-                         kVariants, materials, oneLine(material.dump()));
-            primitives[p]["material"] = material;
-        }
-    }
+    (void)forEachPrimitive(root, [&](std::size_t m, std::size_t p) -> Status {
+        Json& primitive = root["meshes"][m]["primitives"][p];
+        const Json* const mappings = gltf::member(gltf::extension(primitive, kVariants), "mappings");
+        if (!mappings || !mappings->is_array())
+            return Done{};
+        const auto found =
+            std::ranges::find_if(*mappings, [&](const Json& mapping) { return names(mapping, variant); });
+        if (found == mappings->end())
+            return Done{};
+        const Json material = found->value("material", Json());
+        if (!material.is_number_unsigned() || material.get<std::uint64_t>() >= materials)
+            failGltf("{}.extensions.{}: expected the number of one of {} materials, found {}", primitiveField(m, p),
+                     kVariants, materials, oneLine(material.dump()));
+        primitive["material"] = material;
+        return Done{};
+    });
 }
 
 // ---- accessors ------------------------------------------------------------------------------
-
-const Accessor& accessorAt(const GltfModel& model, int accessor)
-{
-    return model.accessors[std::size_t(accessor)].accessor;
-}
 
 // Accessors that serve as nothing but texture coordinates: there a NaN is replaced, not refused.
 std::set<int> texcoordAccessors(const gltf::Structure& structure)
@@ -126,13 +119,6 @@ void findAccessors(GltfModel& model)
     });
 }
 
-template<class T>
-std::vector<T> makeArray(GltfModel& model, std::size_t count, const T& value, const std::string& field)
-{
-    takeGltfBytes(model, count * sizeof(T), field);
-    return std::vector<T>(count, value);
-}
-
 } // namespace
 
 std::size_t findNamed(const std::vector<std::string>& names, const std::string& wanted, const char* what)
@@ -148,8 +134,10 @@ std::size_t findNamed(const std::vector<std::string>& names, const std::string& 
                                     what, oneLine(fmt::format("{}", fmt::join(names, ", "))), wanted))};
 }
 
-void readGltfModel(GltfModel& model)
+void readGltfModel(GltfModel& model, const std::filesystem::path& path, const LoadLimits& limits)
 {
+    model.limits = limits;
+    model.file = openGltf(path, limits, model.warnings);
     checkGltfShape(model.file.json, model.limits, model.warnings);
     loadGltfBuffers(model.file, model.limits);
     unpackGltf(model.file, model.limits);
@@ -162,65 +150,6 @@ void readGltfModel(GltfModel& model)
 void takeGltfBytes(GltfModel& model, std::size_t bytes, const std::string& field)
 {
     takeBytes(model.bytesTaken, bytes, gltfAllowance(model), "the geometry takes", model.file.size, field);
-}
-
-std::vector<glm::vec4> readGltfColors(GltfModel& model, int accessor, const Choice& choice, const std::string& field)
-{
-    if (accessorAt(model, accessor).type != ElementType::vec3)
-        return readGltfVectors<glm::vec4>(model, accessor, choice, field);
-    std::vector<glm::vec4> colors;
-    colors.reserve(choice.size());
-    for (const glm::vec3& c : readGltfVectors<glm::vec3>(model, accessor, choice, field))
-        colors.emplace_back(c, 1.0f);
-    return colors;
-}
-
-std::vector<glm::uvec4> readGltfJoints(GltfModel& model, int accessor, const Choice& choice, const std::string& field)
-{
-    const Accessor& a = accessorAt(model, accessor);
-    gltf::expectElements(a, ElementType::vec4, choice.count, {accessor, field});
-    if (a.componentType != gltf::kUnsignedByte && a.componentType != gltf::kUnsignedShort)
-        failGltf("{}: expected bytes or shorts in accessors[{}], found {}", field, accessor,
-                 gltf::nameOfComponent(a.componentType));
-    std::vector<glm::uvec4> joints = makeArray(model, choice.size(), glm::uvec4(0), field);
-    if (!joints.empty())
-        gltf::readNumbers(model.accessors[std::size_t(accessor)], choice, 4, &joints[0].x);
-    return joints;
-}
-
-std::vector<glm::mat4> readGltfMatrices(GltfModel& model, int accessor, std::size_t count, const std::string& field)
-{
-    const Accessor& a = accessorAt(model, accessor);
-    if (a.type != ElementType::mat4 || a.componentType != gltf::kFloat)
-        failGltf("{}: expected MAT4 of floats in accessors[{}], found {} of {}", field, accessor, gltf::nameOf(a.type),
-                 gltf::nameOfComponent(a.componentType));
-    if (a.count < count)
-        failGltf("{}: expected {} matrices in accessors[{}], found {}", field, count, accessor, a.count);
-    std::vector<glm::mat4> matrices = makeArray(model, count, glm::mat4(0), field);
-    if (count > 0)
-        gltf::readNumbers(model.accessors[std::size_t(accessor)], count, 16, &matrices[0][0].x);
-    return matrices;
-}
-
-std::vector<std::uint32_t> readGltfIndices(GltfModel& model, int accessor, std::size_t vertexCount,
-                                           const std::string& field)
-{
-    const Accessor& a = accessorAt(model, accessor);
-    gltf::expectIndices(a, {accessor, field});
-    if (a.view < 0)
-        failGltf("{}: expected accessors[{}] with a bufferView, found none", field, accessor);
-    if (a.count > model.limits.triangles * 3)
-        failGltf("{}: the limit is {} indices, found {}", field, model.limits.triangles * 3, a.count);
-    std::vector<std::uint32_t> indices = makeArray(model, a.count, std::uint32_t(0), field);
-    gltf::readNumbers(model.accessors[std::size_t(accessor)], a.count, 1, indices.data());
-    const std::uint32_t restart = 0xFFFFFFFFu >> (32 - 8 * gltf::componentSize(a.componentType));
-    for (std::size_t i = 0; i < indices.size(); ++i) {
-        if (indices[i] == restart)
-            failGltf("{}: index {} is {}, the primitive restart value, which glTF forbids", field, i, restart);
-        if (indices[i] >= vertexCount)
-            failGltf("{}: index {} is {}, but there are {} vertices", field, i, indices[i], vertexCount);
-    }
-    return indices;
 }
 
 } // namespace cotan

@@ -5,8 +5,7 @@
 #include <utility>
 
 #include "gltf/json/lookup.hpp"
-#include "material.hpp"
-#include "mesh.hpp"
+#include "gltf_model.hpp"
 #include "scene/normal_maps.hpp"
 
 namespace cotan {
@@ -23,6 +22,23 @@ struct MeshUse {
         return std::tie(mesh, skin, weights) < std::tie(other.mesh, other.skin, other.weights);
     }
 };
+
+// The first `count` float matrices; there may be more.
+std::vector<glm::mat4> readMatrices(GltfModel& model, int accessor, std::size_t count, const std::string& field)
+{
+    const gltf::Elements& elements = model.accessors[std::size_t(accessor)];
+    const gltf::Accessor& a = elements.accessor;
+    if (a.type != gltf::ElementType::mat4 || a.componentType != gltf::kFloat)
+        failGltf("{}: expected MAT4 of floats in accessors[{}], found {} of {}", field, accessor, gltf::nameOf(a.type),
+                 gltf::nameOfComponent(a.componentType));
+    if (a.count < count)
+        failGltf("{}: expected {} matrices in accessors[{}], found {}", field, count, accessor, a.count);
+    takeGltfBytes(model, count * sizeof(glm::mat4), field);
+    std::vector<glm::mat4> matrices(count, glm::mat4(0));
+    if (count > 0)
+        gltf::readNumbers(elements, count, 16, &matrices[0][0].x);
+    return matrices;
+}
 
 class SceneBuilder {
 public:
@@ -57,8 +73,8 @@ private:
             const std::string field = fmt::format("skins[{}]", i);
             std::vector<glm::mat4> bind(skin.joints.size(), glm::mat4(1));
             if (skin.inverseBindMatrices >= 0)
-                bind = readGltfMatrices(model_, skin.inverseBindMatrices, skin.joints.size(),
-                                        field + ".inverseBindMatrices");
+                bind =
+                    readMatrices(model_, skin.inverseBindMatrices, skin.joints.size(), field + ".inverseBindMatrices");
             std::vector<glm::dmat4>& joints = joints_.emplace_back();
             for (std::size_t j = 0; j < skin.joints.size(); ++j)
                 joints.push_back(nodes_.world[std::size_t(skin.joints[j])] * glm::dmat4(bind[j]));
@@ -149,13 +165,6 @@ private:
     std::map<MeshUse, std::vector<int>> made_;
 };
 
-void open(GltfModel& model, const std::filesystem::path& path, const LoadLimits& limits)
-{
-    model.limits = limits;
-    model.file = openGltf(path, limits, model.warnings);
-    readGltfModel(model);
-}
-
 Scene build(GltfModel& model, const std::filesystem::path& path, const std::vector<Image>* images)
 {
     Scene scene;
@@ -170,7 +179,7 @@ Scene build(GltfModel& model, const std::filesystem::path& path, const std::vect
 Scene load(const std::filesystem::path& path, const LoadLimits& limits)
 {
     GltfModel model;
-    open(model, path, limits);
+    readGltfModel(model, path, limits);
     gltf::Json kept; // what materials are made of: all that is still read from the JSON
     for (const char* const collection : {"materials", "textures", "samplers", "images"})
         kept[collection] = std::move(model.file.json[collection]);
@@ -206,7 +215,7 @@ Result<std::unique_ptr<AnimatedGltf>> AnimatedGltf::open(const std::filesystem::
         work->path = file;
         LoadLimits atRest = limits;
         atRest.pose = {};
-        cotan::open(work->model, file, atRest);
+        readGltfModel(work->model, file, atRest);
         work->nodes = work->model.structure.nodes;
         work->animations = gltfAnimations(work->model);
         work->warnings = work->model.warnings;

@@ -6,7 +6,7 @@
 #include <glm/geometric.hpp>
 
 #include "cotan/portable.hpp"
-#include "mesh.hpp"
+#include "gltf_model.hpp"
 #include "scene/geometry.hpp"
 
 namespace cotan {

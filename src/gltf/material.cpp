@@ -1,4 +1,4 @@
-#include "material.hpp"
+#include "gltf_model.hpp"
 
 #include <algorithm>
 #include <atomic>

@@ -1,5 +1,5 @@
 // A primitive moved by its skin; its normals and tangents, checked and made fit for use.
-#include "mesh.hpp"
+#include "gltf_model.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -52,10 +52,8 @@ void normalizeNormals(Mesh& mesh, const std::string& field, GltfWarnings& warnin
         odd += length > 0 && std::abs(length - 1) > kUnitTolerance;
         n = unitNormal(n);
     }
-    if (zero > 0)
-        warnings.add(field + ".NORMAL", "zero length, no direction known", zero, "vertices");
-    if (odd > 0)
-        warnings.add(field + ".NORMAL", "not of unit length, normalised", odd, "vertices");
+    warnings.add(field + ".NORMAL", "zero length, no direction known", zero, "vertices");
+    warnings.add(field + ".NORMAL", "not of unit length, normalised", odd, "vertices");
 }
 
 // ---- tangents -------------------------------------------------------------------------------
@@ -74,12 +72,9 @@ void normalizeTangents(Mesh& mesh, const std::string& field, GltfWarnings& warni
         signs += std::abs(std::abs(t.w) - 1) > kUnitTolerance;
         t.w = t.w < 0 ? -1.0f : 1.0f;
     }
-    if (zero > 0)
-        warnings.add(field + ".TANGENT", "zero length", zero, "vertices");
-    if (odd > 0)
-        warnings.add(field + ".TANGENT", "not of unit length, normalised", odd, "vertices");
-    if (signs > 0)
-        warnings.add(field + ".TANGENT", "w is not +-1, its sign is taken", signs, "vertices");
+    warnings.add(field + ".TANGENT", "zero length", zero, "vertices");
+    warnings.add(field + ".TANGENT", "not of unit length, normalised", odd, "vertices");
+    warnings.add(field + ".TANGENT", "w is not +-1, its sign is taken", signs, "vertices");
 }
 
 // Twice the signed area of a triangle in uv.
@@ -134,8 +129,7 @@ void checkUvArea(const Mesh& mesh, int set, const std::string& field, GltfWarnin
     std::size_t flat = 0;
     for (std::size_t i = 0; i < mesh.indices.size(); i += 3)
         flat += uvArea(mesh, uv, i) == 0;
-    if (flat > 0)
-        warnings.add(field, "no area in the texture coordinates of the normal map: no frame there", flat, "triangles");
+    warnings.add(field, "no area in the texture coordinates of the normal map: no frame there", flat, "triangles");
 }
 
 // ---- skins ----------------------------------------------------------------------------------
@@ -227,8 +221,7 @@ void skinGltfPrimitive(GltfPrimitive& primitive, const std::vector<glm::dmat4>& 
     if (mirrored == mesh.positions.size())
         for (std::size_t i = 0; i < mesh.indices.size(); i += 3)
             std::swap(mesh.indices[i + 1], mesh.indices[i + 2]);
-    if (loose > 0)
-        warnings.add(primitive.field, "skinned without weights, left in place", loose, "vertices");
+    warnings.add(primitive.field, "skinned without weights, left in place", loose, "vertices");
 }
 
 } // namespace cotan
