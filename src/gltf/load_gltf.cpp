@@ -1,7 +1,7 @@
 // glTF 2.0 and GLB files to Scene.
 #include <algorithm>
+#include <compare>
 #include <map>
-#include <tuple>
 #include <utility>
 
 #include "gltf/json/lookup.hpp"
@@ -17,10 +17,7 @@ struct MeshUse {
     int mesh = -1;
     int skin = -1;
     std::vector<double> weights;
-    bool operator<(const MeshUse& other) const
-    {
-        return std::tie(mesh, skin, weights) < std::tie(other.mesh, other.skin, other.weights);
-    }
+    auto operator<=>(const MeshUse&) const = default;
 };
 
 // The first `count` float matrices; there may be more.

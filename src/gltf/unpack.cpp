@@ -45,19 +45,14 @@ public:
         readDracoJobs();
         unpackPrimitives();
         for (const char* const name : {kMeshoptExtensions[0], kMeshoptExtensions[1], kDracoExtension}) {
-            if (requiresExtension(name))
+            const Json* const required = gltf::member(file_.json, "extensionsRequired");
+            if (required && std::find(required->begin(), required->end(), name) != required->end())
                 file_.packed.required.emplace_back(name);
             takeOffExtension(file_.json, name);
         }
     }
 
 private:
-    bool requiresExtension(const char* name) const
-    {
-        const Json* const required = gltf::member(file_.json, "extensionsRequired");
-        return required && std::find(required->begin(), required->end(), name) != required->end();
-    }
-
     // Counts bytes before they are decoded. Numbers are below 2^60.
     void take(std::size_t bytes, const std::string& field)
     {
