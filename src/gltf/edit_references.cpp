@@ -60,20 +60,15 @@ bool isKnown(std::string_view name)
         || std::ranges::any_of(kKnownFamilies, [&](std::string_view family) { return name.starts_with(family); });
 }
 
-struct ExtensionNames {
-    std::vector<std::string> met;
-    std::set<std::string> known;
-};
-
-void collectExtensions(const Json& value, ExtensionNames& names)
+void collectExtensions(const Json& value, std::vector<std::string>& met, std::set<std::string>& known)
 {
     if (const Json* const extensions = gltf::member(value, "extensions"); extensions && extensions->is_object())
         for (const auto& [name, content] : extensions->items())
-            if (names.known.insert(name).second)
-                names.met.push_back(name);
+            if (known.insert(name).second)
+                met.push_back(name);
     for (const auto& [key, item] : value.items())
         if (item.is_structured() && (value.is_array() || key != "extras"))
-            collectExtensions(item, names);
+            collectExtensions(item, met, known);
 }
 
 } // namespace
@@ -102,9 +97,10 @@ std::vector<bool> usedItems(const Json& root, const Collection& collection, std:
 
 std::vector<std::string> extensionsIn(const Json& object)
 {
-    ExtensionNames names;
-    collectExtensions(object, names);
-    return std::move(names.met);
+    std::vector<std::string> met;
+    std::set<std::string> known;
+    collectExtensions(object, met, known);
+    return met;
 }
 
 std::vector<std::string> unknownExtensions(const Json& root)

@@ -90,10 +90,8 @@ void setExpansion(nlohmann::ordered_json& material, Expansion expansion)
         if (!material.contains("extras") || !material["extras"].is_object())
             material["extras"] = nlohmann::ordered_json::object();
         material["extras"][gltf::kUnsignedKey] = "biased";
-    } else if (const auto extras = material.find("extras"); extras != material.end() && extras->is_object()) {
-        extras->erase(gltf::kUnsignedKey);
-        if (extras->empty())
-            material.erase("extras");
+    } else {
+        takeOut(material, "extras", gltf::kUnsignedKey);
     }
 }
 
@@ -119,6 +117,16 @@ std::set<std::size_t> texturesBesideNormalMaps(const Json& material)
     std::set<std::size_t> textures;
     collectTextures(material, {slotOf(material, NormalSlot::surface), slotOf(material, NormalSlot::coat)}, textures);
     return textures;
+}
+
+void takeOut(Json& owner, const char* object, const std::string& name)
+{
+    const auto found = owner.find(object);
+    if (found == owner.end() || !found->is_object())
+        return;
+    found->erase(name);
+    if (found->empty())
+        owner.erase(object);
 }
 
 void takeOffExtension(Json& root, const std::string& name)

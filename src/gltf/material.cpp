@@ -132,38 +132,17 @@ Image decode(const GltfFile& model, ImageSource source, const LoadLimits& limits
     return std::move(*image);
 }
 
-// The bytes that the images of one model may take together.
-class Budget {
-public:
-    Budget(const LoadLimits& limits, std::uint64_t fileBytes)
-        : limits_(limits), all_(imageBudget(limits, fileBytes)), left_(all_)
-    {
-    }
-
-    // The limits for the next image: no more than what is left. Images that are decoded at the same time see the same
-    // rest, so the total may be overdrawn by one image a thread until `take` notices.
-    LoadLimits next() const
-    {
-        LoadLimits limits = limits_;
-        limits.imageBytes = std::min(limits.imageBytes, left_.load());
-        return limits;
-    }
-
-    void take(std::size_t bytes)
-    {
-        std::size_t left = left_.load();
-        do {
-            if (bytes > left)
-                throw GltfProblem{
-                    memoryError(fmt::format("all images together take more than the limit of {} bytes", all_))};
-        } while (!left_.compare_exchange_weak(left, left - bytes));
-    }
-
-private:
-    const LoadLimits& limits_;
-    std::size_t all_;
-    std::atomic<std::size_t> left_;
-};
+// Takes the bytes of an image from what is left of `all`, which those of one model may take together. Images that are
+// decoded at the same time saw the same rest, so they may be over it by one image a thread until this notices.
+void takeFrom(std::atomic<std::size_t>& left, std::size_t bytes, std::size_t all)
+{
+    std::size_t rest = left.load();
+    do {
+        if (bytes > rest)
+            throw GltfProblem{
+                memoryError(fmt::format("all images together take more than the limit of {} bytes", all))};
+    } while (!left.compare_exchange_weak(rest, rest - bytes));
+}
 
 } // namespace
 
@@ -205,12 +184,15 @@ void GltfMaterials::decodeImages()
     const std::vector<std::pair<int, int>> jobs(slots_.begin(), slots_.end());
     std::vector<GltfProblem> problems(jobs.size());
     std::vector<std::string> foreign(jobs.size());
-    Budget budget(model_.limits, bytesOfFiles());
+    const std::size_t all = imageBudget(model_.limits, bytesOfFiles());
+    std::atomic<std::size_t> left = all;
     const auto decodeOne = [&](std::size_t i) {
         const auto [image, slot] = jobs[i];
         try {
-            Image decoded = decode(model_.file, findImage(model_, image), budget.next(), foreign[i]);
-            budget.take(decoded.data.size());
+            LoadLimits limits = model_.limits;
+            limits.imageBytes = std::min(limits.imageBytes, left.load());
+            Image decoded = decode(model_.file, findImage(model_, image), limits, foreign[i]);
+            takeFrom(left, decoded.data.size(), all);
             scene_.images[std::size_t(slot)] = std::move(decoded);
         } catch (const GltfProblem& problem) {
             problems[i] = {reworded(problem.error, imageField(image) + ": " + problem.error.message)};

@@ -15,16 +15,6 @@ using gltf::Json;
 
 namespace {
 
-void takeOut(Json& object, const std::string& name)
-{
-    const auto extensions = object.find("extensions");
-    if (extensions == object.end())
-        return;
-    extensions->erase(name);
-    if (extensions->empty())
-        object.erase("extensions");
-}
-
 // Elements of `each` bytes, each at a multiple of four.
 std::vector<std::byte> spaced(const std::vector<std::byte>& packed, std::size_t each)
 {
@@ -90,11 +80,11 @@ private:
                 continue;
             if (isGltfFallback(file_.json["buffers"][view["buffer"].get<std::size_t>()]))
                 unpackView(i, *packed, fmt::format("bufferViews[{}].extensions.{}", i, name));
-            takeOut(view, name);
+            takeOut(view, "extensions", name);
         }
         if (const auto buffers = file_.json.find("buffers"); buffers != file_.json.end())
             for (Json& buffer : *buffers)
-                takeOut(buffer, name);
+                takeOut(buffer, "extensions", name);
     }
 
     void unpackView(std::size_t index, const Json& packed, const std::string& field)
@@ -182,7 +172,7 @@ private:
             if (job)
                 file_.packed.primitives.push_back(
                     {m, p, *draco, primitive["indices"].get<int>(), primitive["attributes"]});
-            takeOut(primitive, kDracoExtension);
+            takeOut(primitive, "extensions", kDracoExtension);
             // Primitives may share a stream and its accessors.
             if (job && made_.insert(targets_.back()).second)
                 jobs_.push_back(std::move(*job));
@@ -235,20 +225,13 @@ private:
 // Whether an answer has the sizes that were asked for.
 bool fits(const std::vector<DracoGeometry>& meshes, const std::vector<DracoJob>& jobs)
 {
-    if (meshes.size() != jobs.size())
-        return false;
-    for (std::size_t i = 0; i < jobs.size(); ++i) {
-        if (meshes[i].indices.size() != jobs[i].indices * gltf::componentSize(jobs[i].indexType)
-            || meshes[i].attributes.size() != jobs[i].attributes.size())
-            return false;
-        for (std::size_t k = 0; k < jobs[i].attributes.size(); ++k) {
-            const DracoAttribute& a = jobs[i].attributes[k];
-            if (meshes[i].attributes[k].size()
-                != jobs[i].vertices * a.components * gltf::componentSize(a.componentType))
-                return false;
-        }
-    }
-    return true;
+    return std::ranges::equal(meshes, jobs, [](const DracoGeometry& mesh, const DracoJob& job) {
+        const auto sized = [&](const std::vector<std::byte>& values, const DracoAttribute& a) {
+            return values.size() == job.vertices * a.components * gltf::componentSize(a.componentType);
+        };
+        return mesh.indices.size() == job.indices * gltf::componentSize(job.indexType)
+            && std::ranges::equal(mesh.attributes, job.attributes, sized);
+    });
 }
 
 } // namespace
