@@ -47,22 +47,24 @@ void chooseGltfVariant(GltfModel& model)
     if (model.limits.variant.empty())
         return;
     const std::size_t variant = findVariant(root, model.limits.variant), materials = countOf(root, "materials");
-    (void)forEachPrimitive(root, [&](std::size_t m, std::size_t p) -> Status {
-        Json& primitive = root["meshes"][m]["primitives"][p];
-        const Json* const mappings = gltf::member(gltf::extension(primitive, kVariants), "mappings");
-        if (!mappings || !mappings->is_array())
-            return Done{};
-        const auto found =
-            std::ranges::find_if(*mappings, [&](const Json& mapping) { return names(mapping, variant); });
-        if (found == mappings->end())
-            return Done{};
-        const Json material = found->value("material", Json());
-        if (!material.is_number_unsigned() || material.get<std::uint64_t>() >= materials)
-            failGltf("{}.extensions.{}: expected the number of one of {} materials, found {}", primitiveField(m, p),
-                     kVariants, materials, oneLine(material.dump()));
-        primitive["material"] = material;
-        return Done{};
-    });
+    const auto meshes = root.find("meshes");
+    for (std::size_t m = 0; meshes != root.end() && m < meshes->size(); ++m) {
+        Json& primitives = (*meshes)[m]["primitives"];
+        for (std::size_t p = 0; p < primitives.size(); ++p) {
+            const Json* const mappings = gltf::member(gltf::extension(primitives[p], kVariants), "mappings");
+            if (!mappings || !mappings->is_array())
+                continue;
+            const auto found =
+                std::ranges::find_if(*mappings, [&](const Json& mapping) { return names(mapping, variant); });
+            if (found == mappings->end())
+                continue;
+            const Json material = found->value("material", Json());
+            if (!material.is_number_unsigned() || material.get<std::uint64_t>() >= materials)
+                failGltf("{}.extensions.{}: expected the number of one of {} materials, found {}", primitiveField(m, p),
+                         kVariants, materials, oneLine(material.dump()));
+            primitives[p]["material"] = material;
+        }
+    }
 }
 
 // ---- accessors ------------------------------------------------------------------------------

@@ -32,6 +32,10 @@ struct Structure {
     std::vector<Skin> skins;
     std::vector<Camera> cameras;
     std::vector<Light> lights;
+    std::vector<TextureUse> normalMaps; // of every material
+    std::vector<Texture> textures;
+    std::vector<Image> images; // their URIs point into the JSON
+    std::vector<Sampler> samplers;
 };
 
 // root: has passed checkGltfShape. Throws GltfProblem where a camera or a spot light is not described.
@@ -166,7 +170,10 @@ Mesh finishGltfMesh(GltfPrimitive&& primitive, int normalMapSet, GltfWarnings& w
 // collects which images that needs.
 class GltfMaterials {
 public:
-    GltfMaterials(GltfModel& model, Scene& scene) : model_(model), scene_(scene) {}
+    GltfMaterials(GltfModel& model, Scene& scene)
+        : model_(model), scene_(scene), materials_(gltf::member(model.file.json, "materials"))
+    {
+    }
 
     // The index in Scene::materials of the file's material (-1: the default material) as this
     // mesh can use it: textures whose uv set the mesh lacks are left out and said.
@@ -189,6 +196,7 @@ private:
 
     GltfModel& model_;
     Scene& scene_;
+    const gltf::Json* materials_;
     std::map<std::pair<int, int>, int> made_; // (material, which uv sets) to scene material
     std::map<int, int> slots_;                // image of the file to Scene::images
     // Images in views: by where their bytes are, and by size and bytes.

@@ -4,7 +4,6 @@
 #include <map>
 #include <utility>
 
-#include "gltf/json/lookup.hpp"
 #include "gltf_model.hpp"
 #include "scene/normal_maps.hpp"
 
@@ -82,7 +81,7 @@ private:
     {
         const int material = primitive.mesh.material;
         const gltf::TextureUse map =
-            material < 0 ? gltf::TextureUse{} : normalMapOf(model_.file.json, std::size_t(material));
+            material < 0 ? gltf::TextureUse{} : model_.structure.normalMaps[std::size_t(material)];
         return finishGltfMesh(std::move(primitive), map.texture < 0 ? -1 : map.texcoord, model_.warnings);
     }
 
@@ -177,8 +176,8 @@ Scene load(const std::filesystem::path& path, const LoadLimits& limits)
 {
     GltfModel model;
     readGltfModel(model, path, limits);
-    gltf::Json kept; // what materials are made of: all that is still read from the JSON
-    for (const char* const collection : {"materials", "textures", "samplers", "images"})
+    gltf::Json kept; // materials and the URIs of images are all that is still read from the JSON
+    for (const char* const collection : {"materials", "images"})
         kept[collection] = std::move(model.file.json[collection]);
     model.file.json = std::move(kept);
     return build(model, path, nullptr);

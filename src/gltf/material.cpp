@@ -7,7 +7,6 @@
 #include "core/loops.hpp"
 #include "cotan/image.hpp"
 #include "files/bytes.hpp"
-#include "gltf/json/lookup.hpp"
 #include "image/component_types.hpp"
 
 namespace cotan {
@@ -19,7 +18,7 @@ Texture GltfMaterials::texture(const gltf::TextureUse& use, const Mesh& mesh, co
     Texture texture;
     if (use.texture < 0)
         return texture;
-    const gltf::Texture source = textureAt(model_.file.json, use.texture);
+    const gltf::Texture& source = model_.structure.textures[std::size_t(use.texture)];
     // Its own, or the one that an extension gives it in another format.
     const int image = source.image >= 0 || model_.limits.pixels == Pixels::all ? source.image : source.foreign;
     if (image < 0) {
@@ -34,7 +33,8 @@ Texture GltfMaterials::texture(const gltf::TextureUse& use, const Mesh& mesh, co
         return texture;
     }
     texture.texcoord = set;
-    texture.sampler = samplerOf(model_.file.json, source);
+    if (source.sampler >= 0)
+        texture.sampler = model_.structure.samplers[std::size_t(source.sampler)];
     texture.uRow = use.uRow;
     texture.vRow = use.vRow;
     const auto [slot, isNew] = slots_.emplace(firstEqual(image), int(scene_.images.size()));
@@ -48,7 +48,7 @@ Material GltfMaterials::make(int index, const Mesh& mesh)
 {
     if (index < 0)
         return {};
-    const gltf::Json& source = model_.file.json["materials"][std::size_t(index)];
+    const gltf::Json& source = (*materials_)[std::size_t(index)];
     std::optional<Frame> frame;
     if (const std::string named = gltf::frameText(source); !named.empty()) {
         frame = frameFromName(named);
@@ -85,14 +85,11 @@ struct ImageSource {
 
 std::string imageField(int image) { return fmt::format("images[{}]", image); }
 
-gltf::Image imageAt(const GltfModel& model, int image)
-{
-    return gltf::readImage(model.file.json["images"][std::size_t(image)]);
-}
+const gltf::Image& imageAt(const GltfModel& model, int image) { return model.structure.images[std::size_t(image)]; }
 
 ImageSource findImage(const GltfModel& model, int image, bool mayMiss = false)
 {
-    const gltf::Image entry = imageAt(model, image);
+    const gltf::Image& entry = imageAt(model, image);
     const std::string field = imageField(image);
     ImageSource source;
     source.name = oneLine(entry.name);
@@ -151,7 +148,7 @@ std::uint64_t GltfMaterials::bytesOfFiles() const
 {
     std::uint64_t bytes = model_.file.size;
     for (const auto& [image, slot] : slots_) {
-        const gltf::Image entry = imageAt(model_, image);
+        const gltf::Image& entry = imageAt(model_, image);
         if (!entry.uri || entry.uri->starts_with("data:") || model_.file.readFile)
             continue;
         bool outside = false;
@@ -166,7 +163,7 @@ std::uint64_t GltfMaterials::bytesOfFiles() const
 // The first image of the file that has the same bytes in a view; those with a URI stand for themselves.
 int GltfMaterials::firstEqual(int image)
 {
-    const gltf::Image entry = imageAt(model_, image);
+    const gltf::Image& entry = imageAt(model_, image);
     if (entry.uri || entry.view < 0)
         return image;
     const std::span<const std::byte> bytes = model_.views[std::size_t(entry.view)].bytes;
@@ -240,7 +237,7 @@ void lookAt(const GltfModel& model, int image, bool used)
 
 void GltfMaterials::checkUnusedImages() const
 {
-    for (int i = 0; i < int(countOf(model_.file.json, "images")); ++i) {
+    for (int i = 0; i < int(model_.structure.images.size()); ++i) {
         const bool used = slots_.contains(i);
         if (used && model_.limits.pixels != Pixels::none)
             continue; // it was decoded

@@ -180,6 +180,11 @@ Structure readStructure(const Json& root)
     s.lights = readAll(extension(root, "KHR_lights_punctual"), "lights", [&](const Json& l) {
         return readLight(l, fmt::format("extensions.KHR_lights_punctual.lights[{}]", at++));
     });
+    s.normalMaps =
+        readAll(&root, "materials", [](const Json& m) { return readTextureUse(member(m, "normalTexture")); });
+    s.images = readAll(&root, "images", readImage);
+    s.textures = readAll(&root, "textures", [&](const Json& t) { return readTexture(t, s.images.size()); });
+    s.samplers = readAll(&root, "samplers", readSampler);
     return s;
 }
 

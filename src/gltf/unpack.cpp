@@ -163,23 +163,24 @@ private:
 
     void readDracoJobs()
     {
-        (void)forEachPrimitive(file_.json, [&](std::size_t m, std::size_t p) -> Status {
-            Json& primitive = file_.json["meshes"][m]["primitives"][p];
-            const Json* const draco = gltf::extension(primitive, kDracoExtension);
-            if (!draco)
-                return Done{};
-            auto job = jobOf(primitive, *draco, primitiveField(m, p));
-            if (job)
-                file_.packed.primitives.push_back(
-                    {m, p, *draco, primitive["indices"].get<int>(), primitive["attributes"]});
-            takeOut(primitive, "extensions", kDracoExtension);
-            // Primitives may share a stream and its accessors.
-            if (job && made_.insert(targets_.back()).second)
-                jobs_.push_back(std::move(*job));
-            else
-                targets_.pop_back();
-            return Done{};
-        });
+        const auto meshes = file_.json.find("meshes");
+        for (std::size_t m = 0; meshes != file_.json.end() && m < meshes->size(); ++m)
+            for (std::size_t p = 0; p < (*meshes)[m]["primitives"].size(); ++p) {
+                Json& primitive = (*meshes)[m]["primitives"][p];
+                const Json* const draco = gltf::extension(primitive, kDracoExtension);
+                if (!draco)
+                    continue;
+                auto job = jobOf(primitive, *draco, primitiveField(m, p));
+                if (job)
+                    file_.packed.primitives.push_back(
+                        {m, p, *draco, primitive["indices"].get<int>(), primitive["attributes"]});
+                takeOut(primitive, "extensions", kDracoExtension);
+                // Primitives may share a stream and its accessors.
+                if (job && made_.insert(targets_.back()).second)
+                    jobs_.push_back(std::move(*job));
+                else
+                    targets_.pop_back();
+            }
     }
 
     void unpackPrimitives()
