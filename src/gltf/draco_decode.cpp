@@ -2,9 +2,11 @@
 // 4 (header) and 5 (connectivity).
 #include <cstring>
 #include <new>
+#include <string_view>
 
 #include <draco/compression/decode.h>
 #include <draco/core/decoder_buffer.h>
+#include <draco/core/varint_decoding.h>
 
 #include "elements.hpp"
 #include "gltf/draco.hpp"
@@ -14,72 +16,35 @@ namespace cotan::gltf {
 
 namespace {
 
-// The numbers at the start of a stream, read by ourselves: the decoder takes memory by them.
-class Header {
-public:
-    explicit Header(const std::vector<std::byte>& bytes) : bytes_(bytes) {}
-
-    bool past() const { return past_; }
-
-    std::uint64_t number(int bytes)
-    {
-        std::uint64_t value = 0;
-        for (int i = 0; i < bytes; ++i)
-            value |= std::uint64_t(next()) << (8 * i);
-        return value;
-    }
-
-    std::uint64_t varint() // LEB128
-    {
-        std::uint64_t value = 0;
-        for (int shift = 0; shift < 64; shift += 7) {
-            const std::uint8_t byte = next();
-            value |= std::uint64_t(byte & 0x7f) << shift;
-            if (byte < 0x80)
-                return value;
-        }
-        past_ = true;
-        return 0;
-    }
-
-private:
-    std::uint8_t next()
-    {
-        past_ = past_ || at_ >= bytes_.size();
-        return past_ ? 0 : std::to_integer<std::uint8_t>(bytes_[at_++]);
-    }
-
-    const std::vector<std::byte>& bytes_;
-    std::size_t at_ = 0;
-    bool past_ = false;
-};
-
-// Refuses a stream whose header promises something else than the model does.
+// Refuses a stream whose header promises something else than the model does: the decoder takes memory by it.
 void checkHeader(const DracoJob& job)
 {
-    constexpr std::uint64_t kMagic = 0x4f43415244; // "DRACO"
-    constexpr std::uint64_t kVersion = 0x0202, kMesh = 1, kSequential = 0, kEdgebreaker = 1, kMetadata = 0x8000;
-    Header header(job.bytes);
-    if (header.number(5) != kMagic)
+    constexpr std::string_view kMagic = "DRACO";
+    constexpr std::uint8_t kMesh = 1, kSequential = 0, kEdgebreaker = 1;
+    constexpr std::uint16_t kMetadata = 0x8000;
+    const std::string_view stream(reinterpret_cast<const char*>(job.bytes.data()), job.bytes.size());
+    if (!stream.starts_with(kMagic))
         failGltf("{}: expected a Draco stream, found other data", job.field);
-    const std::uint64_t version = header.number(2), kind = header.number(1), method = header.number(1),
-                        flags = header.number(2);
-    if (version != kVersion)
-        failGltf("{}: expected Draco bitstream 2.2, found {}.{}", job.field, version & 0xff, version >> 8);
+    draco::DecoderBuffer header;
+    header.Init(stream.data(), stream.size());
+    header.Advance(kMagic.size());
+    std::uint8_t major = 0, minor = 0, kind = 0, method = 0, traversal = 0;
+    std::uint16_t flags = 0;
+    bool whole = header.Decode(&major) && header.Decode(&minor) && header.Decode(&kind) && header.Decode(&method)
+        && header.Decode(&flags);
+    if (major != 2 || minor != 2)
+        failGltf("{}: expected Draco bitstream 2.2, found {}.{}", job.field, major, minor);
     if (kind != kMesh || (method != kSequential && method != kEdgebreaker))
         failGltf("{}: expected a mesh of triangles, found another kind of Draco stream", job.field);
     if (flags & kMetadata)
         failGltf("{}: the Draco stream has metadata, which is not read here", job.field);
     std::uint64_t faces = 0, vertices = 0; // Edgebreaker's vertices are positions: attributes may split them
-    if (method == kEdgebreaker) {
-        header.number(1); // how the triangles are traversed
-        vertices = header.varint();
-        faces = header.varint();
-    } else {
-        faces = header.varint();
-        vertices = header.varint();
-    }
-    if (header.past())
+    if (method == kEdgebreaker)
+        whole = whole && header.Decode(&traversal) && draco::DecodeVarint(&vertices, &header)
+            && draco::DecodeVarint(&faces, &header);
+    else
+        whole = whole && draco::DecodeVarint(&faces, &header) && draco::DecodeVarint(&vertices, &header);
+    if (!whole)
         failGltf("{}: the Draco stream ends within its header", job.field);
     if (faces != job.indices / 3 || job.indices % 3 != 0)
         failGltf("{}: expected {} indices, as the accessor has, found {} triangles in the Draco stream", job.field,

@@ -3,7 +3,7 @@
 
 #include "cotan/vector.hpp"
 #include "edit_state.hpp"
-#include "mesh.hpp"
+#include "gltf_model.hpp"
 #include "scene/texture_sample.hpp"
 
 namespace cotan {
@@ -102,20 +102,14 @@ void checkModel(GltfModel& model)
 GltfDocument open(const std::filesystem::path& path, const LoadLimits& limits)
 {
     GltfModel model;
-    model.limits = limits;
-    model.file = openGltf(path, limits, model.warnings);
-    const std::size_t modelBytes = model.file.size; // buffers are added to it
-    readGltfModel(model);
+    readGltfModel(model, path, limits);
     checkModel(model);
-
     auto source = std::make_shared<GltfSource>();
     source->path = path;
-    source->bytes = modelBytes;
-    source->root = std::move(model.file.json);
     source->file = std::move(model.file);
     source->views = std::move(model.views);
     GltfDocument document;
-    rootOf(document) = source->root;
+    rootOf(document) = source->file.json;
     if (!rootOf(document).contains("bufferViews")) // a member that is added later would leave no reference in place
         rootOf(document)["bufferViews"] = Json::array();
     document.source = std::move(source);
@@ -233,8 +227,7 @@ std::size_t addGltfImage(GltfDocument& document, std::vector<std::byte> bytes, c
     Json image = Json::object();
     if (!name.empty())
         image["name"] = name;
-    image = withImage(document, std::move(image), std::move(bytes), mimeType);
-    return addItem(document, "images", std::move(image));
+    return addItem(document, "images", withImage(document, std::move(image), std::move(bytes), mimeType));
 }
 
 std::size_t copyGltfTexture(GltfDocument& document, std::size_t texture, std::size_t image)

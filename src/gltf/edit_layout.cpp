@@ -15,7 +15,7 @@ namespace {
 bool isAsRead(const GltfDocument& document, const char* collection, std::size_t index)
 {
     const Json& now = rootOf(document)[collection];
-    return index < now.size() && now[index] == document.source->root[collection][index];
+    return index < now.size() && now[index] == document.source->file.json[collection][index];
 }
 
 // What of a stream the primitive still has, as the extension names it: ids by attribute. Empty where the positions or
@@ -63,7 +63,7 @@ void restoreDraco(GltfDocument& document)
     Json& root = rootOf(document);
     // How often each accessor is referred to, and how often by primitives that have their stream back.
     std::vector<std::size_t> uses(countOf(root, "accessors")), packedUses(uses.size());
-    forEachReference(root, Collection::accessors, [&](Json& index) {
+    forEachReference(root, kAccessors, [&](Json& index) {
         if (const auto i = index.get<std::size_t>(); i < uses.size()) // extensions may say anything
             ++uses[i];
     });
@@ -103,7 +103,7 @@ void restoreDraco(GltfDocument& document)
 void notePlainViews(GltfDocument& document)
 {
     const std::map<std::size_t, Json>& views = document.source->file.packed.views;
-    const std::vector<bool> used = usedItems(rootOf(document), Collection::bufferViews);
+    const std::vector<bool> used = usedItems(rootOf(document), kBufferViews);
     const auto gone = std::ranges::count_if(views, [&](const auto& view) { return !used[view.first]; });
     const Json* const accessors = gltf::member(rootOf(document), "accessors");
     const bool replaced =
@@ -119,10 +119,10 @@ void notePlainViews(GltfDocument& document)
 // ---- layout ---------------------------------------------------------------------------------
 
 // Items that the file used, or that were added, and that nothing uses now.
-std::vector<bool> released(const GltfDocument& document, Collection collection)
+std::vector<bool> released(const GltfDocument& document, const Collection& collection)
 {
-    std::vector<bool> before = usedItems(document.source->root, collection);
-    if (collection == Collection::bufferViews) // decoded, nothing refers to them
+    std::vector<bool> before = usedItems(document.source->file.json, collection);
+    if (&collection == &kBufferViews) // decoded, nothing refers to them
         for (const GltfPacked::Primitive& packed : document.source->file.packed.primitives)
             before[packed.draco["bufferView"].get<std::size_t>()] = true;
     std::vector<bool> removed = usedItems(rootOf(document), collection);
@@ -158,7 +158,7 @@ std::vector<Part> partsOf(const GltfDocument& document)
             part.bytes = document.source->file.buffers[part.buffer].subspan(part.offset,
                                                                             extension["byteLength"].get<std::size_t>());
         } else if (part.fromFile) {
-            const gltf::BufferView view = gltf::readBufferView(document.source->root["bufferViews"][i]);
+            const gltf::BufferView view = gltf::readBufferView(document.source->file.json["bufferViews"][i]);
             part.buffer = view.buffer;
             part.offset = view.offset;
         }
@@ -267,11 +267,11 @@ Layout layOut(GltfDocument& document)
                  oneLine(unknown.front()), document.source->file.buffers.size());
 
     if (removes) {
-        if (const auto images = released(document, Collection::images); any(images))
-            removeItems(rootOf(document), Collection::images, images);
-        if (const auto accessors = released(document, Collection::accessors); any(accessors)) {
+        if (const auto images = released(document, kImages); any(images))
+            removeItems(rootOf(document), kImages, images);
+        if (const auto accessors = released(document, kAccessors); any(accessors)) {
             repackViews(document, accessors);
-            removeItems(rootOf(document), Collection::accessors, accessors);
+            removeItems(rootOf(document), kAccessors, accessors);
         }
     } else {
         document.notes.push_back(fmt::format("nothing is removed: unknown extensions may refer to any data ({})",
@@ -280,8 +280,8 @@ Layout layOut(GltfDocument& document)
 
     notePlainViews(document);
     std::vector<Part> parts = partsOf(document);
-    if (const auto views = released(document, Collection::bufferViews); removes && any(views)) {
-        removeItems(rootOf(document), Collection::bufferViews, views);
+    if (const auto views = released(document, kBufferViews); removes && any(views)) {
+        removeItems(rootOf(document), kBufferViews, views);
         std::erase_if(parts, [&](const Part& part) { return views[part.view]; });
     }
     for (std::size_t i = 0; i < parts.size(); ++i)

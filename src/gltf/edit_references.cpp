@@ -10,25 +10,17 @@ namespace {
 
 using Visit = std::function<void(Json&)>;
 
-// Where indices into a collection are: names of members with slashes between, "*" for each item or member.
-struct References {
-    const char* collection;
-    std::vector<std::string_view> paths;
-};
-
-const References& referencesTo(Collection collection)
-{
-    static const References all[] = {
-        {"accessors",
-         {"meshes/*/primitives/*/indices", "meshes/*/primitives/*/attributes/*", "meshes/*/primitives/*/targets/*/*",
-          "skins/*/inverseBindMatrices", "animations/*/samplers/*/input", "animations/*/samplers/*/output",
-          "nodes/*/extensions/EXT_mesh_gpu_instancing/attributes/*"}},
-        {"bufferViews",
-         {"accessors/*/bufferView", "accessors/*/sparse/indices/bufferView", "accessors/*/sparse/values/bufferView",
-          "images/*/bufferView", "meshes/*/primitives/*/extensions/KHR_draco_mesh_compression/bufferView"}},
-        {"images", {"textures/*/source", "textures/*/extensions/*/source"}}};
-    return all[std::size_t(collection)];
-}
+constexpr std::string_view kToAccessors[] = {"meshes/*/primitives/*/indices",
+                                             "meshes/*/primitives/*/attributes/*",
+                                             "meshes/*/primitives/*/targets/*/*",
+                                             "skins/*/inverseBindMatrices",
+                                             "animations/*/samplers/*/input",
+                                             "animations/*/samplers/*/output",
+                                             "nodes/*/extensions/EXT_mesh_gpu_instancing/attributes/*"};
+constexpr std::string_view kToViews[] = {"accessors/*/bufferView", "accessors/*/sparse/indices/bufferView",
+                                         "accessors/*/sparse/values/bufferView", "images/*/bufferView",
+                                         "meshes/*/primitives/*/extensions/KHR_draco_mesh_compression/bufferView"};
+constexpr std::string_view kToImages[] = {"textures/*/source", "textures/*/extensions/*/source"};
 
 // What is missing or something else is passed over: animations and extensions are not checked when the file is read.
 void visitPath(Json& value, std::string_view path, const Visit& visit)
@@ -68,38 +60,36 @@ bool isKnown(std::string_view name)
         || std::ranges::any_of(kKnownFamilies, [&](std::string_view family) { return name.starts_with(family); });
 }
 
-struct ExtensionNames {
-    std::vector<std::string> met;
-    std::set<std::string> known;
-};
-
-void collectExtensions(const Json& value, ExtensionNames& names)
+void collectExtensions(const Json& value, std::vector<std::string>& met, std::set<std::string>& known)
 {
     if (const Json* const extensions = gltf::member(value, "extensions"); extensions && extensions->is_object())
         for (const auto& [name, content] : extensions->items())
-            if (names.known.insert(name).second)
-                names.met.push_back(name);
+            if (known.insert(name).second)
+                met.push_back(name);
     for (const auto& [key, item] : value.items())
         if (item.is_structured() && (value.is_array() || key != "extras"))
-            collectExtensions(item, names);
+            collectExtensions(item, met, known);
 }
 
 } // namespace
 
-void forEachReference(Json& root, Collection collection, const Visit& visit)
+const Collection kAccessors{"accessors", kToAccessors}, kBufferViews{"bufferViews", kToViews},
+    kImages{"images", kToImages};
+
+void forEachReference(Json& root, const Collection& collection, const Visit& visit)
 {
-    for (const std::string_view path : referencesTo(collection).paths)
+    for (const std::string_view path : collection.paths)
         visitPath(root, path, visit);
 }
 
-std::vector<bool> usedItems(const Json& root, Collection collection, std::string_view besides)
+std::vector<bool> usedItems(const Json& root, const Collection& collection, std::string_view besides)
 {
-    std::vector<bool> used(countOf(root, referencesTo(collection).collection), false);
+    std::vector<bool> used(countOf(root, collection.name), false);
     const Visit mark = [&](const Json& index) {
         if (const auto i = index.get<std::size_t>(); i < used.size())
             used[i] = true;
     };
-    for (const std::string_view path : referencesTo(collection).paths)
+    for (const std::string_view path : collection.paths)
         if (path != besides)
             visitPath(const_cast<Json&>(root), path, mark); // only read through
     return used;
@@ -107,9 +97,10 @@ std::vector<bool> usedItems(const Json& root, Collection collection, std::string
 
 std::vector<std::string> extensionsIn(const Json& object)
 {
-    ExtensionNames names;
-    collectExtensions(object, names);
-    return std::move(names.met);
+    std::vector<std::string> met;
+    std::set<std::string> known;
+    collectExtensions(object, met, known);
+    return met;
 }
 
 std::vector<std::string> unknownExtensions(const Json& root)
@@ -120,11 +111,11 @@ std::vector<std::string> unknownExtensions(const Json& root)
     return names;
 }
 
-void removeItems(Json& root, Collection collection, const std::vector<bool>& removed)
+void removeItems(Json& root, const Collection& collection, const std::vector<bool>& removed)
 {
     std::vector<std::size_t> moved(removed.size());
     Json kept = Json::array();
-    Json& items = root[referencesTo(collection).collection];
+    Json& items = root[collection.name];
     for (std::size_t i = 0; i < removed.size(); ++i) {
         moved[i] = kept.size();
         if (!removed[i])
@@ -135,7 +126,7 @@ void removeItems(Json& root, Collection collection, const std::vector<bool>& rem
             index = moved[i];
     });
     if (kept.empty())
-        root.erase(referencesTo(collection).collection);
+        root.erase(collection.name);
     else
         items = std::move(kept);
 }

@@ -50,6 +50,16 @@ std::vector<bool> usedWords(const Cluster& cluster, std::size_t stride)
     return used;
 }
 
+// Adds a view that is else like `view`, with these bytes; returns its index.
+std::size_t addLike(GltfDocument& document, Json view, std::vector<std::byte> bytes)
+{
+    view["buffer"] = 0;
+    view["byteLength"] = bytes.size();
+    view.erase("byteOffset");
+    document.added.push_back(std::move(bytes));
+    return addItem(document, "bufferViews", std::move(view));
+}
+
 // Interleaved attributes without the words that nobody uses, as a view of their own.
 void squeeze(GltfDocument& document, std::size_t view, const Cluster& cluster, const std::vector<bool>& used)
 {
@@ -70,13 +80,9 @@ void squeeze(GltfDocument& document, std::size_t view, const Cluster& cluster, c
                 std::memcpy(bytes.data() + (row * words + moved[w]) * 4, from.data() + at,
                             std::min<std::size_t>(4, from.size() - at));
         }
-    Json made = rootOf(document)["bufferViews"][view];
-    made["buffer"] = 0;
-    made["byteLength"] = bytes.size();
-    made["byteStride"] = words * 4;
-    made.erase("byteOffset");
-    const std::size_t index = addView(document, std::move(bytes));
-    rootOf(document)["bufferViews"][index] = std::move(made);
+    Json like = rootOf(document)["bufferViews"][view];
+    like["byteStride"] = words * 4;
+    const std::size_t index = addLike(document, std::move(like), std::move(bytes));
     for (const Range& r : cluster) {
         Json& accessor = rootOf(document)["accessors"][r.accessor];
         accessor["bufferView"] = index;
@@ -89,8 +95,7 @@ void closeGaps(GltfDocument& document, std::size_t view, const std::vector<Clust
 {
     const std::span<const std::byte> from = viewBytes(document, view);
     std::vector<std::byte> bytes;
-    Json made = rootOf(document)["bufferViews"][view];
-    const std::size_t index = addView(document, {});
+    const std::size_t index = countOf(rootOf(document), "bufferViews");
     for (const Cluster& cluster : kept) {
         const std::size_t start = cluster.front().begin / 4 * 4;
         bytes.resize(gltf::aligned(bytes.size()));
@@ -102,11 +107,7 @@ void closeGaps(GltfDocument& document, std::size_t view, const std::vector<Clust
         const auto part = from.subspan(start, endOf(cluster) - start);
         bytes.insert(bytes.end(), part.begin(), part.end());
     }
-    made["buffer"] = 0;
-    made["byteLength"] = bytes.size();
-    made.erase("byteOffset");
-    document.added.back() = std::move(bytes);
-    rootOf(document)["bufferViews"][index] = std::move(made);
+    addLike(document, rootOf(document)["bufferViews"][view], std::move(bytes));
 }
 
 std::size_t strideOf(const GltfDocument& document, std::size_t view)
@@ -138,7 +139,7 @@ void repackViews(GltfDocument& document, const std::vector<bool>& removed)
         kept[view].push_back({a, begin, end, size});
     }
     // Views that something else than the dense part of an accessor uses.
-    const std::vector<bool> other = usedItems(rootOf(document), Collection::bufferViews, "accessors/*/bufferView");
+    const std::vector<bool> other = usedItems(rootOf(document), kBufferViews, "accessors/*/bufferView");
     for (std::size_t view = 0; view < views; ++view) {
         if (!lost[view] || kept[view].empty() || other[view] || packedView(document, view)) // the last: as it came
             continue;

@@ -20,26 +20,27 @@ using gltf::Json;
 
 struct GltfSource {
     std::filesystem::path path;
-    std::size_t bytes = 0;              // of the model file itself
-    GltfFile file;                      // folder and buffers
+    GltfFile file;                      // folder, buffers, and the JSON as read
     std::vector<gltf::ViewBytes> views; // of the file
-    Json root;                          // as read
 };
 
 namespace gltf_edit {
 
 // ---- edit_references.cpp ----------------------------------------------------------------------
 
-// Which collection an index points into.
-enum class Collection { accessors, bufferViews, images };
+// What indices point into, and where those are: names of members with slashes between, "*" for each item or member.
+struct Collection {
+    const char* name;
+    std::span<const std::string_view> paths;
+};
+extern const Collection kAccessors, kBufferViews, kImages;
 
 // Calls `visit` for every place known to us that holds an index into the collection, be it in the
 // core of glTF or in an extension. Values that are no index are passed over.
-void forEachReference(Json& root, Collection collection, const std::function<void(Json&)>& visit);
+void forEachReference(Json& root, const Collection& collection, const std::function<void(Json&)>& visit);
 
-// For each item of the collection whether something refers to it. besides: references that do not count, as their path
-// in edit_references.cpp.
-std::vector<bool> usedItems(const Json& root, Collection collection, std::string_view besides = {});
+// For each item of the collection whether something refers to it. besides: references that do not count, as their path.
+std::vector<bool> usedItems(const Json& root, const Collection& collection, std::string_view besides = {});
 
 // The names of extensions in it, in the order in which they are met.
 std::vector<std::string> extensionsIn(const Json& object);
@@ -48,7 +49,7 @@ std::vector<std::string> extensionsIn(const Json& object);
 std::vector<std::string> unknownExtensions(const Json& root);
 
 // Removes the items marked and lets all references follow; an empty collection goes as a whole.
-void removeItems(Json& root, Collection collection, const std::vector<bool>& removed);
+void removeItems(Json& root, const Collection& collection, const std::vector<bool>& removed);
 
 // ---- edit.cpp ---------------------------------------------------------------------------------
 
@@ -66,6 +67,18 @@ std::size_t addView(GltfDocument& document, std::vector<std::byte> bytes, std::s
 
 // Adds an item to a collection of the root; returns its index.
 std::size_t addItem(GltfDocument& document, const char* collection, Json item);
+
+// Adds an accessor with a view of its own; stride 0: packed. Returns its index.
+template<class T>
+std::size_t addElements(GltfDocument& document, const std::vector<T>& elements, const char* type,
+                        std::size_t stride = 0, int componentType = gltf::kFloat, int target = gltf::kArrayBuffer)
+{
+    const auto bytes = std::as_bytes(std::span(elements));
+    const std::size_t view = addView(document, {bytes.begin(), bytes.end()}, stride, target);
+    return addItem(
+        document, "accessors",
+        {{"bufferView", view}, {"componentType", componentType}, {"count", elements.size()}, {"type", type}});
+}
 
 // ---- edit_repack.cpp --------------------------------------------------------------------------
 

@@ -6,7 +6,7 @@
 
 #include "cotan/tangents.hpp"
 #include "edit_state.hpp"
-#include "mesh.hpp"
+#include "gltf_model.hpp"
 
 namespace cotan {
 
@@ -201,14 +201,6 @@ std::vector<Group> makeGroups(GltfDocument& document, std::span<const GltfCorner
     return groups;
 }
 
-std::size_t addTangents(GltfDocument& document, const std::vector<glm::vec4>& values)
-{
-    const auto bytes = std::as_bytes(std::span(values));
-    const std::size_t view = addView(document, {bytes.begin(), bytes.end()}, sizeof(glm::vec4), gltf::kArrayBuffer);
-    return addItem(document, "accessors",
-                   {{"bufferView", view}, {"componentType", gltf::kFloat}, {"count", values.size()}, {"type", "VEC4"}});
-}
-
 bool sameOrder(const GltfDocument& document, const Json& primitive, std::span<const std::uint32_t> indices)
 {
     if (primitive.value("mode", 4) != 4)
@@ -234,7 +226,7 @@ std::size_t setGroup(GltfDocument& document, const Group& group)
     std::vector<glm::vec4> values(count, glm::vec4(1, 0, 0, 1));
     for (std::size_t i = 0; i < corners.size(); ++i)
         values[split.indices[i]] = corners[i];
-    const std::size_t tangents = addTangents(document, values);
+    const std::size_t tangents = addElements(document, values, "VEC4", sizeof(glm::vec4));
 
     Renewed renewed{{tangents, tangents}}; // those are for the new vertices already
     std::size_t first = 0;

@@ -60,9 +60,9 @@ std::size_t sizeBefore(const GltfSource& source)
     std::set<fs::path> files;
     for (const auto& [file, bytes] : source.file.bufferFiles)
         files.insert(file);
-    for (const auto& [image, file] : imageFiles(source, source.root))
+    for (const auto& [image, file] : imageFiles(source, source.file.json))
         files.insert(file);
-    return source.bytes + totalSize(files);
+    return source.file.modelBytes + totalSize(files);
 }
 
 std::vector<std::byte> readOrFail(const GltfSource& source, const fs::path& file, const LoadLimits& limits)
@@ -115,7 +115,6 @@ void appendChunk(std::vector<std::byte>& bytes, std::uint32_t type, std::span<co
 
 std::vector<std::byte> makeGlb(const Layout& layout)
 {
-    constexpr std::uint32_t kJson = 0x4E4F534A, kBinary = 0x004E4942;
     const std::string text = layout.root.dump();
     const std::size_t total =
         12 + 8 + gltf::aligned(text.size()) + (layout.buffer.empty() ? 0 : 8 + gltf::aligned(layout.buffer.size()));
@@ -123,12 +122,12 @@ std::vector<std::byte> makeGlb(const Layout& layout)
         failGltf("a .glb of {} bytes cannot be written, the limit is 4 GiB; write .gltf", total);
     std::vector<std::byte> bytes;
     bytes.reserve(total);
-    appendWord(bytes, 0x46546C67);
+    appendWord(bytes, kGlbMagic);
     appendWord(bytes, 2);
     appendWord(bytes, total);
-    appendChunk(bytes, kJson, std::as_bytes(std::span(text)), ' ');
+    appendChunk(bytes, kGlbJson, std::as_bytes(std::span(text)), ' ');
     if (!layout.buffer.empty())
-        appendChunk(bytes, kBinary, layout.buffer, '\0');
+        appendChunk(bytes, kGlbBinary, layout.buffer, '\0');
     return bytes;
 }
 
@@ -175,8 +174,8 @@ std::string plainName(const std::string& name)
 std::string nameOfImage(const GltfSource& source, const Json& root, std::size_t i)
 {
     std::string name = root["images"][i].value("name", std::string());
-    if (name.empty() && i < countOf(source.root, "images") && isExternal(source.root["images"][i]))
-        name = fs::path(source.root["images"][i]["uri"].get<std::string>()).stem().string();
+    if (name.empty() && i < countOf(source.file.json, "images") && isExternal(source.file.json["images"][i]))
+        name = fs::path(source.file.json["images"][i]["uri"].get<std::string>()).stem().string();
     return name.empty() ? fmt::format("image{}", i) : plainName(name);
 }
 
@@ -210,7 +209,7 @@ void putImagesBeside(GltfDocument& document, const fs::path& file, const LoadLim
     const std::size_t old = source.views.size();
     const std::vector<std::string> own = ownImages(file, limits);
     std::vector<fs::path> read;
-    for (const auto& [i, path] : imageFiles(source, source.root))
+    for (const auto& [i, path] : imageFiles(source, source.file.json))
         read.push_back(path);
     for (std::size_t i = 0; i < countOf(rootOf(document), "images"); ++i) {
         Json& image = rootOf(document)["images"][i];

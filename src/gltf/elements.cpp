@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <ranges>
 #include <type_traits>
 
 #include "problem.hpp"
@@ -25,20 +26,6 @@ Run runIn(const ViewBytes& from, int view, std::size_t offset, std::size_t strid
     return {from.bytes.data() + std::min(offset, from.bytes.size()), stride, count};
 }
 
-void checkFiniteRun(const Run& run, std::size_t components, const std::string& field)
-{
-    if (!run.first)
-        return;
-    for (std::size_t i = 0; i < run.count; ++i) {
-        for (std::size_t c = 0; c < components; ++c) {
-            float x = 0;
-            std::memcpy(&x, run.at(i) + c * sizeof x, sizeof x);
-            if (!std::isfinite(x))
-                failGltf("{}: expected finite numbers, found {} in element {}", field, x, i);
-        }
-    }
-}
-
 // ---- conversion -----------------------------------------------------------------------------
 
 template<class Out, class Stored> Out convert(Stored value, bool normalized)
@@ -49,54 +36,6 @@ template<class Out, class Stored> Out convert(Stored value, bool normalized)
         return float(value);
     else
         return std::max(float(value) / float(std::numeric_limits<Stored>::max()), -1.0f);
-}
-
-// An element of a run, and where its numbers go.
-struct Move {
-    std::size_t from = 0;
-    std::size_t to = 0; // in elements of the array
-};
-
-// Converts `count` elements; move(i): the i-th of them. room: numbers that an element of `out` has.
-template<class Stored, class Out, class MoveOf>
-void convertRun(const Run& run, std::size_t components, bool normalized, std::size_t count, const MoveOf& move,
-                Out* out, std::size_t room)
-{
-    for (std::size_t i = 0; i < count; ++i) {
-        const Move m = move(i);
-        const std::byte* const from = run.at(m.from);
-        for (std::size_t c = 0; c < components; ++c) {
-            Stored stored;
-            std::memcpy(&stored, from + c * sizeof stored, sizeof stored);
-            out[m.to * room + c] = convert<Out>(stored, normalized);
-        }
-    }
-}
-
-template<class Out, class MoveOf>
-void convertAny(const Run& run, const Accessor& a, std::size_t count, const MoveOf& move, Out* out, std::size_t room)
-{
-    withType(a.componentType, [&](auto stored) {
-        convertRun<decltype(stored), Out>(run, componentCount(a.type), a.normalized, count, move, out, room);
-    });
-}
-
-// Which sparse values go where, of those that are chosen. The indices rise: checkSparse.
-std::vector<Move> sparseMoves(const Elements& elements, const Choice& choice)
-{
-    const std::size_t count = elements.sparseIndices.count;
-    std::vector<Move> moves;
-    if (choice.all) {
-        for (std::size_t i = 0; i < count && elements.sparseIndex(i) < choice.count; ++i)
-            moves.push_back({i, elements.sparseIndex(i)});
-        return moves;
-    }
-    for (std::size_t i = 0, at = 0; i < choice.chosen.size() && at < count; ++i) {
-        at = elements.sparsePlace(choice.chosen[i], at);
-        if (at < count && elements.sparseIndex(at) == choice.chosen[i])
-            moves.push_back({at, i});
-    }
-    return moves;
 }
 
 } // namespace
@@ -110,15 +49,9 @@ std::uint32_t Elements::sparseIndex(std::size_t i) const
 
 std::size_t Elements::sparsePlace(std::uint32_t element, std::size_t first) const
 {
-    std::size_t end = sparseIndices.count;
-    while (first < end) {
-        const std::size_t middle = first + (end - first) / 2;
-        if (sparseIndex(middle) < element)
-            first = middle + 1;
-        else
-            end = middle;
-    }
-    return first;
+    const auto places = std::views::iota(first, sparseIndices.count);
+    const auto found = std::ranges::lower_bound(places, element, {}, [&](std::size_t i) { return sparseIndex(i); });
+    return first + std::size_t(found - places.begin());
 }
 
 Elements findElements(const Accessor& a, const ViewBytesOf& viewBytes, const std::string& field)
@@ -163,8 +96,14 @@ void checkFinite(const Elements& elements, const std::string& field)
     if (elements.accessor.componentType != kFloat)
         return;
     const std::size_t components = componentCount(elements.accessor.type);
-    checkFiniteRun(elements.dense, components, field);
-    checkFiniteRun(elements.sparseValues, components, field);
+    for (const Run& run : {elements.dense, elements.sparseValues})
+        for (std::size_t i = 0; run.first && i < run.count; ++i)
+            for (std::size_t c = 0; c < components; ++c) {
+                float x = 0;
+                std::memcpy(&x, run.at(i) + c * sizeof x, sizeof x);
+                if (!std::isfinite(x))
+                    failGltf("{}: expected finite numbers, found {} in element {}", field, x, i);
+            }
 }
 
 const char* nameOfComponent(int componentType)
@@ -199,14 +138,26 @@ void expectIndices(const Accessor& a, const Role& role)
 template<class Out> void readNumbers(const Elements& elements, const Choice& choice, std::size_t room, Out* out)
 {
     const Accessor& a = elements.accessor;
-    const auto dense = [&](std::size_t i) { return Move{choice.all ? i : choice.chosen[i], i}; };
-    if (elements.dense.first)
-        convertAny(elements.dense, a, choice.size(), dense, out, room);
-    if (!a.sparse)
-        return;
-    const std::vector<Move> moves = sparseMoves(elements, choice);
-    convertAny(
-        elements.sparseValues, a, moves.size(), [&](std::size_t i) { return moves[i]; }, out, room);
+    const std::size_t components = componentCount(a.type), count = choice.size(), sparse = elements.sparseIndices.count;
+    const bool normalized = a.normalized;
+    withType(a.componentType, [&]<class Stored>(Stored) {
+        std::size_t place = 0; // of the next sparse value: both rise
+        for (std::size_t i = 0; i < count; ++i) {
+            const std::size_t element = choice.all ? i : choice.chosen[i];
+            const std::byte* from = elements.dense.first ? elements.dense.at(element) : nullptr;
+            if (place < sparse && elements.sparseIndex(place) < element)
+                place = elements.sparsePlace(std::uint32_t(element), place);
+            if (place < sparse && elements.sparseIndex(place) == element)
+                from = elements.sparseValues.at(place++);
+            if (!from)
+                continue;
+            for (std::size_t c = 0; c < components; ++c) {
+                Stored stored;
+                std::memcpy(&stored, from + c * sizeof stored, sizeof stored);
+                out[i * room + c] = convert<Out>(stored, normalized);
+            }
+        }
+    });
 }
 
 template void readNumbers(const Elements&, const Choice&, std::size_t, float*);

@@ -14,19 +14,6 @@ using namespace gltf_edit;
 
 namespace {
 
-template<class T>
-std::size_t addElements(GltfDocument& document, const std::vector<T>& elements, const char* type, int componentType,
-                        int target, Json more = Json::object())
-{
-    const auto bytes = std::as_bytes(std::span(elements));
-    Json accessor = {{"bufferView", addView(document, {bytes.begin(), bytes.end()}, 0, target)},
-                     {"componentType", componentType},
-                     {"count", elements.size()},
-                     {"type", type}};
-    accessor.update(more);
-    return addItem(document, "accessors", std::move(accessor));
-}
-
 Json array(const glm::vec3& v) { return Json::array({v.x, v.y, v.z}); }
 
 std::size_t addPositions(GltfDocument& document, const std::vector<glm::vec3>& positions)
@@ -36,8 +23,9 @@ std::size_t addPositions(GltfDocument& document, const std::vector<glm::vec3>& p
         low = glm::min(low, p);
         high = glm::max(high, p);
     }
-    return addElements(document, positions, "VEC3", gltf::kFloat, gltf::kArrayBuffer,
-                       {{"min", array(low)}, {"max", array(high)}});
+    const std::size_t added = addElements(document, positions, "VEC3");
+    rootOf(document)["accessors"][added].update({{"min", array(low)}, {"max", array(high)}});
+    return added;
 }
 
 // As the file has them that they were read from (followStoredTangents).
@@ -55,16 +43,17 @@ Json primitiveOf(GltfDocument& document, const Mesh& mesh, const Material& mater
     Json attributes = {{"POSITION", addPositions(document, mesh.positions)}};
     const auto add = [&](const char* name, const auto& elements, const char* type) {
         if (!elements.empty())
-            attributes[name] = addElements(document, elements, type, gltf::kFloat, gltf::kArrayBuffer);
+            attributes[name] = addElements(document, elements, type);
     };
     add("NORMAL", mesh.normals, "VEC3");
     add("TANGENT", storedTangents(mesh, material), "VEC4");
     add("TEXCOORD_0", mesh.texcoords[0], "VEC2");
     add("TEXCOORD_1", mesh.texcoords[1], "VEC2");
     add("COLOR_0", mesh.colors, "VEC4");
-    return {{"attributes", std::move(attributes)},
-            {"indices", addElements(document, mesh.indices, "SCALAR", gltf::kUnsignedInt, gltf::kElementArrayBuffer)},
-            {"material", std::size_t(mesh.material)}};
+    return {
+        {"attributes", std::move(attributes)},
+        {"indices", addElements(document, mesh.indices, "SCALAR", 0, gltf::kUnsignedInt, gltf::kElementArrayBuffer)},
+        {"material", std::size_t(mesh.material)}};
 }
 
 std::size_t addTexture(GltfDocument& document, const Texture& texture)
@@ -158,7 +147,7 @@ Result<GltfDocument> gltfDocumentOf(const Scene& scene)
         return sound.error();
     GltfDocument document;
     auto source = std::make_shared<GltfSource>();
-    source->root = Json::object();
+    source->file.json = Json::object();
     document.source = std::move(source);
     Json& root = rootOf(document);
     root = {{"asset", {{"version", "2.0"}, {"generator", "cotan"}}}, {"scene", 0}};

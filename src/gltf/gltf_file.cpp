@@ -1,5 +1,6 @@
 #include "gltf_file.hpp"
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <optional>
@@ -12,10 +13,6 @@ namespace cotan {
 namespace fs = std::filesystem;
 
 namespace {
-
-constexpr std::uint32_t kMagic = 0x46546C67;       // "glTF"
-constexpr std::uint32_t kChunkJson = 0x4E4F534A;   // "JSON"
-constexpr std::uint32_t kChunkBinary = 0x004E4942; // "BIN\0"
 
 std::uint32_t readWord(std::span<const std::byte> bytes, std::size_t at)
 {
@@ -54,12 +51,12 @@ std::span<const std::byte> splitChunks(GltfFile& file, GltfWarnings& warnings)
             failGltf("GLB chunk {}: it says that it has {} bytes, but {} are left", chunk, length, left - 8);
         if (length % 4 != 0)
             warnings.add(fmt::format("GLB chunk {}", chunk), "its length is not a multiple of 4");
-        if ((chunk == 0) != (type == kChunkJson))
+        if ((chunk == 0) != (type == kGlbJson))
             failGltf("GLB chunk {}: expected {}, found type 0x{:08x}", chunk,
                      chunk == 0 ? "JSON first" : "JSON only once", type);
         if (chunk == 0)
             text = bytes.subspan(at + 8, length);
-        if (chunk == 1 && type == kChunkBinary)
+        if (chunk == 1 && type == kGlbBinary)
             file.binary = bytes.subspan(at + 8, length);
         at += 8 + length;
     }
@@ -167,15 +164,24 @@ Result<std::vector<std::byte>> readGltfResource(const GltfFile& file, const fs::
     return bytes;
 }
 
+void takeBytes(std::size_t& taken, std::size_t bytes, std::size_t most, const char* what, std::size_t fileBytes,
+               const std::string& field)
+{
+    if (bytes > most - std::min(taken, most))
+        failGltf("{}: {} {} bytes with it, the limit is {} for a file of {}", field, what, taken + bytes, most,
+                 fileBytes);
+    taken += bytes;
+}
+
 GltfFile openGltf(const fs::path& path, const LoadLimits& limits, GltfWarnings& warnings)
 {
     GltfFile file;
     file.readFile = limits.readFile;
     file.bytes = valueOrFail(readGltfResource(file, path, limits));
-    file.size = file.bytes.size();
+    file.modelBytes = file.size = file.bytes.size();
     if (!file.readFile)
         file.folder = fs::canonical(path.has_parent_path() ? path.parent_path() : fs::path("."));
-    file.isBinary = file.bytes.size() >= 4 && readWord(file.bytes, 0) == kMagic;
+    file.isBinary = file.bytes.size() >= 4 && readWord(file.bytes, 0) == kGlbMagic;
     if (!file.isBinary && lowerExtension(path) == ".glb")
         failGltf("GLB header: expected the file to begin with \"glTF\"");
     file.json = parseGltfJson(file.isBinary ? splitChunks(file, warnings) : file.bytes);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <map>
@@ -22,6 +23,9 @@ struct GltfResource {
     std::filesystem::path file; // canonical; empty if the bytes are here
     std::vector<std::byte> bytes;
 };
+
+// Words of a GLB: its first, "glTF", and the types of its chunks.
+inline constexpr std::uint32_t kGlbMagic = 0x46546C67, kGlbJson = 0x4E4F534A, kGlbBinary = 0x004E4942;
 
 inline constexpr const char* kDracoExtension = "KHR_draco_mesh_compression";
 inline constexpr const char* kMeshoptExtensions[] = {"EXT_meshopt_compression", "KHR_meshopt_compression"};
@@ -46,7 +50,8 @@ struct GltfFile {
     std::vector<std::byte> bytes;                                               // the whole file, where it is a GLB
     std::span<const std::byte> binary; // the BIN chunk of a GLB; empty if there is none
     bool isBinary = false;
-    std::size_t size = 0; // bytes of the model and, once they are loaded, of its buffer files
+    std::size_t modelBytes = 0; // of the model itself
+    std::size_t size = 0;       // the same and, once they are loaded, the bytes of its buffer files
     gltf::Json json;
     std::vector<std::span<const std::byte>> buffers;                     // one for each buffer, exactly byteLength long
     std::map<std::filesystem::path, std::vector<std::byte>> bufferFiles; // each is read once
@@ -93,6 +98,11 @@ void checkGltfAnimations(const gltf::Json& root);
 // the file they are refused before they are decoded.
 // Throws GltfProblem: damaged streams; ErrorKind::unavailable where this build lacks the decoder.
 void unpackGltf(GltfFile& file, const LoadLimits& limits);
+
+// Adds bytes to those that are taken already. Throws GltfProblem where they are more than `most` with it. what: the
+// message's subject and verb; fileBytes: the size of the file, for the message too.
+void takeBytes(std::size_t& taken, std::size_t bytes, std::size_t most, const char* what, std::size_t fileBytes,
+               const std::string& field);
 
 namespace gltf {
 

@@ -78,11 +78,6 @@ Result<std::vector<PrimitiveTangents>> rowsOf(const GltfDocument& document, cons
     return rows;
 }
 
-std::vector<glm::vec4> generate(const GltfPrimitiveGeometry& read, const TangentsOptions& options)
-{
-    return generateTangents(options.frame, read.view(), options.threads);
-}
-
 // glTF asks for unit tangents: where MikkTSpace has zero, since directions cancel out, any will do.
 std::vector<glm::vec4> unitForFile(std::vector<glm::vec4> tangents)
 {
@@ -120,7 +115,8 @@ Result<TangentsGiven> giveTangents(GltfDocument& document, const TangentsOptions
             ++given.kept;
         } else {
             row.generated = true;
-            tangents.push_back({row.mesh, row.primitive, unitForFile(generate(read, options))});
+            tangents.push_back(
+                {row.mesh, row.primitive, unitForFile(generateTangents(options.frame, read.view(), options.threads))});
         }
     });
     if (!rows)
@@ -144,7 +140,8 @@ Result<TangentsCompared> compareTangents(const GltfDocument& document, const Tan
             ++compared.without;
             return;
         }
-        row.difference = tangentDifference(read.view(), read.geometry.tangents, generate(read, options));
+        row.difference = tangentDifference(read.view(), read.geometry.tangents,
+                                           generateTangents(options.frame, read.view(), options.threads));
         append(compared.whole, *row.difference);
     });
     if (!rows)

@@ -1,11 +1,10 @@
 // glTF 2.0 and GLB files to Scene.
 #include <algorithm>
+#include <compare>
 #include <map>
-#include <tuple>
 #include <utility>
 
-#include "material.hpp"
-#include "mesh.hpp"
+#include "gltf_model.hpp"
 #include "scene/normal_maps.hpp"
 
 namespace cotan {
@@ -17,11 +16,25 @@ struct MeshUse {
     int mesh = -1;
     int skin = -1;
     std::vector<double> weights;
-    bool operator<(const MeshUse& other) const
-    {
-        return std::tie(mesh, skin, weights) < std::tie(other.mesh, other.skin, other.weights);
-    }
+    auto operator<=>(const MeshUse&) const = default;
 };
+
+// The first `count` float matrices; there may be more.
+std::vector<glm::mat4> readMatrices(GltfModel& model, int accessor, std::size_t count, const std::string& field)
+{
+    const gltf::Elements& elements = model.accessors[std::size_t(accessor)];
+    const gltf::Accessor& a = elements.accessor;
+    if (a.type != gltf::ElementType::mat4 || a.componentType != gltf::kFloat)
+        failGltf("{}: expected MAT4 of floats in accessors[{}], found {} of {}", field, accessor, gltf::nameOf(a.type),
+                 gltf::nameOfComponent(a.componentType));
+    if (a.count < count)
+        failGltf("{}: expected {} matrices in accessors[{}], found {}", field, count, accessor, a.count);
+    takeGltfBytes(model, count * sizeof(glm::mat4), field);
+    std::vector<glm::mat4> matrices(count, glm::mat4(0));
+    if (count > 0)
+        gltf::readNumbers(elements, count, 16, &matrices[0][0].x);
+    return matrices;
+}
 
 class SceneBuilder {
 public:
@@ -56,8 +69,8 @@ private:
             const std::string field = fmt::format("skins[{}]", i);
             std::vector<glm::mat4> bind(skin.joints.size(), glm::mat4(1));
             if (skin.inverseBindMatrices >= 0)
-                bind = readGltfMatrices(model_, skin.inverseBindMatrices, skin.joints.size(),
-                                        field + ".inverseBindMatrices");
+                bind =
+                    readMatrices(model_, skin.inverseBindMatrices, skin.joints.size(), field + ".inverseBindMatrices");
             std::vector<glm::dmat4>& joints = joints_.emplace_back();
             for (std::size_t j = 0; j < skin.joints.size(); ++j)
                 joints.push_back(nodes_.world[std::size_t(skin.joints[j])] * glm::dmat4(bind[j]));
@@ -68,7 +81,7 @@ private:
     {
         const int material = primitive.mesh.material;
         const gltf::TextureUse map =
-            material < 0 ? gltf::TextureUse{} : model_.structure.materials[std::size_t(material)].normal;
+            material < 0 ? gltf::TextureUse{} : model_.structure.normalMaps[std::size_t(material)];
         return finishGltfMesh(std::move(primitive), map.texture < 0 ? -1 : map.texcoord, model_.warnings);
     }
 
@@ -148,13 +161,6 @@ private:
     std::map<MeshUse, std::vector<int>> made_;
 };
 
-void open(GltfModel& model, const std::filesystem::path& path, const LoadLimits& limits)
-{
-    model.limits = limits;
-    model.file = openGltf(path, limits, model.warnings);
-    readGltfModel(model);
-}
-
 Scene build(GltfModel& model, const std::filesystem::path& path, const std::vector<Image>* images)
 {
     Scene scene;
@@ -169,9 +175,11 @@ Scene build(GltfModel& model, const std::filesystem::path& path, const std::vect
 Scene load(const std::filesystem::path& path, const LoadLimits& limits)
 {
     GltfModel model;
-    open(model, path, limits);
-    gltf::Json images = std::move(model.file.json["images"]); // whose URIs are all that is still read from the JSON
-    model.file.json = std::move(images);
+    readGltfModel(model, path, limits);
+    gltf::Json kept; // materials and the URIs of images are all that is still read from the JSON
+    for (const char* const collection : {"materials", "images"})
+        kept[collection] = std::move(model.file.json[collection]);
+    model.file.json = std::move(kept);
     return build(model, path, nullptr);
 }
 
@@ -203,7 +211,7 @@ Result<std::unique_ptr<AnimatedGltf>> AnimatedGltf::open(const std::filesystem::
         work->path = file;
         LoadLimits atRest = limits;
         atRest.pose = {};
-        cotan::open(work->model, file, atRest);
+        readGltfModel(work->model, file, atRest);
         work->nodes = work->model.structure.nodes;
         work->animations = gltfAnimations(work->model);
         work->warnings = work->model.warnings;

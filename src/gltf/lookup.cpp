@@ -6,7 +6,7 @@
 #include <glm/geometric.hpp>
 
 #include "cotan/portable.hpp"
-#include "mesh.hpp"
+#include "gltf_model.hpp"
 #include "scene/geometry.hpp"
 
 namespace cotan {
@@ -90,10 +90,8 @@ void setExpansion(nlohmann::ordered_json& material, Expansion expansion)
         if (!material.contains("extras") || !material["extras"].is_object())
             material["extras"] = nlohmann::ordered_json::object();
         material["extras"][gltf::kUnsignedKey] = "biased";
-    } else if (const auto extras = material.find("extras"); extras != material.end() && extras->is_object()) {
-        extras->erase(gltf::kUnsignedKey);
-        if (extras->empty())
-            material.erase("extras");
+    } else {
+        takeOut(material, "extras", gltf::kUnsignedKey);
     }
 }
 
@@ -119,6 +117,16 @@ std::set<std::size_t> texturesBesideNormalMaps(const Json& material)
     std::set<std::size_t> textures;
     collectTextures(material, {slotOf(material, NormalSlot::surface), slotOf(material, NormalSlot::coat)}, textures);
     return textures;
+}
+
+void takeOut(Json& owner, const char* object, const std::string& name)
+{
+    const auto found = owner.find(object);
+    if (found == owner.end() || !found->is_object())
+        return;
+    found->erase(name);
+    if (found->empty())
+        owner.erase(object);
 }
 
 void takeOffExtension(Json& root, const std::string& name)
@@ -173,27 +181,19 @@ Mesh gltfMesh(GltfGeometry geometry)
     Mesh mesh;
     mesh.positions = std::move(geometry.positions);
     mesh.normals = std::move(geometry.normals);
-    mesh.tangents = std::move(geometry.tangents);
     mesh.texcoords[0] = std::move(geometry.texcoords);
     mesh.indices = std::move(geometry.indices);
     makeUnit(mesh.normals);
-    if (!mesh.normals.empty())
+    if (!mesh.normals.empty()) {
+        mesh.tangents = std::move(geometry.tangents);
         return mesh;
-    Mesh flat;
-    for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
-        const glm::vec3 &a = mesh.positions[mesh.indices[i]], &b = mesh.positions[mesh.indices[i + 1]],
-                        &c = mesh.positions[mesh.indices[i + 2]];
-        const glm::vec3 n = f32::cotan_normalize_or(glm::cross(b - a, c - a), glm::vec3(0));
-        for (std::size_t k = 0; k < 3; ++k) {
-            const std::uint32_t v = mesh.indices[i + k];
-            flat.positions.push_back(mesh.positions[v]);
-            flat.normals.push_back(n);
-            if (!mesh.texcoords[0].empty())
-                flat.texcoords[0].push_back(mesh.texcoords[0][v]);
-            flat.indices.push_back(std::uint32_t(i + k));
-        }
     }
-    return flat;
+    separateCorners(mesh);
+    for (std::size_t i = 0; i < mesh.positions.size(); i += 3) {
+        const glm::vec3 &a = mesh.positions[i], &b = mesh.positions[i + 1], &c = mesh.positions[i + 2];
+        mesh.normals.insert(mesh.normals.end(), 3, f32::cotan_normalize_or(glm::cross(b - a, c - a), glm::vec3(0)));
+    }
+    return mesh;
 }
 
 } // namespace cotan

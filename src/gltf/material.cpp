@@ -1,7 +1,8 @@
-#include "material.hpp"
+#include "gltf_model.hpp"
 
 #include <algorithm>
 #include <atomic>
+#include <optional>
 
 #include "core/loops.hpp"
 #include "cotan/image.hpp"
@@ -47,41 +48,19 @@ Material GltfMaterials::make(int index, const Mesh& mesh)
 {
     if (index < 0)
         return {};
-    const gltf::MaterialSource& source = model_.structure.materials[std::size_t(index)];
-    const auto map = [&](const gltf::TextureUse& use, const char* name) {
-        return texture(use, mesh, fmt::format("materials[{}].{}", index, name));
-    };
-    Material material = source.factors;
-    if (!source.frame.empty()) {
-        material.normalFrame = frameFromName(source.frame);
-        if (!material.normalFrame)
-            model_.warnings.add(
-                fmt::format("materials[{}].extras.{}", index, gltf::kFrameExtra),
-                fmt::format("expected the name of a frame, found '{}'; left out", oneLine(source.frame)));
+    const gltf::Json& source = (*materials_)[std::size_t(index)];
+    std::optional<Frame> frame;
+    if (const std::string named = gltf::frameText(source); !named.empty()) {
+        frame = frameFromName(named);
+        if (!frame)
+            model_.warnings.add(fmt::format("materials[{}].extras.{}", index, gltf::kFrameExtra),
+                                fmt::format("expected the name of a frame, found '{}'; left out", oneLine(named)));
     }
-    material.baseColorMap = map(source.baseColor, "baseColorTexture");
-    material.metallicRoughnessMap = map(source.metallicRoughness, "metallicRoughnessTexture");
-    material.normalMap = map(source.normal, "normalTexture");
-    material.occlusionMap = map(source.occlusion, "occlusionTexture");
-    material.emissiveMap = map(source.emissive, "emissiveTexture");
-    // Layers that are not there need no pictures.
-    if (material.coat.strength > 0) {
-        material.coat.map = map(source.coat, "clearcoatTexture");
-        material.coat.roughnessMap = map(source.coatRoughness, "clearcoatRoughnessTexture");
-        material.coat.normalMap = map(source.coatNormal, "clearcoatNormalTexture");
-    }
-    if (material.anisotropy.strength > 0)
-        material.anisotropy.map = map(source.anisotropy, "anisotropyTexture");
-    if (material.specular.strength > 0) {
-        material.specular.map = map(source.specular, "specularTexture");
-        material.specular.colorMap = map(source.specularColor, "specularColorTexture");
-    }
-    if (material.sheen.present()) {
-        material.sheen.colorMap = map(source.sheenColor, "sheenColorTexture");
-        material.sheen.roughnessMap = map(source.sheenRoughness, "sheenRoughnessTexture");
-    }
-    if (material.transmission.strength > 0)
-        material.transmission.map = map(source.transmission, "transmissionTexture");
+    Material material = gltf::readMaterial(source, [&](const gltf::Json& owner, const char* slot) {
+        return texture(gltf::readTextureUse(gltf::member(owner, slot)), mesh,
+                       fmt::format("materials[{}].{}", index, slot));
+    });
+    material.normalFrame = frame;
     return material;
 }
 
@@ -106,9 +85,11 @@ struct ImageSource {
 
 std::string imageField(int image) { return fmt::format("images[{}]", image); }
 
+const gltf::Image& imageAt(const GltfModel& model, int image) { return model.structure.images[std::size_t(image)]; }
+
 ImageSource findImage(const GltfModel& model, int image, bool mayMiss = false)
 {
-    const gltf::Image& entry = model.structure.images[std::size_t(image)];
+    const gltf::Image& entry = imageAt(model, image);
     const std::string field = imageField(image);
     ImageSource source;
     source.name = oneLine(entry.name);
@@ -148,38 +129,17 @@ Image decode(const GltfFile& model, ImageSource source, const LoadLimits& limits
     return std::move(*image);
 }
 
-// The bytes that the images of one model may take together.
-class Budget {
-public:
-    Budget(const LoadLimits& limits, std::uint64_t fileBytes)
-        : limits_(limits), all_(imageBudget(limits, fileBytes)), left_(all_)
-    {
-    }
-
-    // The limits for the next image: no more than what is left. Images that are decoded at the same time see the same
-    // rest, so the total may be overdrawn by one image a thread until `take` notices.
-    LoadLimits next() const
-    {
-        LoadLimits limits = limits_;
-        limits.imageBytes = std::min(limits.imageBytes, left_.load());
-        return limits;
-    }
-
-    void take(std::size_t bytes)
-    {
-        std::size_t left = left_.load();
-        do {
-            if (bytes > left)
-                throw GltfProblem{
-                    memoryError(fmt::format("all images together take more than the limit of {} bytes", all_))};
-        } while (!left_.compare_exchange_weak(left, left - bytes));
-    }
-
-private:
-    const LoadLimits& limits_;
-    std::size_t all_;
-    std::atomic<std::size_t> left_;
-};
+// Takes the bytes of an image from what is left of `all`, which those of one model may take together. Images that are
+// decoded at the same time saw the same rest, so they may be over it by one image a thread until this notices.
+void takeFrom(std::atomic<std::size_t>& left, std::size_t bytes, std::size_t all)
+{
+    std::size_t rest = left.load();
+    do {
+        if (bytes > rest)
+            throw GltfProblem{
+                memoryError(fmt::format("all images together take more than the limit of {} bytes", all))};
+    } while (!left.compare_exchange_weak(rest, rest - bytes));
+}
 
 } // namespace
 
@@ -188,7 +148,7 @@ std::uint64_t GltfMaterials::bytesOfFiles() const
 {
     std::uint64_t bytes = model_.file.size;
     for (const auto& [image, slot] : slots_) {
-        const gltf::Image& entry = model_.structure.images[std::size_t(image)];
+        const gltf::Image& entry = imageAt(model_, image);
         if (!entry.uri || entry.uri->starts_with("data:") || model_.file.readFile)
             continue;
         bool outside = false;
@@ -203,7 +163,7 @@ std::uint64_t GltfMaterials::bytesOfFiles() const
 // The first image of the file that has the same bytes in a view; those with a URI stand for themselves.
 int GltfMaterials::firstEqual(int image)
 {
-    const gltf::Image& entry = model_.structure.images[std::size_t(image)];
+    const gltf::Image& entry = imageAt(model_, image);
     if (entry.uri || entry.view < 0)
         return image;
     const std::span<const std::byte> bytes = model_.views[std::size_t(entry.view)].bytes;
@@ -221,12 +181,15 @@ void GltfMaterials::decodeImages()
     const std::vector<std::pair<int, int>> jobs(slots_.begin(), slots_.end());
     std::vector<GltfProblem> problems(jobs.size());
     std::vector<std::string> foreign(jobs.size());
-    Budget budget(model_.limits, bytesOfFiles());
+    const std::size_t all = imageBudget(model_.limits, bytesOfFiles());
+    std::atomic<std::size_t> left = all;
     const auto decodeOne = [&](std::size_t i) {
         const auto [image, slot] = jobs[i];
         try {
-            Image decoded = decode(model_.file, findImage(model_, image), budget.next(), foreign[i]);
-            budget.take(decoded.data.size());
+            LoadLimits limits = model_.limits;
+            limits.imageBytes = std::min(limits.imageBytes, left.load());
+            Image decoded = decode(model_.file, findImage(model_, image), limits, foreign[i]);
+            takeFrom(left, decoded.data.size(), all);
             scene_.images[std::size_t(slot)] = std::move(decoded);
         } catch (const GltfProblem& problem) {
             problems[i] = {reworded(problem.error, imageField(image) + ": " + problem.error.message)};

@@ -1,5 +1,5 @@
 // A primitive moved by its skin; its normals and tangents, checked and made fit for use.
-#include "mesh.hpp"
+#include "gltf_model.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -31,21 +31,16 @@ template<class T> void spread(std::vector<T>& values, const std::vector<std::uin
     values = std::move(copy);
 }
 
-// glTF asks for flat normals where a primitive has none: every corner gets a vertex of its own
-// with its triangle's normal. Triangles without area get a zero normal.
+// glTF asks for flat normals where a primitive has none. Triangles without area get a zero normal.
 void makeFlat(Mesh& mesh)
 {
-    spread(mesh.positions, mesh.indices);
-    spread(mesh.texcoords[0], mesh.indices);
-    spread(mesh.texcoords[1], mesh.indices);
-    spread(mesh.colors, mesh.indices);
+    separateCorners(mesh);
     mesh.normals.assign(mesh.positions.size(), glm::vec3(0));
     for (std::size_t i = 0; i < mesh.indices.size(); i += 3) {
         const glm::dvec3 a = mesh.positions[i], b = mesh.positions[i + 1], c = mesh.positions[i + 2];
         const glm::vec3 n = unitOrZero(glm::cross(b - a, c - a));
         std::fill_n(mesh.normals.begin() + std::ptrdiff_t(i), 3, n);
     }
-    std::iota(mesh.indices.begin(), mesh.indices.end(), 0u);
 }
 
 void normalizeNormals(Mesh& mesh, const std::string& field, GltfWarnings& warnings)
@@ -57,10 +52,8 @@ void normalizeNormals(Mesh& mesh, const std::string& field, GltfWarnings& warnin
         odd += length > 0 && std::abs(length - 1) > kUnitTolerance;
         n = unitNormal(n);
     }
-    if (zero > 0)
-        warnings.add(field + ".NORMAL", "zero length, no direction known", zero, "vertices");
-    if (odd > 0)
-        warnings.add(field + ".NORMAL", "not of unit length, normalised", odd, "vertices");
+    warnings.add(field + ".NORMAL", "zero length, no direction known", zero, "vertices");
+    warnings.add(field + ".NORMAL", "not of unit length, normalised", odd, "vertices");
 }
 
 // ---- tangents -------------------------------------------------------------------------------
@@ -79,12 +72,9 @@ void normalizeTangents(Mesh& mesh, const std::string& field, GltfWarnings& warni
         signs += std::abs(std::abs(t.w) - 1) > kUnitTolerance;
         t.w = t.w < 0 ? -1.0f : 1.0f;
     }
-    if (zero > 0)
-        warnings.add(field + ".TANGENT", "zero length", zero, "vertices");
-    if (odd > 0)
-        warnings.add(field + ".TANGENT", "not of unit length, normalised", odd, "vertices");
-    if (signs > 0)
-        warnings.add(field + ".TANGENT", "w is not +-1, its sign is taken", signs, "vertices");
+    warnings.add(field + ".TANGENT", "zero length", zero, "vertices");
+    warnings.add(field + ".TANGENT", "not of unit length, normalised", odd, "vertices");
+    warnings.add(field + ".TANGENT", "w is not +-1, its sign is taken", signs, "vertices");
 }
 
 // Twice the signed area of a triangle in uv.
@@ -139,8 +129,7 @@ void checkUvArea(const Mesh& mesh, int set, const std::string& field, GltfWarnin
     std::size_t flat = 0;
     for (std::size_t i = 0; i < mesh.indices.size(); i += 3)
         flat += uvArea(mesh, uv, i) == 0;
-    if (flat > 0)
-        warnings.add(field, "no area in the texture coordinates of the normal map: no frame there", flat, "triangles");
+    warnings.add(field, "no area in the texture coordinates of the normal map: no frame there", flat, "triangles");
 }
 
 // ---- skins ----------------------------------------------------------------------------------
@@ -175,6 +164,15 @@ glm::vec3 unitNormal(const glm::vec3& normal)
 {
     constexpr double kRounding = 2e-6; // as far as floats and six decimals go; quantised normals are up to 0.007 off
     return std::abs(glm::length(glm::dvec3(normal)) - 1) > kRounding ? unitOrZero(normal) : normal;
+}
+
+void separateCorners(Mesh& mesh)
+{
+    spread(mesh.positions, mesh.indices);
+    spread(mesh.texcoords[0], mesh.indices);
+    spread(mesh.texcoords[1], mesh.indices);
+    spread(mesh.colors, mesh.indices);
+    std::iota(mesh.indices.begin(), mesh.indices.end(), 0u);
 }
 
 Mesh finishGltfMesh(GltfPrimitive&& source, int normalMapSet, GltfWarnings& warnings)
@@ -223,8 +221,7 @@ void skinGltfPrimitive(GltfPrimitive& primitive, const std::vector<glm::dmat4>& 
     if (mirrored == mesh.positions.size())
         for (std::size_t i = 0; i < mesh.indices.size(); i += 3)
             std::swap(mesh.indices[i + 1], mesh.indices[i + 2]);
-    if (loose > 0)
-        warnings.add(primitive.field, "skinned without weights, left in place", loose, "vertices");
+    warnings.add(primitive.field, "skinned without weights, left in place", loose, "vertices");
 }
 
 } // namespace cotan

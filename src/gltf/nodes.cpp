@@ -188,21 +188,6 @@ glm::vec3 axis(const glm::dvec4& column, const glm::vec3& otherwise)
     return length > 0 ? glm::vec3(glm::dvec3(column) / length) : otherwise;
 }
 
-Light placed(Light light, const glm::dmat4& world)
-{
-    light.position = glm::vec3(world[3]);
-    light.direction = -axis(world[2], {0, 0, 1}); // lights shine along their node's -z
-    return light;
-}
-
-Camera placed(Camera camera, const glm::dmat4& world)
-{
-    camera.eye = glm::vec3(world[3]);
-    camera.target = camera.eye - axis(world[2], {0, 0, 1}); // cameras look along -z
-    camera.up = axis(world[1], {0, 1, 0});
-    return camera;
-}
-
 } // namespace
 
 void addGltfLightsAndCameras(const GltfModel& model, const GltfNodes& nodes, Scene& scene)
@@ -210,13 +195,20 @@ void addGltfLightsAndCameras(const GltfModel& model, const GltfNodes& nodes, Sce
     for (const int node : nodes.visible) {
         const gltf::Node& n = nodeAt(model, node);
         const glm::dmat4& world = nodes.world[std::size_t(node)];
-        if (n.light >= 0)
-            scene.lights.push_back(placed(model.structure.lights[std::size_t(n.light)], world));
-        if (n.camera < 0)
-            continue;
-        scene.cameras.push_back(placed(model.structure.cameras[std::size_t(n.camera)], world));
-        if (scene.cameras.back().name.empty())
-            scene.cameras.back().name = n.name;
+        const glm::vec3 position(world[3]), ahead = -axis(world[2], {0, 0, 1}); // both look along -z
+        if (n.light >= 0) {
+            Light& light = scene.lights.emplace_back(model.structure.lights[std::size_t(n.light)]);
+            light.position = position;
+            light.direction = ahead;
+        }
+        if (n.camera >= 0) {
+            Camera& camera = scene.cameras.emplace_back(model.structure.cameras[std::size_t(n.camera)]);
+            camera.eye = position;
+            camera.target = position + ahead;
+            camera.up = axis(world[1], {0, 1, 0});
+            if (camera.name.empty())
+                camera.name = n.name;
+        }
     }
 }
 

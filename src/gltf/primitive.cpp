@@ -5,9 +5,11 @@
 
 #include "cotan/vector.hpp"
 #include "gltf/json/lookup.hpp"
-#include "mesh.hpp"
+#include "gltf_model.hpp"
 
 namespace cotan {
+
+using gltf::Accessor, gltf::Choice, gltf::ElementType;
 
 namespace {
 
@@ -30,6 +32,69 @@ void takeTriangles(GltfModel& model, std::size_t count, const std::string& field
     take(model.trianglesTaken, model.limits.triangles, count, "triangles", field);
 }
 
+// ---- accessors ------------------------------------------------------------------------------
+
+const Accessor& accessorAt(const GltfModel& model, int accessor)
+{
+    return model.accessors[std::size_t(accessor)].accessor;
+}
+
+template<class T>
+std::vector<T> makeArray(GltfModel& model, std::size_t count, const T& value, const std::string& field)
+{
+    takeGltfBytes(model, count * sizeof(T), field);
+    return std::vector<T>(count, value);
+}
+
+// VEC3 (w = 1) or VEC4.
+std::vector<glm::vec4> readColors(GltfModel& model, int accessor, const Choice& choice, const std::string& field)
+{
+    if (accessorAt(model, accessor).type != ElementType::vec3)
+        return readGltfVectors<glm::vec4>(model, accessor, choice, field);
+    std::vector<glm::vec4> colors;
+    colors.reserve(choice.size());
+    for (const glm::vec3& c : readGltfVectors<glm::vec3>(model, accessor, choice, field))
+        colors.emplace_back(c, 1.0f);
+    return colors;
+}
+
+std::vector<glm::uvec4> readJointSet(GltfModel& model, int accessor, const Choice& choice, const std::string& field)
+{
+    const Accessor& a = accessorAt(model, accessor);
+    gltf::expectElements(a, ElementType::vec4, choice.count, {accessor, field});
+    if (a.componentType != gltf::kUnsignedByte && a.componentType != gltf::kUnsignedShort)
+        failGltf("{}: expected bytes or shorts in accessors[{}], found {}", field, accessor,
+                 gltf::nameOfComponent(a.componentType));
+    std::vector<glm::uvec4> joints = makeArray(model, choice.size(), glm::uvec4(0), field);
+    if (!joints.empty())
+        gltf::readNumbers(model.accessors[std::size_t(accessor)], choice, 4, &joints[0].x);
+    return joints;
+}
+
+// Vertex indices, each below vertexCount and none the primitive restart value.
+std::vector<std::uint32_t> readIndices(GltfModel& model, int accessor, std::size_t vertexCount,
+                                       const std::string& field)
+{
+    const Accessor& a = accessorAt(model, accessor);
+    gltf::expectIndices(a, {accessor, field});
+    if (a.view < 0)
+        failGltf("{}: expected accessors[{}] with a bufferView, found none", field, accessor);
+    if (a.count > model.limits.triangles * 3)
+        failGltf("{}: the limit is {} indices, found {}", field, model.limits.triangles * 3, a.count);
+    std::vector<std::uint32_t> indices = makeArray(model, a.count, std::uint32_t(0), field);
+    gltf::readNumbers(model.accessors[std::size_t(accessor)], a.count, 1, indices.data());
+    const std::uint32_t restart = 0xFFFFFFFFu >> (32 - 8 * gltf::componentSize(a.componentType));
+    for (std::size_t i = 0; i < indices.size(); ++i) {
+        if (indices[i] == restart)
+            failGltf("{}: index {} is {}, the primitive restart value, which glTF forbids", field, i, restart);
+        if (indices[i] >= vertexCount)
+            failGltf("{}: index {} is {}, but there are {} vertices", field, i, indices[i], vertexCount);
+    }
+    return indices;
+}
+
+// ---- attributes -----------------------------------------------------------------------------
+
 void replaceUnusable(std::vector<glm::vec2>& texcoords, const std::string& field, GltfWarnings& warnings)
 {
     std::size_t bad = 0;
@@ -39,11 +104,10 @@ void replaceUnusable(std::vector<glm::vec2>& texcoords, const std::string& field
             ++bad;
         }
     }
-    if (bad > 0)
-        warnings.add(field, "not a finite number, replaced by 0", bad, "vertices");
+    warnings.add(field, "not a finite number, replaced by 0", bad, "vertices");
 }
 
-void readTexcoords(GltfModel& model, const gltf::Primitive& source, const gltf::Choice& choice, GltfPrimitive& out)
+void readTexcoords(GltfModel& model, const gltf::Primitive& source, const Choice& choice, GltfPrimitive& out)
 {
     for (const auto& [name, accessor] : source.attributes) {
         if (!name.starts_with("TEXCOORD_"))
@@ -59,7 +123,7 @@ void readTexcoords(GltfModel& model, const gltf::Primitive& source, const gltf::
     }
 }
 
-void readJoints(GltfModel& model, const gltf::Primitive& source, const gltf::Choice& choice, GltfPrimitive& out)
+void readJoints(GltfModel& model, const gltf::Primitive& source, const Choice& choice, GltfPrimitive& out)
 {
     for (int set = 0;; ++set) {
         const int joints = gltf::accessorOf(source.attributes, fmt::format("JOINTS_{}", set));
@@ -70,20 +134,20 @@ void readJoints(GltfModel& model, const gltf::Primitive& source, const gltf::Cho
             failGltf("{}: expected JOINTS_{} and WEIGHTS_{} together", out.field, set, set);
         if (set > 0)
             takeVertices(model, choice.size(), out.field);
-        out.joints.push_back(readGltfJoints(model, joints, choice, fmt::format("{}.JOINTS_{}", out.field, set)));
+        out.joints.push_back(readJointSet(model, joints, choice, fmt::format("{}.JOINTS_{}", out.field, set)));
         out.weights.push_back(
             readGltfVectors<glm::vec4>(model, weights, choice, fmt::format("{}.WEIGHTS_{}", out.field, set)));
     }
 }
 
-void readAttributes(GltfModel& model, const gltf::Primitive& source, const gltf::Choice& choice, GltfPrimitive& out)
+void readAttributes(GltfModel& model, const gltf::Primitive& source, const Choice& choice, GltfPrimitive& out)
 {
     if (const int a = gltf::accessorOf(source.attributes, "NORMAL"); a >= 0)
         out.mesh.normals = readGltfVectors<glm::vec3>(model, a, choice, out.field + ".NORMAL");
     if (const int a = gltf::accessorOf(source.attributes, "TANGENT"); a >= 0)
         out.mesh.tangents = readGltfVectors<glm::vec4>(model, a, choice, out.field + ".TANGENT");
     if (const int a = gltf::accessorOf(source.attributes, "COLOR_0"); a >= 0)
-        out.mesh.colors = readGltfColors(model, a, choice, out.field + ".COLOR_0");
+        out.mesh.colors = readColors(model, a, choice, out.field + ".COLOR_0");
     readTexcoords(model, source, choice, out);
     readJoints(model, source, choice, out);
     if (gltf::accessorOf(source.attributes, "TANGENT") >= 0 && gltf::accessorOf(source.attributes, "NORMAL") < 0) {
@@ -106,8 +170,8 @@ template<class Vector> void addScaled(std::vector<Vector>& to, const std::vector
 }
 
 // Targets of weight zero are read all the same, so that damage in them is found.
-void morph(GltfModel& model, const gltf::Primitive& source, const std::vector<double>& weights,
-           const gltf::Choice& choice, GltfPrimitive& out)
+void morph(GltfModel& model, const gltf::Primitive& source, const std::vector<double>& weights, const Choice& choice,
+           GltfPrimitive& out)
 {
     const std::size_t kept = model.bytesTaken;
     for (std::size_t t = 0; t < source.targets.size(); ++t) {
@@ -187,10 +251,9 @@ std::vector<std::uint32_t> readTriangles(GltfModel& model, const gltf::Primitive
 {
     std::vector<std::uint32_t> order;
     if (source.indices >= 0) {
-        order = readGltfIndices(model, source.indices, vertices, out.field + ".indices");
+        order = readIndices(model, source.indices, vertices, out.field + ".indices");
     } else {
-        takeGltfBytes(model, vertices * sizeof order[0], out.field);
-        order.resize(vertices);
+        order = makeArray(model, vertices, std::uint32_t(0), out.field);
         std::iota(order.begin(), order.end(), 0u);
     }
     if (source.mode == gltf::kTriangles) {
@@ -245,7 +308,7 @@ std::optional<GltfPrimitive> readGltfPrimitive(GltfModel& model, int mesh, std::
     const std::size_t count = model.accessors[std::size_t(positions)].accessor.count;
     out.mesh.indices = readTriangles(model, source, count, out);
     const std::vector<std::uint32_t> used = takeUsedVertices(out.mesh.indices, count);
-    const gltf::Choice choice(count, used);
+    const Choice choice(count, used);
     takeVertices(model, choice.size(), out.field);
     out.mesh.positions = readGltfVectors<glm::vec3>(model, positions, choice, out.field + ".POSITION");
     readAttributes(model, source, choice, out);

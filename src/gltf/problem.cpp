@@ -13,6 +13,8 @@ void failGltfVersion1(const std::string& field)
 
 void GltfWarnings::add(const std::string& where, const std::string& what, std::size_t count, const std::string& unit)
 {
+    if (count == 0 && !unit.empty())
+        return;
     auto same = std::find_if(entries_.begin(), entries_.end(), [&](const Entry& e) { return e.what == what; });
     // Names from the file may make every line different; nobody reads thousands.
     constexpr std::size_t kMax = 100;

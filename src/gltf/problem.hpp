@@ -42,8 +42,8 @@ template<class T> T valueOrFail(Result<T> result)
 // names the first place and counts the rest: a model of 44 parts should not print 44 lines.
 class GltfWarnings {
 public:
-    // count and unit: how often it happened at that place, for example 12 "vertices"; they are
-    // summed over the places. 0: not counted.
+    // count and unit: how often it happened at that place, for example 12 "vertices"; they are summed over the places.
+    // Nothing is said of 0 of them.
     void add(const std::string& where, const std::string& what, std::size_t count = 0, const std::string& unit = {});
 
     std::vector<std::string> lines() const;

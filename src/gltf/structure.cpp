@@ -1,4 +1,4 @@
-// The collections of a glTF file as plain values.
+// Materials and collections of a glTF file as plain values.
 #include "gltf_model.hpp"
 
 #include <algorithm>
@@ -41,74 +41,50 @@ const Json& orNone(const Json* object)
     return object ? *object : none;
 }
 
+// The scale of a normal map.
+float scaleOf(const Json& owner, const char* slot) { return numberOf(orNone(member(owner, slot)), "scale", 1); }
+
 // What extensions say of light on the surface. One that is missing has the defaults of one without members.
-void readLayers(const Json& source, MaterialSource& read)
+void readLayers(const Json& source, const TextureOf& texture, Material& m)
 {
-    Material& m = read.factors;
     const Json& coat = orNone(extension(source, "KHR_materials_clearcoat"));
     m.coat.strength = unitRange(valueOr(coat, "clearcoatFactor", 0.0));
     m.coat.roughness = unitRange(valueOr(coat, "clearcoatRoughnessFactor", 0.0));
-    read.coat = readTextureUse(member(coat, "clearcoatTexture"));
-    read.coatRoughness = readTextureUse(member(coat, "clearcoatRoughnessTexture"));
-    read.coatNormal = readTextureUse(member(coat, "clearcoatNormalTexture"));
-    m.coat.normalScale = float(read.coatNormal.scale);
+    m.coat.normalScale = scaleOf(coat, "clearcoatNormalTexture");
+    if (m.coat.strength > 0) {
+        m.coat.map = texture(coat, "clearcoatTexture");
+        m.coat.roughnessMap = texture(coat, "clearcoatRoughnessTexture");
+        m.coat.normalMap = texture(coat, "clearcoatNormalTexture");
+    }
 
     const Json& anisotropy = orNone(extension(source, "KHR_materials_anisotropy"));
     m.anisotropy.strength = unitRange(valueOr(anisotropy, "anisotropyStrength", 0.0));
     m.anisotropy.rotation = numberOf(anisotropy, "anisotropyRotation", 0);
-    read.anisotropy = readTextureUse(member(anisotropy, "anisotropyTexture"));
+    if (m.anisotropy.strength > 0)
+        m.anisotropy.map = texture(anisotropy, "anisotropyTexture");
 
     const Json& specular = orNone(extension(source, "KHR_materials_specular"));
     m.specular.ior = readIor(orNone(extension(source, "KHR_materials_ior")));
     m.specular.strength = unitRange(valueOr(specular, "specularFactor", 1.0));
     m.specular.color = // may be over 1
         colorOf(specular, "specularColorFactor", m.specular.color, gltf_schema::kBrightest);
-    read.specular = readTextureUse(member(specular, "specularTexture"));
-    read.specularColor = readTextureUse(member(specular, "specularColorTexture"));
+    if (m.specular.strength > 0) {
+        m.specular.map = texture(specular, "specularTexture");
+        m.specular.colorMap = texture(specular, "specularColorTexture");
+    }
 
     const Json& sheen = orNone(extension(source, "KHR_materials_sheen"));
     m.sheen.color = colorOf(sheen, "sheenColorFactor", glm::vec3(0), 1);
     m.sheen.roughness = unitRange(valueOr(sheen, "sheenRoughnessFactor", 0.0));
-    read.sheenColor = readTextureUse(member(sheen, "sheenColorTexture"));
-    read.sheenRoughness = readTextureUse(member(sheen, "sheenRoughnessTexture"));
+    if (m.sheen.present()) {
+        m.sheen.colorMap = texture(sheen, "sheenColorTexture");
+        m.sheen.roughnessMap = texture(sheen, "sheenRoughnessTexture");
+    }
 
     const Json& transmission = orNone(extension(source, "KHR_materials_transmission"));
     m.transmission.strength = unitRange(valueOr(transmission, "transmissionFactor", 0.0));
-    read.transmission = readTextureUse(member(transmission, "transmissionTexture"));
-}
-
-MaterialSource readMaterial(const Json& source)
-{
-    const Json& pbr = orNone(member(source, "pbrMetallicRoughness"));
-    MaterialSource read;
-    read.baseColor = readTextureUse(member(pbr, "baseColorTexture"));
-    read.metallicRoughness = readTextureUse(member(pbr, "metallicRoughnessTexture"));
-    read.normal = readTextureUse(member(source, "normalTexture"));
-    read.occlusion = readTextureUse(member(source, "occlusionTexture"));
-    read.emissive = readTextureUse(member(source, "emissiveTexture"));
-    Material& m = read.factors;
-    m.name = valueOr(source, "name", std::string());
-    m.tangentsFor = tangentReader(source);
-    const glm::dvec4 baseColor = vectorOr(pbr, "baseColorFactor", glm::dvec4(m.baseColor));
-    for (int i = 0; i < 4; ++i)
-        m.baseColor[i] = unitRange(baseColor[i]);
-    m.metallic = unitRange(valueOr(pbr, "metallicFactor", 1.0));
-    m.roughness = unitRange(valueOr(pbr, "roughnessFactor", 1.0));
-    const float strength =
-        numberOf(orNone(extension(source, "KHR_materials_emissive_strength")), "emissiveStrength", 1);
-    m.emissive = colorOf(source, "emissiveFactor", m.emissive, 1) * strength;
-    m.occlusionStrength = unitRange(read.occlusion.strength);
-    m.normalScale = float(read.normal.scale);
-    m.normalFormat.expansion = expansionOf(source);
-    const std::string alpha = valueOr(source, "alphaMode", std::string("OPAQUE"));
-    m.alphaMode = alpha == "MASK" ? AlphaMode::mask : alpha == "BLEND" ? AlphaMode::blend : AlphaMode::opaque;
-    m.alphaCutoff = numberOf(source, "alphaCutoff", 0.5);
-    m.doubleSided = valueOr(source, "doubleSided", false);
-    m.unlit = extension(source, "KHR_materials_unlit") != nullptr;
-    read.frame = frameText(source);
-    if (!m.unlit)
-        readLayers(source, read);
-    return read;
+    if (m.transmission.strength > 0)
+        m.transmission.map = texture(transmission, "transmissionTexture");
 }
 
 // What a camera or light says under the name of its kind.
@@ -157,6 +133,38 @@ Light readLight(const Json& source, const std::string& field)
 
 } // namespace
 
+Material readMaterial(const Json& source, const TextureOf& texture)
+{
+    const Json& pbr = orNone(member(source, "pbrMetallicRoughness"));
+    Material m;
+    m.name = valueOr(source, "name", std::string());
+    m.tangentsFor = tangentReader(source);
+    const glm::dvec4 baseColor = vectorOr(pbr, "baseColorFactor", glm::dvec4(m.baseColor));
+    for (int i = 0; i < 4; ++i)
+        m.baseColor[i] = unitRange(baseColor[i]);
+    m.metallic = unitRange(valueOr(pbr, "metallicFactor", 1.0));
+    m.roughness = unitRange(valueOr(pbr, "roughnessFactor", 1.0));
+    const float strength =
+        numberOf(orNone(extension(source, "KHR_materials_emissive_strength")), "emissiveStrength", 1);
+    m.emissive = colorOf(source, "emissiveFactor", m.emissive, 1) * strength;
+    m.occlusionStrength = unitRange(valueOr(orNone(member(source, "occlusionTexture")), "strength", 1.0));
+    m.normalScale = scaleOf(source, "normalTexture");
+    m.normalFormat.expansion = expansionOf(source);
+    const std::string alpha = valueOr(source, "alphaMode", std::string("OPAQUE"));
+    m.alphaMode = alpha == "MASK" ? AlphaMode::mask : alpha == "BLEND" ? AlphaMode::blend : AlphaMode::opaque;
+    m.alphaCutoff = numberOf(source, "alphaCutoff", 0.5);
+    m.doubleSided = valueOr(source, "doubleSided", false);
+    m.unlit = extension(source, "KHR_materials_unlit") != nullptr;
+    m.baseColorMap = texture(pbr, "baseColorTexture");
+    m.metallicRoughnessMap = texture(pbr, "metallicRoughnessTexture");
+    m.normalMap = texture(source, "normalTexture");
+    m.occlusionMap = texture(source, "occlusionTexture");
+    m.emissiveMap = texture(source, "emissiveTexture");
+    if (!m.unlit)
+        readLayers(source, texture, m);
+    return m;
+}
+
 Structure readStructure(const Json& root)
 {
     Structure s;
@@ -172,7 +180,8 @@ Structure readStructure(const Json& root)
     s.lights = readAll(extension(root, "KHR_lights_punctual"), "lights", [&](const Json& l) {
         return readLight(l, fmt::format("extensions.KHR_lights_punctual.lights[{}]", at++));
     });
-    s.materials = readAll(&root, "materials", readMaterial);
+    s.normalMaps =
+        readAll(&root, "materials", [](const Json& m) { return readTextureUse(member(m, "normalTexture")); });
     s.images = readAll(&root, "images", readImage);
     s.textures = readAll(&root, "textures", [&](const Json& t) { return readTexture(t, s.images.size()); });
     s.samplers = readAll(&root, "samplers", readSampler);

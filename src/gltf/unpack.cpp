@@ -15,16 +15,6 @@ using gltf::Json;
 
 namespace {
 
-void takeOut(Json& object, const std::string& name)
-{
-    const auto extensions = object.find("extensions");
-    if (extensions == object.end())
-        return;
-    extensions->erase(name);
-    if (extensions->empty())
-        object.erase("extensions");
-}
-
 // Elements of `each` bytes, each at a multiple of four.
 std::vector<std::byte> spaced(const std::vector<std::byte>& packed, std::size_t each)
 {
@@ -45,27 +35,19 @@ public:
         readDracoJobs();
         unpackPrimitives();
         for (const char* const name : {kMeshoptExtensions[0], kMeshoptExtensions[1], kDracoExtension}) {
-            if (requiresExtension(name))
+            const Json* const required = gltf::member(file_.json, "extensionsRequired");
+            if (required && std::find(required->begin(), required->end(), name) != required->end())
                 file_.packed.required.emplace_back(name);
             takeOffExtension(file_.json, name);
         }
     }
 
 private:
-    bool requiresExtension(const char* name) const
-    {
-        const Json* const required = gltf::member(file_.json, "extensionsRequired");
-        return required && std::find(required->begin(), required->end(), name) != required->end();
-    }
-
     // Counts bytes before they are decoded. Numbers are below 2^60.
     void take(std::size_t bytes, const std::string& field)
     {
-        const std::size_t most = limits_.geometryBytes + 64 * file_.size;
-        if (bytes > most - std::min(file_.unpacked, most))
-            failGltf("{}: decoded geometry takes {} bytes with it, the limit is {} for a file of {}", field,
-                     file_.unpacked + bytes, most, file_.size);
-        file_.unpacked += bytes;
+        takeBytes(file_.unpacked, bytes, limits_.geometryBytes + 64 * file_.size, "decoded geometry takes", file_.size,
+                  field);
     }
 
     // A new buffer and a view of all of it; returns what the JSON of the view has to say.
@@ -98,11 +80,11 @@ private:
                 continue;
             if (isGltfFallback(file_.json["buffers"][view["buffer"].get<std::size_t>()]))
                 unpackView(i, *packed, fmt::format("bufferViews[{}].extensions.{}", i, name));
-            takeOut(view, name);
+            takeOut(view, "extensions", name);
         }
         if (const auto buffers = file_.json.find("buffers"); buffers != file_.json.end())
             for (Json& buffer : *buffers)
-                takeOut(buffer, name);
+                takeOut(buffer, "extensions", name);
     }
 
     void unpackView(std::size_t index, const Json& packed, const std::string& field)
@@ -188,11 +170,11 @@ private:
                 const Json* const draco = gltf::extension(primitive, kDracoExtension);
                 if (!draco)
                     continue;
-                auto job = jobOf(primitive, *draco, fmt::format("meshes[{}].primitives[{}]", m, p));
+                auto job = jobOf(primitive, *draco, primitiveField(m, p));
                 if (job)
                     file_.packed.primitives.push_back(
                         {m, p, *draco, primitive["indices"].get<int>(), primitive["attributes"]});
-                takeOut(primitive, kDracoExtension);
+                takeOut(primitive, "extensions", kDracoExtension);
                 // Primitives may share a stream and its accessors.
                 if (job && made_.insert(targets_.back()).second)
                     jobs_.push_back(std::move(*job));
@@ -244,20 +226,13 @@ private:
 // Whether an answer has the sizes that were asked for.
 bool fits(const std::vector<DracoGeometry>& meshes, const std::vector<DracoJob>& jobs)
 {
-    if (meshes.size() != jobs.size())
-        return false;
-    for (std::size_t i = 0; i < jobs.size(); ++i) {
-        if (meshes[i].indices.size() != jobs[i].indices * gltf::componentSize(jobs[i].indexType)
-            || meshes[i].attributes.size() != jobs[i].attributes.size())
-            return false;
-        for (std::size_t k = 0; k < jobs[i].attributes.size(); ++k) {
-            const DracoAttribute& a = jobs[i].attributes[k];
-            if (meshes[i].attributes[k].size()
-                != jobs[i].vertices * a.components * gltf::componentSize(a.componentType))
-                return false;
-        }
-    }
-    return true;
+    return std::ranges::equal(meshes, jobs, [](const DracoGeometry& mesh, const DracoJob& job) {
+        const auto sized = [&](const std::vector<std::byte>& values, const DracoAttribute& a) {
+            return values.size() == job.vertices * a.components * gltf::componentSize(a.componentType);
+        };
+        return mesh.indices.size() == job.indices * gltf::componentSize(job.indexType)
+            && std::ranges::equal(mesh.attributes, job.attributes, sized);
+    });
 }
 
 } // namespace

@@ -8,6 +8,7 @@
 
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
+#include <glm/gtc/type_ptr.hpp>
 
 #include "elements.hpp"
 #include "schema.hpp"
@@ -25,14 +26,6 @@ template<class T> std::vector<T> listOf(const Json& object, std::string_view nam
     return valueOr(object, name, std::vector<T>());
 }
 
-Attributes attributesOf(const Json& object)
-{
-    Attributes attributes;
-    for (const auto& [name, accessor] : object.items())
-        attributes.emplace(name, accessor.get<int>());
-    return attributes;
-}
-
 ElementType elementTypeOf(std::string_view name)
 {
     return ElementType(std::ranges::find(gltf_schema::kElementTypes, name) - gltf_schema::kElementTypes);
@@ -47,15 +40,6 @@ Sparse readSparse(const Json& sparse)
             .indicesOffset = valueOr(indices, "byteOffset", std::size_t(0)),
             .valuesOffset = valueOr(values, "byteOffset", std::size_t(0)),
             .indicesType = indices["componentType"].get<int>()};
-}
-
-// A quaternion as glTF stores it; the identity where it has no length.
-glm::dquat rotationOf(const glm::dvec4& xyzw)
-{
-    const double length = glm::length(xyzw);
-    if (!(length > 0))
-        return glm::dquat(1, 0, 0, 0);
-    return glm::dquat(xyzw.w / length, xyzw.x / length, xyzw.y / length, xyzw.z / length);
 }
 
 // KHR_texture_transform: scale, then turn, then shift. The turn is counter-clockwise as seen in the image, whose v runs
@@ -178,10 +162,8 @@ int accessorOf(const Attributes& attributes, std::string_view name)
 Primitive readPrimitive(const Json& primitive)
 {
     Primitive read;
-    read.attributes = attributesOf(primitive["attributes"]);
-    if (const Json* const targets = member(primitive, "targets"))
-        for (const Json& target : *targets)
-            read.targets.push_back(attributesOf(target));
+    read.attributes = primitive["attributes"].get<Attributes>();
+    read.targets = listOf<Attributes>(primitive, "targets");
     read.indices = indexOf(primitive, "indices");
     read.material = indexOf(primitive, "material");
     read.mode = valueOr(primitive, "mode", kTriangles);
@@ -205,18 +187,15 @@ Node readNode(const Json& node)
     read.camera = indexOf(node, "camera");
     read.children = listOf<int>(node, "children");
     read.weights = listOf<double>(node, "weights");
-    if (const Json* const matrix = member(node, "matrix")) {
-        glm::dmat4& m = read.matrix.emplace();
-        for (int i = 0; i < 16; ++i)
-            m[i / 4][i % 4] = (*matrix)[std::size_t(i)].get<double>();
-    }
+    if (const auto matrix = listOf<double>(node, "matrix"); !matrix.empty())
+        read.matrix = glm::make_mat4(matrix.data());
     read.translation = vectorOr(node, "translation", read.translation);
     read.scale = vectorOr(node, "scale", read.scale);
     read.rotation = vectorOr(node, "rotation", read.rotation);
     if (const Json* const light = extension(node, "KHR_lights_punctual"))
         read.light = indexOf(*light, "light");
     if (const Json* const instancing = extension(node, "EXT_mesh_gpu_instancing"))
-        read.instances = attributesOf((*instancing)["attributes"]);
+        read.instances = (*instancing)["attributes"].get<Attributes>();
     return read;
 }
 
@@ -224,7 +203,9 @@ Skin readSkin(const Json& skin) { return {indexOf(skin, "inverseBindMatrices"), 
 
 glm::dmat4 composed(const glm::dvec3& translation, const glm::dvec4& rotation, const glm::dvec3& scale)
 {
-    const glm::dmat3 r = glm::mat3_cast(rotationOf(rotation));
+    const double length = glm::length(rotation);
+    const glm::dvec4 unit = length > 0 ? rotation / length : glm::dvec4(0, 0, 0, 1);
+    const glm::dmat3 r = glm::mat3_cast(glm::dquat(unit.w, unit.x, unit.y, unit.z));
     return {glm::dvec4(r[0] * scale.x, 0), glm::dvec4(r[1] * scale.y, 0), glm::dvec4(r[2] * scale.z, 0),
             glm::dvec4(translation, 1)};
 }

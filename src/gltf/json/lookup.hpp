@@ -64,6 +64,9 @@ std::set<std::size_t> texturesReadBy(const gltf::Json& object);
 // The same for a material, its normal maps left out.
 std::set<std::size_t> texturesBesideNormalMaps(const gltf::Json& material);
 
+// Takes a member out of an object in `owner`, and the object too where nothing is left in it.
+void takeOut(gltf::Json& owner, const char* object, const std::string& name);
+
 // Takes an extension out of the lists of those used and required.
 void takeOffExtension(gltf::Json& root, const std::string& name);
 
