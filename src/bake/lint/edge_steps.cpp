@@ -7,6 +7,7 @@
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 
+#include "core/list_by_group.hpp"
 #include "cotan/tangents.hpp"
 #include "cotan/vector.hpp"
 #include "lint_parts.hpp"
@@ -29,27 +30,23 @@ public:
     {
         const Mesh& mesh = *s.shared->mesh;
         first_ = firstEqualVertices({mesh.positions, mesh.normals, s.shared->uv, mesh.indices});
-        if (first_.empty())
-            return;
-        begin_.assign(first_.size() + 1, 0);
-        eachSide([&](std::uint32_t low, std::uint32_t) { ++begin_[low + 1]; });
-        for (std::size_t v = 1; v < begin_.size(); ++v)
-            begin_[v] += begin_[v - 1];
-        corners_.resize(begin_.back());
-        eachSide([&](std::uint32_t low, std::uint32_t corner) { corners_[begin_[low]++] = corner; });
-        // Every vertex's beginning has become its end, which is the next one's beginning.
+        const auto eachSide = [&](const auto& add) {
+            for (std::uint32_t c = 0; c < indices_.size(); ++c)
+                if (const std::uint32_t a = vertexOf(c), b = vertexOf(following(c)); a != b)
+                    add(std::min(a, b), c);
+        };
+        if (!first_.empty())
+            listByGroup(first_.size(), eachSide, begin_, corners_);
     }
 
     // Calls use(a, b) for every edge that exactly two triangles share.
     template<class Use> void eachPair(const Use& use) const
     {
         std::vector<Side> sides;
-        std::uint32_t from = 0;
         for (std::size_t low = 0; low < first_.size(); ++low) {
             sides.clear();
-            for (std::uint32_t i = from; i < begin_[low]; ++i)
+            for (std::uint32_t i = begin_[low]; i < begin_[low + 1]; ++i)
                 sides.push_back({higher(corners_[i]), corners_[i]});
-            from = begin_[low];
             std::sort(sides.begin(), sides.end(), [](const Side& a, const Side& b) {
                 return std::array{a.high, a.corner} < std::array{b.high, b.corner};
             });
@@ -68,13 +65,6 @@ private:
     std::uint32_t vertexOf(std::uint32_t corner) const { return first_[indices_[corner]]; }
     static std::uint32_t following(std::uint32_t corner) { return corner / 3 * 3 + (corner + 1) % 3; }
     std::uint32_t higher(std::uint32_t corner) const { return std::max(vertexOf(corner), vertexOf(following(corner))); }
-
-    template<class Use> void eachSide(const Use& use) const
-    {
-        for (std::uint32_t c = 0; c < indices_.size(); ++c)
-            if (const std::uint32_t a = vertexOf(c), b = vertexOf(following(c)); a != b)
-                use(std::min(a, b), c);
-    }
 
     const std::vector<std::uint32_t>& indices_;
     std::vector<std::uint32_t> first_, begin_, corners_;

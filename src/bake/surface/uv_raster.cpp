@@ -9,6 +9,8 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
+#include "core/list_by_group.hpp"
+
 namespace cotan {
 
 namespace {
@@ -190,20 +192,15 @@ template<class Use> void UvRaster::eachPlace(glm::ivec2 tile, bool wrap, const U
 }
 
 UvRaster::UvRaster(const UvTriangles& triangles, int width, int height, glm::ivec2 tile, bool wrap)
-    : triangles_(triangles), width_(width), height_(height), blockFirst_(std::size_t(blocks()) + 1, 0)
+    : triangles_(triangles), width_(width), height_(height)
 {
-    const auto eachBlock = [&](const auto& use) {
+    const auto eachBlock = [&](const auto& add) {
         eachPlace(tile, wrap, [&](const Listed& listed, const Shown& t) {
             for (int block = t.first.y / kBlockRows; block * kBlockRows <= t.last.y; ++block)
-                use(std::size_t(block), listed);
+                add(std::size_t(block), listed);
         });
     };
-    eachBlock([&](std::size_t block, const Listed&) { ++blockFirst_[block + 1]; });
-    for (std::size_t block = 1; block < blockFirst_.size(); ++block)
-        blockFirst_[block] += blockFirst_[block - 1];
-    listed_.resize(blockFirst_.back());
-    std::vector<std::size_t> next(blockFirst_.begin(), blockFirst_.end() - 1);
-    eachBlock([&](std::size_t block, const Listed& listed) { listed_[next[block]++] = listed; });
+    listByGroup(std::size_t(blocks()), eachBlock, blockFirst_, listed_);
 }
 
 std::pair<int, int> UvRaster::span(const Shown& t, double py, double reach, double& low, double& high) const
