@@ -121,7 +121,7 @@ Status checkArea(const LowSurface& low)
 Status checkCrowded(const LowSurface& low, const HighSurface& high)
 {
     constexpr std::size_t kTried = 256, kCrowded = 2000;
-    const float diagonal = glm::length(high.high() - high.low());
+    const float diagonal = glm::length(high.box().high - high.box().low);
     std::vector<std::size_t> met;
     for (std::size_t f = 0; f < low.triangleCount(); f += 1 + low.triangleCount() / kTried) {
         const std::uint32_t* const c = &low.indices[3 * f];
@@ -202,16 +202,6 @@ LowRest restOf(const Scene& low, const BakeModelOptions& options)
     return rest;
 }
 
-// Whether what is baked has tangents everywhere and they count.
-bool hasStoredTangents(const Scene& low, const BakeModelOptions& options)
-{
-    return options.tangents == TangentOrigin::stored
-        && std::all_of(low.meshes.begin(), low.meshes.end(), [&](const Mesh& mesh) {
-               return (options.material >= 0 && mesh.material != options.material) || mesh.indices.empty()
-                   || !mesh.tangents.empty();
-           });
-}
-
 // "door_low" and "door_high" are of one name: what stands before the last low or high.
 std::string stem(std::string name)
 {
@@ -275,12 +265,12 @@ Result<BakeSetup> prepareBake(const Scene& low, HighModel high, const BakeModelO
         return highSurface.error();
     for (const Status& placed :
          {checkPlaces(lowSurface->positions, "low"), checkArea(*lowSurface), checkPlaces(cage, "options.cage"),
-          checkPlaces({highSurface->low(), highSurface->high()}, "high")})
+          checkPlaces({highSurface->box().low, highSurface->box().high}, "high")})
         if (!placed)
             return placed.error();
     if (Status fits = checkCrowded(*lowSurface, *highSurface); !fits) // by rays, which must be able to start there
         return fits.error();
-    BakeSetup setup{std::move(*lowSurface), std::move(*highSurface), options, {}, hasStoredTangents(low, options)};
+    BakeSetup setup{std::move(*lowSurface), std::move(*highSurface), options, {}};
     BakeOptions& bake = setup.options.bake;
     setup.options.cage = setup.options.others = nullptr;
     bake.cage = std::move(cage);

@@ -4,6 +4,7 @@
 #include <atomic>
 #include <bit>
 #include <cmath>
+#include <functional>
 #include <numeric>
 #include <tuple>
 
@@ -13,6 +14,7 @@
 #include <glm/geometric.hpp>
 
 #include "core/loops.hpp"
+#include "cotan/vector.hpp"
 #include "high_points.hpp"
 
 namespace cotan {
@@ -61,12 +63,6 @@ Groups groupsOf(const LowSurface& low)
     return groups;
 }
 
-float angleAt(glm::vec3 corner, glm::vec3 a, glm::vec3 b)
-{
-    const glm::vec3 u = a - corner, v = b - corner;
-    return std::atan2(glm::length(glm::cross(u, v)), glm::dot(u, v));
-}
-
 void findDirections(const LowSurface& low, const Groups& groups, RayStarts& starts)
 {
     std::vector<glm::vec3> sums(groups.count, glm::vec3(0)), first(groups.count);
@@ -83,8 +79,9 @@ void findDirections(const LowSurface& low, const Groups& groups, RayStarts& star
     for (std::size_t i = 0; i < low.indices.size(); ++i) {
         const std::size_t f = i / 3 * 3;
         const std::uint32_t v = low.indices[i];
-        const float angle = angleAt(low.positions[v], low.positions[low.indices[f + (i + 1) % 3]],
-                                    low.positions[low.indices[f + (i + 2) % 3]]);
+        const glm::vec3 corner = low.positions[v];
+        const float angle = angleBetween(low.positions[low.indices[f + (i + 1) % 3]] - corner,
+                                         low.positions[low.indices[f + (i + 2) % 3]] - corner);
         sums[groups.of[v]] += low.normals[v] * angle;
     }
     starts.directions = low.normals;
@@ -181,7 +178,7 @@ public:
         float radius = starts_.limit;
         if (last.known && accepts(last.triangle)) // nothing that is further away than that can be the nearest
             radius = std::min(radius, glm::length(point - last.point) * 1.0001f + 1e-7f * body_.diagonal);
-        const LowTree::Nearest nearest = body_.tree->nearest(point, radius, accepts);
+        const LowTree::Nearest nearest = body_.tree->nearest(point, radius, std::cref(accepts));
         if (!nearest.found)
             return;
         last = {true, nearest.triangle, nearest.point};
