@@ -35,7 +35,7 @@ Result<ValueSummary> turnOf(const GltfDocument& document, std::size_t m, std::si
     return worst;
 }
 
-// Whether a direction stays where TANGENT goes; what to say where it does not.
+// What to say of a direction that does not stay where TANGENT goes.
 std::string whyDirectionNeedsTangents(const TurnedDirection& d, Frame to)
 {
     if (d.degrees.count == 0)

@@ -222,14 +222,14 @@ std::string notJudged(const LintReport& report)
     return names.empty() ? "" : fmt::format("The normal map could not be judged in {}.", listed(names));
 }
 
-// A sentence on the primitive with the largest mean error of that reading among those where somebody might see it;
-// empty if there is none.
-std::string worstReading(const LintReport& report, const std::string& name)
+// A sentence on the primitive with the largest mean error of reading with orthonormal among those where somebody might
+// see it; empty if there is none.
+std::string worstReading(const LintReport& report)
 {
     std::string text;
     double worst = 0;
     for (const PrimitiveLint& p : report.primitives)
-        if (const ValueSummary* const error = errorOf(p, name);
+        if (const ValueSummary* const error = errorOf(p, "orthonormal");
             error && (error->mean > kUnseenMean || error->percentile95 > kUnseen95) && error->mean > worst) {
             worst = error->mean;
             text = fmt::format("The largest error is in {}: {:.2f} degrees on average, over {:.1f} on 5 % of its area.",
@@ -324,7 +324,7 @@ void adviseForMaps(LintReport& report)
     const Whole orthonormal = wholeReading(report, "orthonormal"), steps = wholeSteps(report);
     report.seen =
         report.named ? seenOfNamed(report, orthonormal) : seen(orthonormal, wholeReading(report, "cotangent"));
-    report.worst = report.named ? std::string() : worstReading(report, "orthonormal");
+    report.worst = report.named ? std::string() : worstReading(report);
     report.advice = report.named           ? Advice::readNamed
         : readsAsItIs(report, orthonormal) ? Advice::readOrthonormal
         : orthonormal.unseen()             ? Advice::convertToOrthonormal

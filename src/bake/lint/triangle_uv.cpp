@@ -1,5 +1,3 @@
-#include "bake/lint/triangle_uv.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <limits>

@@ -91,24 +91,15 @@ int nextFree(const std::uint8_t* full, int x, int last)
     return found ? int(static_cast<const std::uint8_t*>(found) - full) : last + 1;
 }
 
-// 0 to n - 1, each once, in steps of the golden ratio: the first few are spread evenly over all.
-class Spreading {
-public:
-    explicit Spreading(std::size_t n) : n_(n), step_(std::max<std::size_t>(std::size_t(double(n) * 0.6180339887), 1))
-    {
-        while (std::gcd(step_, n_) > 1)
-            ++step_;
-    }
-    std::size_t next()
-    {
-        const std::size_t here = at_;
-        at_ = (at_ + step_) % n_;
-        return here;
-    }
-
-private:
-    std::size_t n_, step_, at_ = 0;
-};
+// A step whose multiples modulo n are 0 to n - 1, each once: of the golden ratio, so that the first few are spread
+// evenly over all.
+std::size_t spreadingStep(std::size_t n)
+{
+    std::size_t step = std::max<std::size_t>(std::size_t(double(n) * 0.6180339887), 1);
+    while (std::gcd(step, n) > 1)
+        ++step;
+    return step;
+}
 
 } // namespace
 
@@ -298,12 +289,12 @@ void UvRaster::row(int y, UvRow& result, const UvFew& few) const
         orders.push_back(order);
         full[std::size_t(x)] = ++next[std::size_t(x)] >= few.most;
     };
+    const std::size_t step = limited && few.most > 1 ? spreadingStep(listed.size()) : 0; // 0: in their order
     const auto eachShown = [&](const auto& scan) {
-        Spreading spreading(std::max<std::size_t>(listed.size(), 1));
         for (std::size_t i = 0; i < listed.size(); ++i) {
             if (i % 128 == 0 && !std::memchr(full.data(), 0, full.size()))
                 return;
-            order = std::uint32_t(limited && few.most > 1 ? spreading.next() : i);
+            order = std::uint32_t(step > 0 ? i * step % listed.size() : i);
             if (const Shown t = shownAt(listed[order]); t.first.y <= y && y <= t.last.y)
                 scan(t);
         }
