@@ -22,44 +22,44 @@ constexpr int kLargestSide = 65535; // texels: the number of a texel has 32 bits
 constexpr int kMaxOcclusionRays = 1 << 16;
 constexpr float kFarthest = 1e17f; // model units: Embree ends the program for rays that start beyond 1.8e18
 
+// An option that is out of range.
+template<class... Found> Error wrong(const char* option, fmt::format_string<Found...> text, Found&&... found)
+{
+    return about(option, usageError(fmt::format(text, std::forward<Found>(found)...)));
+}
+
 Status checkRanges(const Scene& low, const HighModel& high, const BakeModelOptions& options)
 {
     const BakeOptions& b = options.bake;
     if (b.width < 1 || b.height < 1 || b.width > kLargestSide || b.height > kLargestSide)
-        return about("options.bake.width",
-                     usageError(fmt::format("expected a width and a height from 1 to {}; found {}x{}", kLargestSide,
-                                            b.width, b.height)));
+        return wrong("options.bake.width", "expected a width and a height from 1 to {}; found {}x{}", kLargestSide,
+                     b.width, b.height);
     if (b.samples != 1 && b.samples != 2 && b.samples != 4)
-        return about("options.bake.samples",
-                     usageError(fmt::format("expected 1, 2 or 4 samples a texel and axis; found {}", b.samples)));
+        return wrong("options.bake.samples", "expected 1, 2 or 4 samples a texel and axis; found {}", b.samples);
     for (const auto& [frame, what] :
          {std::pair(b.frame, "options.bake.frame"), {options.highFrame, "options.highFrame"}})
         if (!isFrame(int(frame)))
-            return about(what, usageError(fmt::format("expected 0 to {}; found {}", kFrameCount - 1, int(frame))));
+            return wrong(what, "expected 0 to {}; found {}", kFrameCount - 1, int(frame));
     if (options.tiles.empty())
-        return about("options.tiles", usageError("expected one tile or more; found none"));
+        return wrong("options.tiles", "expected one tile or more; found none");
     if (b.occlusionRays < 1 || b.occlusionRays > kMaxOcclusionRays)
-        return about("options.bake.occlusionRays",
-                     usageError(fmt::format("expected 1 to {} rays for occlusion; found {}", kMaxOcclusionRays,
-                                            b.occlusionRays)));
+        return wrong("options.bake.occlusionRays", "expected 1 to {} rays for occlusion; found {}", kMaxOcclusionRays,
+                     b.occlusionRays);
     for (const auto& [distance, what] : {std::pair(b.maxDistance, "options.maxDistance"),
                                          {b.cageReach, "options.cageReach"},
                                          {b.extrusion, "options.extrusion"}})
         if (!(distance >= 0 && distance <= kFarthest))
-            return about(what, usageError(fmt::format("expected 0 to {:g}; found {:g}", kFarthest, distance)));
+            return wrong(what, "expected 0 to {:g}; found {:g}", kFarthest, distance);
     if (options.cage && (b.search == BakeSearch::nearest || b.extrusion > 0))
-        return about(b.extrusion > 0 ? "options.extrusion" : "options.search",
-                     usageError("a cage says already where rays start, and the first surface counts"));
+        return wrong(b.extrusion > 0 ? "options.extrusion" : "options.search",
+                     "a cage says already where rays start, and the first surface counts");
     if (b.search == BakeSearch::nearest && b.extrusion > 0)
-        return about("options.extrusion", usageError("the search nearest looks both ways from the low surface"));
+        return wrong("options.extrusion", "the search nearest looks both ways from the low surface");
     if (options.material >= int(low.materials.size()))
-        return about(
-            "options.material",
-            usageError(fmt::format("expected 0 to {}; found {}", int(low.materials.size()) - 1, options.material)));
+        return wrong("options.material", "expected 0 to {}; found {}", int(low.materials.size()) - 1, options.material);
     if (high.maps.size() > 1 && high.maps.size() != high.scenes.size())
-        return about("high.maps",
-                     usageError(fmt::format("expected none, one, or one for each of the {} scenes; found {}",
-                                            high.scenes.size(), high.maps.size())));
+        return wrong("high.maps", "expected none, one, or one for each of the {} scenes; found {}", high.scenes.size(),
+                     high.maps.size());
     return Done{};
 }
 
@@ -296,8 +296,7 @@ Result<BakeSetup> prepareBake(const Scene& low, HighModel high, const BakeModelO
 Result<BakedMap> bakeTile(const BakeSetup& setup, int tile, const Progress& progress)
 {
     if (tile < kFirstUdim)
-        return about("options.tiles",
-                     usageError(fmt::format("expected numbers from {} on; found {}", kFirstUdim, tile)));
+        return wrong("options.tiles", "expected numbers from {} on; found {}", kFirstUdim, tile);
     BakeOptions options = setup.options.bake;
     options.tile = squareOf(tile);
     auto baked = bake(setup.low, setup.high, options, progress);
