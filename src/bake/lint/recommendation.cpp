@@ -249,7 +249,7 @@ std::string seen(const Whole& orthonormal, const Whole& cotangent)
                        how, orthonormal.mean, cotangent.mean);
 }
 
-// Counts what the command would do; dropTangents (bake/convert/drop_tangents.cpp) says which tangents go. Maps that are
+// Counts what the command would do; dropTangents (bake/convert/map_jobs.cpp) says which tangents go. Maps that are
 // to be read as they are stay: with the frame orthonormal by --keep-maps, with one that the file names without a
 // command.
 void foresee(LintReport& report)

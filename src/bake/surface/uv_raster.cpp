@@ -370,23 +370,24 @@ void UvRaster::firsts(int block, UvFirsts& result) const
     }
 }
 
-void UvRaster::eachSpan(int block, const std::function<void(const UvSpan&)>& use) const
+void UvRaster::eachSpan(const std::function<void(const UvSpan&)>& use) const
 {
-    const int top = block * kBlockRows, bottom = std::min(top + kBlockRows, height_) - 1;
-    for (const Listed& listed : listedIn(block)) {
-        const Shown t = shownAt(listed);
-        for (int y = std::max(top, t.first.y); y <= std::min(bottom, t.last.y); ++y) {
-            const double py = y + 0.5;
-            double low, high;
-            auto [first, last] = span(t, py, 0, low, high);
-            while (first <= last && !covers(t, {first + 0.5, py}))
-                ++first;
-            while (first <= last && !covers(t, {last + 0.5, py}))
-                --last;
-            if (first <= last)
-                use({t.triangle, y, first, last});
+    for (int block = 0; block < blocks(); ++block)
+        for (const Listed& listed : listedIn(block)) {
+            const Shown t = shownAt(listed);
+            const int top = block * kBlockRows, bottom = std::min(top + kBlockRows, height_) - 1;
+            for (int y = std::max(top, t.first.y); y <= std::min(bottom, t.last.y); ++y) {
+                const double py = y + 0.5;
+                double low, high;
+                auto [first, last] = span(t, py, 0, low, high);
+                while (first <= last && !covers(t, {first + 0.5, py}))
+                    ++first;
+                while (first <= last && !covers(t, {last + 0.5, py}))
+                    --last;
+                if (first <= last)
+                    use({t.triangle, y, first, last});
+            }
         }
-    }
 }
 
 double rowsUnder(const UvTriangles& triangles, int height)
