@@ -296,14 +296,13 @@ private:
     std::vector<std::uint8_t> reached_;    // something belongs to the group
 };
 
-// Of which triangles and vertices the points are taken: 1 of all, 2 of every second. Where many triangles lie over one
-// another each point looks at many, and fewer points have to do. An error where far too many do.
-Result<std::size_t> stepFor(const HighSurface& high, float spacing, const Measuring& measuring)
+// Of which triangles and vertices (so many) the points are taken: 1 of all, 2 of every second. Where many triangles lie
+// over one another each point looks at many, and fewer points have to do. An error where far too many do.
+Result<std::size_t> stepFor(const HighSurface& high, std::size_t vertices, float spacing, const Measuring& measuring)
 {
-    std::size_t vertices = 0, between = 0, triangles = 0;
+    std::size_t between = 0, triangles = 0;
     for (std::size_t instance = 0; instance < high.names().size(); ++instance) {
         const HighSurface::Triangles part = high.triangles(instance);
-        vertices += part.positions.size();
         triangles += part.indices.size() / 3;
         for (std::size_t f = 0; f < part.indices.size() / 3; ++f)
             if (const auto cuts = std::size_t(cutsOf(part, f, spacing)))
@@ -340,7 +339,7 @@ Result<std::size_t> measure(const HighSurface& high, float spacing, Measuring& m
     std::size_t vertices = 0;
     for (std::size_t instance = 0; instance < high.names().size(); ++instance)
         vertices += high.triangles(instance).positions.size();
-    const auto fitting = stepFor(high, spacing, measuring);
+    const auto fitting = stepFor(high, vertices, spacing, measuring);
     if (!fitting)
         return fitting.error();
     const std::size_t every = *fitting, step = std::max(1 + vertices / kMaxVertices, every);
@@ -388,15 +387,6 @@ bool isCrossed(const LowSurface& low, const RayStarts& starts, std::size_t trian
                 return true;
         }
     return false;
-}
-
-void findCrossed(const LowSurface& low, float diagonal, RayStarts& starts)
-{
-    starts.crossed.assign(low.triangleCount(), 0);
-    parallelRanges<std::size_t>(0, low.triangleCount(), 256, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t f = begin; f != end; ++f)
-            starts.crossed[f] = isCrossed(low, starts, f, diagonal) ? 1 : 0;
-    });
 }
 
 } // namespace
@@ -447,10 +437,10 @@ Result<RayStarts> makeRayStarts(const LowSurface& low, const HighSurface& high, 
         if (!measured)
             return;
         starts.distances = measuring.distances();
-        if (*measured == 1)
-            findCrossed(low, body->diagonal, starts);
-        else // so crowded that the rays of all triangles are looked at as they are shot
-            starts.crossed.assign(low.triangleCount(), 1);
+        starts.crossed.assign(low.triangleCount(), 1);
+        if (*measured == 1) // else so crowded that the rays of all triangles are looked at as they are shot
+            parallelFor(std::size_t(0), low.triangleCount(),
+                        [&](std::size_t f) { starts.crossed[f] = isCrossed(low, starts, f, body->diagonal) ? 1 : 0; });
     });
     if (!measured)
         return measured.error();
