@@ -217,13 +217,11 @@ Result<std::vector<std::int64_t>> matches(const Scene& low, const HighSurface& h
     std::vector<std::int64_t> result;
     for (const Instance& instance : low.instances) {
         const std::string& name = objectName(low, instance);
-        const auto& names = high.names();
-        const auto found =
-            std::find_if(names.begin(), names.end(), [&](const std::string& n) { return stem(n) == stem(name); });
-        if (found == names.end())
+        const auto found = std::ranges::find(high.names(), stem(name), stem);
+        if (found == high.names().end())
             return about("options.matchByName",
                          inputError(fmt::format("no high mesh is named like the low mesh '{}'", name)));
-        result.push_back(found - names.begin());
+        result.push_back(found - high.names().begin());
     }
     return result;
 }

@@ -430,17 +430,17 @@ Result<RayStarts> makeRayStarts(const LowSurface& low, const HighSurface& high, 
         return starts;
     }
     starts.tree = body->tree;
-    Result<std::size_t> measured = 1;
-    withThreads(options.threads, [&] {
+    const Status measured = withThreads(options.threads, [&]() -> Status {
         Measuring measuring(low, high, options, *body, groups, starts);
-        measured = measure(high, std::max(body->edge, kSpacing * body->diagonal), measuring);
-        if (!measured)
-            return;
+        const auto every = measure(high, std::max(body->edge, kSpacing * body->diagonal), measuring);
+        if (!every)
+            return every.error();
         starts.distances = measuring.distances();
         starts.crossed.assign(low.triangleCount(), 1);
-        if (*measured == 1) // else so crowded that the rays of all triangles are looked at as they are shot
+        if (*every == 1) // else so crowded that the rays of all triangles are looked at as they are shot
             parallelFor(std::size_t(0), low.triangleCount(),
                         [&](std::size_t f) { starts.crossed[f] = isCrossed(low, starts, f, body->diagonal) ? 1 : 0; });
+        return Done{};
     });
     if (!measured)
         return measured.error();

@@ -350,9 +350,7 @@ private:
 Reencoded reencode(const Image& map, std::span<const MapUse> uses, const FramePair& frames, int bits, int threads,
                    CountedSteps* rows, std::optional<Expansion> expansion)
 {
-    Reencoded result;
-    withThreads(threads, [&] { result = Reencoder(map, uses, frames, bits, expansion).run(rows); });
-    return result;
+    return withThreads(threads, [&] { return Reencoder(map, uses, frames, bits, expansion).run(rows); });
 }
 
 } // namespace cotan

@@ -139,7 +139,7 @@ StoredTangents lint::storedTangents(const MappedSurface& s)
 
 namespace {
 
-constexpr double kMaxFineRows = 1e7; // of texels under all triangles; where there are more the raster is coarser
+constexpr double kMaxRows = 1e7; // of texels under all triangles; where there are more the raster is coarser
 constexpr int kCoarsest = 16;
 
 // For each texel, whether its centre is covered more than once, and whether by both orientations; as sums along each
@@ -193,9 +193,9 @@ void lint::countOverlaps(const std::vector<const MappedSurface*>& surfaces, cons
             rows += rowsUnder(*s, height);
         return rows;
     };
-    while (side > kCoarsest && rowsAt(side) > kMaxFineRows)
+    while (side > kCoarsest && rowsAt(side) > kMaxRows)
         side /= 2;
-    if (rowsAt(side) > kMaxFineRows) {
+    if (rowsAt(side) > kMaxRows) {
         for (UvQuality* q : qualities)
             q->overlapping = 1;
         return;
