@@ -1,8 +1,10 @@
 #include "cotan/lint.hpp"
 
-#include <optional>
+#include <cmath>
 
 #include <fmt/format.h>
+
+#include "lint_parts.hpp"
 
 namespace cotan {
 
@@ -20,21 +22,8 @@ std::string otherGreen(const GreenEvidence& map)
                        maps::name(map.verdict.confidence));
 }
 
-// The mean over the whole model of reading with that frame, by area; nothing where no primitive was judged.
-std::optional<double> meanOf(const LintReport& report, const std::string& frame)
-{
-    double area = 0, sum = 0;
-    for (const PrimitiveLint& p : report.primitives)
-        for (const Reading& r : p.readings)
-            if (r.name == frame && r.error.count > 0) {
-                area += p.uv.area;
-                sum += p.uv.area * r.error.mean;
-            }
-    return area > 0 ? std::optional(sum / area) : std::nullopt;
-}
-
-// modelMean: in degrees, with the frame of the limits.
-void checkPrimitive(const PrimitiveLint& p, const std::string& where, std::optional<double> modelMean, LintCheck& check)
+// modelMean: in degrees, with the frame of the limits; NaN where nothing was judged.
+void checkPrimitive(const PrimitiveLint& p, const std::string& where, double modelMean, LintCheck& check)
 {
     const char* const percent = "% of the area";
     const auto over = [&](const char* kind, double value, double limit, const std::string& what, const char* unit) {
@@ -63,7 +52,7 @@ void checkPrimitive(const PrimitiveLint& p, const std::string& where, std::optio
             && over("reading", r.error.percentile95, degrees, "95 % of the error of reading with " + r.name, "degrees"))
             check.failures.back().beside = fmt::format(
                 "each primitive is held to it by itself; the mean of this one is {:.3g}, of the model {:.3g}",
-                r.error.mean, modelMean.value_or(r.error.mean));
+                r.error.mean, std::isnan(modelMean) ? r.error.mean : modelMean);
     if (p.image >= 0)
         over("rounding", p.precision, degrees, "rounding", "degrees");
     over("degenerate_uv", 100 * p.uv.degenerate, area, "degenerate uv on", percent);
@@ -79,7 +68,7 @@ LintCheck checkLimits(const LintReport& report, const LintLimits& limits)
     LintCheck check{limits, {}};
     if (!limits.any())
         return check;
-    const std::optional<double> modelMean = meanOf(report, limits.frame);
+    const double modelMean = lint::meanOfReading(report, limits.frame);
     bool anyMap = false, anyJudged = false;
     for (std::size_t i = 0; i < report.primitives.size(); ++i) {
         const PrimitiveLint& p = report.primitives[i];

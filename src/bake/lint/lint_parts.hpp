@@ -67,6 +67,9 @@ std::vector<double> seen(const MappedSurface& surface, const std::vector<MeshPoi
 std::vector<Reading> readings(const MappedSurface& surface, const std::vector<MeshPoint>& points, Frame madeFor,
                               const Material& material, const Image& map, double maxPixels = kMaxPixels);
 
+// The mean over the whole model of reading with that frame, by area; NaN where no primitive was judged.
+double meanOfReading(const LintReport& report, const std::string& frame);
+
 // Whether the stored tangents contradict the uv and the maps do not make up for it; from primitives and maps.
 bool distrustStored(const LintReport& report);
 

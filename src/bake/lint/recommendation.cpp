@@ -339,6 +339,8 @@ void adviseForMaps(LintReport& report)
 
 } // namespace
 
+double meanOfReading(const LintReport& report, const std::string& frame) { return wholeReading(report, frame).mean; }
+
 bool distrustStored(const LintReport& report)
 {
     const Stored s = storedShares(report);
