@@ -323,8 +323,9 @@ bool readsAsItIs(const LintReport& report, const Whole& orthonormal)
 
 void adviseForMaps(LintReport& report)
 {
-    const Whole orthonormal = wholeReading(report, "orthonormal"),
-                steps = wholeOf(report, [](const PrimitiveLint&p) { return judged(p) ? &p.steps.cotangent : nullptr; });
+    const Whole orthonormal = wholeReading(report, "orthonormal");
+    const Whole steps =
+        wholeOf(report, [](const PrimitiveLint& p) { return judged(p) ? &p.steps.cotangent : nullptr; });
     report.seen =
         report.named ? seenOfNamed(report, orthonormal) : seen(orthonormal, wholeReading(report, "cotangent"));
     report.worst = report.named ? std::string() : worstReading(report);
