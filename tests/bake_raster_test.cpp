@@ -56,21 +56,19 @@ struct Coverage {
 Coverage coverageOf(const UvRaster& raster)
 {
     Coverage c;
-    std::vector<int> begins; // how many more triangles cover a texel than the one before it
-    for (int block = 0; block < raster.blocks(); ++block) {
-        const std::size_t width = std::size_t(raster.width()) + 1;
-        begins.assign(width * UvRaster::kBlockRows, 0);
-        raster.eachSpan(block, [&](const UvSpan& span) {
-            int* const row = &begins[std::size_t(span.y % UvRaster::kBlockRows) * width];
-            ++row[span.first];
-            --row[span.last + 1];
-        });
-        int n = 0; // back at 0 behind each row
-        for (const int begin : begins) {
-            n += begin;
-            c.covered += n > 0;
-            c.overlapping += n > 1;
-        }
+    const std::size_t width = std::size_t(raster.width()) + 1;
+    // How many more triangles cover a texel than the one before it.
+    std::vector<int> begins(width * std::size_t(raster.height()));
+    raster.eachSpan([&](const UvSpan& span) {
+        int* const row = &begins[std::size_t(span.y) * width];
+        ++row[span.first];
+        --row[span.last + 1];
+    });
+    int n = 0; // back at 0 behind each row
+    for (const int begin : begins) {
+        n += begin;
+        c.covered += n > 0;
+        c.overlapping += n > 1;
     }
     return c;
 }
@@ -199,11 +197,10 @@ TEST(UvRaster, spansAreTheTexelsWhoseCentresAreCovered)
     const Layout l = jitteredGrid(9);
     const UvRaster raster(l.view(), 61, 43);
     std::set<std::array<int, 3>> spanned, covered; // triangle, row, column
-    for (int block = 0; block < raster.blocks(); ++block)
-        raster.eachSpan(block, [&](const UvSpan& s) {
-            for (int x = s.first; x <= s.last; ++x)
-                spanned.insert({int(s.triangle), s.y, x});
-        });
+    raster.eachSpan([&](const UvSpan& s) {
+        for (int x = s.first; x <= s.last; ++x)
+            spanned.insert({int(s.triangle), s.y, x});
+    });
     UvRow row;
     for (int y = 0; y < 43; ++y) {
         raster.row(y, row);

@@ -9,7 +9,7 @@
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 
-#include "bake/lint/texel.hpp"
+#include "bake/lint/map_fit.hpp"
 #include "cotan/convention.hpp"
 #include "cotan/convert.hpp"
 #include "cotan/gltf.hpp"

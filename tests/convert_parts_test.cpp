@@ -7,8 +7,6 @@
 #include <span>
 
 #include "bake/convert/reencode.hpp"
-#include "bake/convert/solve_texel.hpp"
-#include "bake/lint/texel.hpp"
 #include "bake/surface/nearest_texels.hpp"
 #include "cotan/convention.hpp"
 #include "judgement_cases.hpp"

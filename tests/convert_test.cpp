@@ -9,8 +9,6 @@
 #include <glm/trigonometric.hpp>
 
 #include "bake/convert/reencode.hpp"
-#include "bake/convert/solve_texel.hpp"
-#include "bake/lint/texel.hpp"
 #include "cotan/convention.hpp"
 #include "cotan/scene.hpp"
 #include "scene/texture_sample.hpp"

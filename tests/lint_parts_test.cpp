@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "bake/lint/texel.hpp"
 #include "judgement_cases.hpp"
 #include "lint_parts.hpp"
 

@@ -3,7 +3,6 @@
 
 #include <glm/geometric.hpp>
 
-#include "bake/reports.hpp"
 #include "common.hpp"
 #include "cotan/picture.hpp"
 #include "cotan/render.hpp"
@@ -484,13 +483,6 @@ TEST(PictureWords, exposureIsAutoOrAPositiveNumber)
         EXPECT_EQ(bool(done), good) << text;
         EXPECT_TRUE(done || done.error().kind == ErrorKind::usage) << text;
     }
-}
-
-TEST(Counted, oneIsOneAndAllElseAreMany)
-{
-    EXPECT_EQ(counted(1, "map"), "1 map");
-    EXPECT_EQ(counted(0, "map"), "0 maps");
-    EXPECT_EQ(counted(2, "map"), "2 maps");
 }
 
 } // namespace

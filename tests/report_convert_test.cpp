@@ -8,6 +8,7 @@
 #include "bake/reports.hpp"
 #include "convert_lines.hpp"
 #include "cotan/scene.hpp"
+#include "lint_lines.hpp"
 
 namespace cotan {
 namespace {

@@ -1,5 +1,6 @@
 #include "commands.hpp"
 
+#include <algorithm>
 #include <cctype>
 
 #include <fmt/format.h>
@@ -119,13 +120,23 @@ Status checkModelOutput(const BakeCommandOptions& o)
     return Done{};
 }
 
+// Whether what is baked has tangents everywhere and they count.
+bool hasStoredTangents(const Scene& low, const BakeModelOptions& options)
+{
+    return options.tangents == TangentOrigin::stored
+        && std::all_of(low.meshes.begin(), low.meshes.end(), [&](const Mesh& mesh) {
+               return (options.material >= 0 && mesh.material != options.material) || mesh.indices.empty()
+                   || !mesh.tangents.empty();
+           });
+}
+
 // Writes the low model with the map in it. Warns where readers that make MikkTSpace would show the map wrongly.
 Status writeBakedModel(const BakeCommandOptions& o, const BakeJob& job, const Image& map)
 {
     PutMapOptions options{.frame = job.frame(),
                           .material = {},
                           .expansion = job.setup.options.stored.format.expansion,
-                          .keepTangents = job.setup.storedTangents};
+                          .keepTangents = hasStoredTangents(job.lowScene, job.setup.options)};
     if (o.material >= 0) // a scene numbers its materials as meshes use them
         options.material = job.lowScene.materials[std::size_t(o.material)].name;
     const auto written = writeModelWithMap(job.lowScene, o.low, map, options, o.output);

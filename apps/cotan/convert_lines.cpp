@@ -4,8 +4,8 @@
 
 #include <fmt/format.h>
 
-#include "bake/reports.hpp"
 #include "gltf/json/lookup.hpp"
+#include "lint_lines.hpp"
 
 namespace cotan {
 

@@ -15,6 +15,9 @@ std::string percentOf(double share) { return fmt::format("{:.1f} %", 100 * share
 
 std::string frameWord(Frame frame) { return frame == Frame::mikktspace ? "MikkTSpace" : std::string(name(frame)); }
 
+// A failure with what is beside the value.
+std::string sentenceOf(const LintFailure& f) { return f.beside.empty() ? f.text : f.text + " (" + f.beside + ")"; }
+
 void addPrimitive(const LintReport& report, std::size_t index, std::vector<std::string>& lines)
 {
     const PrimitiveLint& p = report.primitives[index];
@@ -80,6 +83,17 @@ std::string greenLine(const LintReport& report)
 
 } // namespace
 
+std::string counted(std::size_t number, const std::string& noun)
+{
+    return fmt::format("{} {}{}", number, noun, number == 1 ? "" : "s");
+}
+
+std::string toText(const ValueSummary& s)
+{
+    return s.count > 0 ? fmt::format("{:.2f} / {:.2f} / {:.2f}", s.mean, s.percentile95, s.maximum)
+                       : "nothing to measure";
+}
+
 std::vector<std::string> verdictLines(const std::string& model, const LintReport& report, const std::string& run)
 {
     std::vector<std::string> lines = {titleOf(model, report)};
@@ -141,6 +155,14 @@ std::vector<std::string> checkLines(const LintCheck& check, std::size_t most)
     if (lines.size() < check.failures.size())
         lines.back() += fmt::format(" and {} more", check.failures.size() - lines.size());
     return lines;
+}
+
+std::string summaryOf(const LintCheck& check)
+{
+    if (check.passed())
+        return {};
+    const std::string first = sentenceOf(check.failures.front());
+    return check.failures.size() == 1 ? first : fmt::format("{} and {} more", first, check.failures.size() - 1);
 }
 
 } // namespace cotan

@@ -1,6 +1,7 @@
-// A LintReport in lines, as `cotan lint` prints it.
+// A LintReport in lines, as `cotan lint` prints it, and words that other reports share.
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -8,6 +9,12 @@
 #include "files/report/json.hpp"
 
 namespace cotan {
+
+// "1 primitive", "2 primitives".
+std::string counted(std::size_t number, const std::string& noun);
+
+// "mean / 95 % / maximum"; "nothing to measure" for an empty set.
+std::string toText(const ValueSummary& summary);
 
 // The verdict: what the model is, what will be seen and how much, what is wrong, what to do. At most seven lines.
 // run: the command that does it; empty if there is none.
@@ -18,6 +25,9 @@ std::vector<std::string> detailLines(const LintReport& report);
 
 // "passed" or what failed: the first `most` failures, one line each, the last with the number of those left out.
 std::vector<std::string> checkLines(const LintCheck& check, std::size_t most);
+
+// The first failure and how many more there are, without a line's beginning; empty where the check passed.
+std::string summaryOf(const LintCheck& check);
 
 // The failures as objects: {"kind", "mesh", "material", "map", "degrees", "percent", "limit", "text"}. Names are null
 // where the failure is about something else or the file gives none; of degrees and percent the one that was measured is

@@ -2,9 +2,9 @@
 
 #include <fmt/format.h>
 
-#include "bake/reports.hpp"
 #include "cotan/gltf.hpp"
 #include "gltf_open.hpp"
+#include "lint_lines.hpp"
 #include "smooth_report.hpp"
 #include "tangents_report.hpp"
 

@@ -22,44 +22,44 @@ constexpr int kLargestSide = 65535; // texels: the number of a texel has 32 bits
 constexpr int kMaxOcclusionRays = 1 << 16;
 constexpr float kFarthest = 1e17f; // model units: Embree ends the program for rays that start beyond 1.8e18
 
+// An option that is out of range.
+template<class... Found> Error wrong(const char* option, fmt::format_string<Found...> text, Found&&... found)
+{
+    return about(option, usageError(fmt::format(text, std::forward<Found>(found)...)));
+}
+
 Status checkRanges(const Scene& low, const HighModel& high, const BakeModelOptions& options)
 {
     const BakeOptions& b = options.bake;
     if (b.width < 1 || b.height < 1 || b.width > kLargestSide || b.height > kLargestSide)
-        return about("options.bake.width",
-                     usageError(fmt::format("expected a width and a height from 1 to {}; found {}x{}", kLargestSide,
-                                            b.width, b.height)));
+        return wrong("options.bake.width", "expected a width and a height from 1 to {}; found {}x{}", kLargestSide,
+                     b.width, b.height);
     if (b.samples != 1 && b.samples != 2 && b.samples != 4)
-        return about("options.bake.samples",
-                     usageError(fmt::format("expected 1, 2 or 4 samples a texel and axis; found {}", b.samples)));
+        return wrong("options.bake.samples", "expected 1, 2 or 4 samples a texel and axis; found {}", b.samples);
     for (const auto& [frame, what] :
          {std::pair(b.frame, "options.bake.frame"), {options.highFrame, "options.highFrame"}})
         if (!isFrame(int(frame)))
-            return about(what, usageError(fmt::format("expected 0 to {}; found {}", kFrameCount - 1, int(frame))));
+            return wrong(what, "expected 0 to {}; found {}", kFrameCount - 1, int(frame));
     if (options.tiles.empty())
-        return about("options.tiles", usageError("expected one tile or more; found none"));
+        return wrong("options.tiles", "expected one tile or more; found none");
     if (b.occlusionRays < 1 || b.occlusionRays > kMaxOcclusionRays)
-        return about("options.bake.occlusionRays",
-                     usageError(fmt::format("expected 1 to {} rays for occlusion; found {}", kMaxOcclusionRays,
-                                            b.occlusionRays)));
+        return wrong("options.bake.occlusionRays", "expected 1 to {} rays for occlusion; found {}", kMaxOcclusionRays,
+                     b.occlusionRays);
     for (const auto& [distance, what] : {std::pair(b.maxDistance, "options.maxDistance"),
                                          {b.cageReach, "options.cageReach"},
                                          {b.extrusion, "options.extrusion"}})
         if (!(distance >= 0 && distance <= kFarthest))
-            return about(what, usageError(fmt::format("expected 0 to {:g}; found {:g}", kFarthest, distance)));
+            return wrong(what, "expected 0 to {:g}; found {:g}", kFarthest, distance);
     if (options.cage && (b.search == BakeSearch::nearest || b.extrusion > 0))
-        return about(b.extrusion > 0 ? "options.extrusion" : "options.search",
-                     usageError("a cage says already where rays start, and the first surface counts"));
+        return wrong(b.extrusion > 0 ? "options.extrusion" : "options.search",
+                     "a cage says already where rays start, and the first surface counts");
     if (b.search == BakeSearch::nearest && b.extrusion > 0)
-        return about("options.extrusion", usageError("the search nearest looks both ways from the low surface"));
+        return wrong("options.extrusion", "the search nearest looks both ways from the low surface");
     if (options.material >= int(low.materials.size()))
-        return about(
-            "options.material",
-            usageError(fmt::format("expected 0 to {}; found {}", int(low.materials.size()) - 1, options.material)));
+        return wrong("options.material", "expected 0 to {}; found {}", int(low.materials.size()) - 1, options.material);
     if (high.maps.size() > 1 && high.maps.size() != high.scenes.size())
-        return about("high.maps",
-                     usageError(fmt::format("expected none, one, or one for each of the {} scenes; found {}",
-                                            high.scenes.size(), high.maps.size())));
+        return wrong("high.maps", "expected none, one, or one for each of the {} scenes; found {}", high.scenes.size(),
+                     high.maps.size());
     return Done{};
 }
 
@@ -121,7 +121,7 @@ Status checkArea(const LowSurface& low)
 Status checkCrowded(const LowSurface& low, const HighSurface& high)
 {
     constexpr std::size_t kTried = 256, kCrowded = 2000;
-    const float diagonal = glm::length(high.high() - high.low());
+    const float diagonal = glm::length(high.box().high - high.box().low);
     std::vector<std::size_t> met;
     for (std::size_t f = 0; f < low.triangleCount(); f += 1 + low.triangleCount() / kTried) {
         const std::uint32_t* const c = &low.indices[3 * f];
@@ -202,16 +202,6 @@ LowRest restOf(const Scene& low, const BakeModelOptions& options)
     return rest;
 }
 
-// Whether what is baked has tangents everywhere and they count.
-bool hasStoredTangents(const Scene& low, const BakeModelOptions& options)
-{
-    return options.tangents == TangentOrigin::stored
-        && std::all_of(low.meshes.begin(), low.meshes.end(), [&](const Mesh& mesh) {
-               return (options.material >= 0 && mesh.material != options.material) || mesh.indices.empty()
-                   || !mesh.tangents.empty();
-           });
-}
-
 // "door_low" and "door_high" are of one name: what stands before the last low or high.
 std::string stem(std::string name)
 {
@@ -227,13 +217,11 @@ Result<std::vector<std::int64_t>> matches(const Scene& low, const HighSurface& h
     std::vector<std::int64_t> result;
     for (const Instance& instance : low.instances) {
         const std::string& name = objectName(low, instance);
-        const auto& names = high.names();
-        const auto found =
-            std::find_if(names.begin(), names.end(), [&](const std::string& n) { return stem(n) == stem(name); });
-        if (found == names.end())
+        const auto found = std::ranges::find(high.names(), stem(name), stem);
+        if (found == high.names().end())
             return about("options.matchByName",
                          inputError(fmt::format("no high mesh is named like the low mesh '{}'", name)));
-        result.push_back(found - names.begin());
+        result.push_back(found - high.names().begin());
     }
     return result;
 }
@@ -275,12 +263,12 @@ Result<BakeSetup> prepareBake(const Scene& low, HighModel high, const BakeModelO
         return highSurface.error();
     for (const Status& placed :
          {checkPlaces(lowSurface->positions, "low"), checkArea(*lowSurface), checkPlaces(cage, "options.cage"),
-          checkPlaces({highSurface->low(), highSurface->high()}, "high")})
+          checkPlaces({highSurface->box().low, highSurface->box().high}, "high")})
         if (!placed)
             return placed.error();
     if (Status fits = checkCrowded(*lowSurface, *highSurface); !fits) // by rays, which must be able to start there
         return fits.error();
-    BakeSetup setup{std::move(*lowSurface), std::move(*highSurface), options, {}, hasStoredTangents(low, options)};
+    BakeSetup setup{std::move(*lowSurface), std::move(*highSurface), options, {}};
     BakeOptions& bake = setup.options.bake;
     setup.options.cage = setup.options.others = nullptr;
     bake.cage = std::move(cage);
@@ -306,8 +294,7 @@ Result<BakeSetup> prepareBake(const Scene& low, HighModel high, const BakeModelO
 Result<BakedMap> bakeTile(const BakeSetup& setup, int tile, const Progress& progress)
 {
     if (tile < kFirstUdim)
-        return about("options.tiles",
-                     usageError(fmt::format("expected numbers from {} on; found {}", kFirstUdim, tile)));
+        return wrong("options.tiles", "expected numbers from {} on; found {}", kFirstUdim, tile);
     BakeOptions options = setup.options.bake;
     options.tile = squareOf(tile);
     auto baked = bake(setup.low, setup.high, options, progress);

@@ -17,7 +17,6 @@ struct BakeSetup {
     HighSurface high;
     BakeModelOptions options;          // as given; in options.bake what was derived. `cage` is null
     std::vector<std::string> warnings; // one line each
-    bool storedTangents = false;       // `tangents` is stored, and every mesh of the material has them
 };
 
 // Derives what the frame needs on the simple scene, the acceleration structure over the detailed ones, the cage's

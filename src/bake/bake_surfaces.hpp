@@ -23,7 +23,8 @@ struct Baked {
 };
 
 // Bakes. `progress` is called from several threads after each row. The result does not depend on the number of threads.
-// Errors: ErrorKind::input for a cage of another number of vertices.
+// options: frame, cage and starts are those of the low surface. Errors: those of makeRayStarts; ErrorKind::input where
+// triangles lie over one another in too many rows of texels; ErrorKind::stopped.
 Result<Baked> bake(const LowSurface& low, const HighSurface& high, const BakeOptions& options,
                    const Progress& progress = {});
 

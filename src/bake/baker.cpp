@@ -15,7 +15,7 @@ namespace {
 constexpr float kNearestDistance = 0.05f; // of the diagonal of the high surface
 constexpr float kLift = 1e-5f;            // of the same
 
-float diagonalOf(const HighSurface& high) { return glm::length(high.high() - high.low()); }
+float diagonalOf(const HighSurface& high) { return glm::length(high.box().high - high.box().low); }
 
 void copyHit(const Hits& from, std::size_t i, Hits& to)
 {
@@ -186,7 +186,7 @@ bool Baker::standsOff(const Hits& hits) const
 
 std::size_t Baker::somethingFurther(const Probes& probes, const Hits& hits, Lanes<int>& further) const
 {
-    const glm::vec3 middle = (high_.low() + high_.high()) * 0.5f;
+    const glm::vec3 middle = high_.box().centre();
     return anyAround(high_, probes, further, [&](std::size_t i) {
         return hits.found(i) ? -1 : glm::length(middle - probes.point.at(i)) + diagonalOf(high_);
     });

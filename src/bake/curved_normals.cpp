@@ -5,6 +5,7 @@
 
 #include <glm/geometric.hpp>
 
+#include "core/list_by_group.hpp"
 #include "core/loops.hpp"
 #include "core/other_axis.hpp"
 
@@ -109,18 +110,15 @@ std::vector<ShapeOperator> shapeOperators(std::span<const glm::vec3> positions, 
 {
     // The other corners of each vertex's triangles, one after the other, most of them twice: as far as the fit goes,
     // edges with a triangle on both sides count double.
-    std::vector<std::uint32_t> first(positions.size() + 1, 0);
-    for (const std::uint32_t v : indices)
-        first[v + 1] += 2;
-    for (std::size_t v = 0; v < positions.size(); ++v)
-        first[v + 1] += first[v];
-    std::vector<std::uint32_t> neighbours(first.back()), next(first.begin(), first.end() - 1);
-    for (std::size_t i = 0; i + 2 < indices.size(); i += 3)
-        for (std::size_t k = 0; k < 3; ++k) {
-            const std::uint32_t v = indices[i + k];
-            neighbours[next[v]++] = indices[i + (k + 1) % 3];
-            neighbours[next[v]++] = indices[i + (k + 2) % 3];
-        }
+    const auto eachNeighbour = [&](const auto& add) {
+        for (std::size_t i = 0; i + 2 < indices.size(); i += 3)
+            for (std::size_t k = 0; k < 3; ++k) {
+                add(indices[i + k], indices[i + (k + 1) % 3]);
+                add(indices[i + k], indices[i + (k + 2) % 3]);
+            }
+    };
+    std::vector<std::uint32_t> first, neighbours;
+    listByGroup(positions.size(), eachNeighbour, first, neighbours);
     std::vector<ShapeOperator> shapes(positions.size());
     withThreads(threads, [&] {
         parallelFor(std::size_t(0), positions.size(), [&](std::size_t v) {

@@ -12,24 +12,6 @@ namespace cotan {
 
 namespace {
 
-// One instance as a scene of its own: LowSurface knows how a frame is made on it.
-Scene sceneOf(const Mesh& mesh, const Material& material, const Instance& instance, const std::string& name)
-{
-    Scene one;
-    one.name = name;
-    Mesh copy;
-    copy.name = mesh.name;
-    copy.positions = mesh.positions;
-    copy.normals = mesh.normals;
-    copy.tangents = mesh.tangents;
-    copy.texcoords = mesh.texcoords;
-    copy.indices = mesh.indices;
-    one.meshes.push_back(std::move(copy));
-    one.materials.push_back(material);
-    one.instances.push_back({instance.name, 0, instance.toWorld});
-    return one;
-}
-
 glm::vec4 texelAt(const Image& image, const Sampler& sampler, glm::dvec2 uv)
 {
     auto stored = [&](int x, int y) { return storedComponents(image, x, y); };
@@ -63,8 +45,7 @@ Result<HighNormalMaps> HighNormalMaps::make(std::vector<Scene>& scenes, Frame fr
             const Image& picture = *image->second;
             if (!hasPixels(picture))
                 continue;
-            auto surface =
-                makeLowSurface(sceneOf(mesh, material, instance, scene.name), -1, frame, TangentOrigin::stored);
+            auto surface = makeLowSurface(scene, -1, frame, TangentOrigin::stored, {&instance, 1});
             if (!surface)
                 return surface.error();
             part.surface = std::move(*surface);

@@ -14,6 +14,7 @@
 #include "cotan/covector.hpp"
 #include "curved_normals.hpp"
 #include "packets.hpp"
+#include "scene/geometry.hpp"
 #include "scene/parts.hpp"
 
 namespace cotan {
@@ -88,7 +89,7 @@ struct HighSurface::State {
     std::vector<float> fronts; // of the parts: -1 where most triangles are wound against their vertices' normals
     std::vector<std::string> names;
     std::size_t triangles = 0;
-    glm::vec3 low{1e30f}, high{-1e30f};
+    Bounds box;
     EmbreeScene embree; // shares arrays of the parts
 
     // The interpolated normals of hits, of any length. Where the corners are is asked for all before the first is used,
@@ -158,11 +159,11 @@ Result<HighSurface> HighSurface::make(const std::vector<Scene>& scenes, int thre
                 continue;
             state->parts.push_back(placed(mesh, instance.toWorld));
             state->fronts.push_back(frontOf(state->parts.back()));
-            state->names.push_back(!instance.name.empty() ? instance.name : mesh.name);
+            state->names.push_back(objectName(scene, instance));
             state->triangles += mesh.triangleCount();
             for (const glm::vec3& p : state->parts.back().positions) {
-                state->low = glm::min(state->low, p);
-                state->high = glm::max(state->high, p);
+                state->box.low = glm::min(state->box.low, p);
+                state->box.high = glm::max(state->box.high, p);
             }
         }
     if (state->triangles == 0)
@@ -193,8 +194,7 @@ HighSurface::Triangles HighSurface::triangles(std::size_t instance) const
 
 const std::vector<std::string>& HighSurface::names() const { return state_->names; }
 std::size_t HighSurface::triangleCount() const { return state_->triangles; }
-glm::vec3 HighSurface::low() const { return state_->low; }
-glm::vec3 HighSurface::high() const { return state_->high; }
+const Bounds& HighSurface::box() const { return state_->box; }
 
 // ---- rays -----------------------------------------------------------------------------------
 

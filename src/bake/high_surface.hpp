@@ -100,8 +100,7 @@ public:
     // Names of the instances, in order, for matching.
     const std::vector<std::string>& names() const;
     std::size_t triangleCount() const;
-    glm::vec3 low() const; // of the box around everything
-    glm::vec3 high() const;
+    const Bounds& box() const; // around everything
 
 private:
     struct State;

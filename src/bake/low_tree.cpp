@@ -82,16 +82,15 @@ Result<LowTree> LowTree::make(std::vector<glm::vec3> positions, std::vector<std:
     return LowTree(std::move(state));
 }
 
-LowTree::Nearest LowTree::nearestOf(glm::vec3 to, float radius, const void* accepts,
-                                    bool (*call)(const void*, std::uint32_t)) const
+LowTree::Nearest LowTree::nearest(glm::vec3 to, float radius,
+                                  const std::function<bool(std::uint32_t triangle)>& accepts) const
 {
     struct Question {
-        const LowTree& tree;
-        const void* accepts;
-        bool (*call)(const void*, std::uint32_t);
+        const State& state;
+        const std::function<bool(std::uint32_t)>& accepts;
         glm::vec3 to;
         Nearest best;
-    } question{*this, accepts, call, to, {}};
+    } question{*state_, accepts, to, {}};
     question.best.distance = radius;
     RTCPointQuery query{};
     query.x = to.x;
@@ -105,11 +104,11 @@ LowTree::Nearest LowTree::nearestOf(glm::vec3 to, float radius, const void* acce
         [](RTCPointQueryFunctionArguments* a) {
             Question& q = *static_cast<Question*>(a->userPtr);
             ++q.best.asked;
-            if (!q.call(q.accepts, a->primID))
+            if (!q.accepts(a->primID))
                 return false;
-            const State& state = *q.tree.state_;
-            const std::uint32_t* const c = &state.indices[3 * std::size_t(a->primID)];
-            const glm::vec3 p0 = state.positions[c[0]], p1 = state.positions[c[1]], p2 = state.positions[c[2]];
+            const std::uint32_t* const c = &q.state.indices[3 * std::size_t(a->primID)];
+            const std::vector<glm::vec3>& p = q.state.positions;
+            const glm::vec3 p0 = p[c[0]], p1 = p[c[1]], p2 = p[c[2]];
             const Coordinates on = nearestOn(p0, p1, p2, q.to);
             const glm::vec3 point = p0 * (1 - on.b1 - on.b2) + p1 * on.b1 + p2 * on.b2;
             const float distance = glm::length(point - q.to);

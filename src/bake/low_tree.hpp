@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <vector>
 
@@ -33,12 +34,7 @@ public:
     };
     // The nearest point, at most `radius` away, of the triangles that `accepts` takes; of equally near ones that of the
     // first triangle.
-    template<class Accepts> Nearest nearest(glm::vec3 to, float radius, const Accepts& accepts) const
-    {
-        return nearestOf(to, radius, &accepts, [](const void* accepts_, std::uint32_t triangle) {
-            return (*static_cast<const Accepts*>(accepts_))(triangle);
-        });
-    }
+    Nearest nearest(glm::vec3 to, float radius, const std::function<bool(std::uint32_t triangle)>& accepts) const;
 
     // The first triangle on a ray.
     Met first(const Ray& ray) const;
@@ -51,7 +47,6 @@ public:
 private:
     struct State;
     explicit LowTree(std::shared_ptr<const State> state) : state_(std::move(state)) {}
-    Nearest nearestOf(glm::vec3 to, float radius, const void* accepts, bool (*call)(const void*, std::uint32_t)) const;
     std::shared_ptr<const State> state_;
 };
 

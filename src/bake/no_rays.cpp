@@ -7,6 +7,7 @@ namespace cotan {
 
 struct HighSurface::State {
     std::vector<std::string> names;
+    Bounds box;
 };
 
 std::optional<Error> HighSurface::unavailable() { return notBuiltWith("Embree", "libembree-dev"); }
@@ -23,8 +24,7 @@ std::size_t HighSurface::met(const Ray&) const { return 0; }
 HighSurface::Triangles HighSurface::triangles(std::size_t) const { return {}; }
 const std::vector<std::string>& HighSurface::names() const { return state_->names; }
 std::size_t HighSurface::triangleCount() const { return 0; }
-glm::vec3 HighSurface::low() const { return glm::vec3(0); }
-glm::vec3 HighSurface::high() const { return glm::vec3(0); }
+const Bounds& HighSurface::box() const { return state_->box; }
 
 struct LowTree::State {};
 
@@ -32,10 +32,7 @@ Result<LowTree> LowTree::make(std::vector<glm::vec3>, std::vector<std::uint32_t>
 {
     return *HighSurface::unavailable();
 }
-LowTree::Nearest LowTree::nearestOf(glm::vec3, float, const void*, bool (*)(const void*, std::uint32_t)) const
-{
-    return {};
-}
+LowTree::Nearest LowTree::nearest(glm::vec3, float, const std::function<bool(std::uint32_t)>&) const { return {}; }
 LowTree::Met LowTree::first(const Ray&) const { return {}; }
 LowTree::Met LowTree::firstBeside(std::uint32_t, Ray) const { return {}; }
 glm::vec3 LowTree::face(std::uint32_t) const { return glm::vec3(0); }

@@ -4,6 +4,7 @@
 #include <atomic>
 #include <bit>
 #include <cmath>
+#include <functional>
 #include <numeric>
 #include <tuple>
 
@@ -13,6 +14,7 @@
 #include <glm/geometric.hpp>
 
 #include "core/loops.hpp"
+#include "cotan/vector.hpp"
 #include "high_points.hpp"
 
 namespace cotan {
@@ -61,12 +63,6 @@ Groups groupsOf(const LowSurface& low)
     return groups;
 }
 
-float angleAt(glm::vec3 corner, glm::vec3 a, glm::vec3 b)
-{
-    const glm::vec3 u = a - corner, v = b - corner;
-    return std::atan2(glm::length(glm::cross(u, v)), glm::dot(u, v));
-}
-
 void findDirections(const LowSurface& low, const Groups& groups, RayStarts& starts)
 {
     std::vector<glm::vec3> sums(groups.count, glm::vec3(0)), first(groups.count);
@@ -83,8 +79,9 @@ void findDirections(const LowSurface& low, const Groups& groups, RayStarts& star
     for (std::size_t i = 0; i < low.indices.size(); ++i) {
         const std::size_t f = i / 3 * 3;
         const std::uint32_t v = low.indices[i];
-        const float angle = angleAt(low.positions[v], low.positions[low.indices[f + (i + 1) % 3]],
-                                    low.positions[low.indices[f + (i + 2) % 3]]);
+        const glm::vec3 corner = low.positions[v];
+        const float angle = angleBetween(low.positions[low.indices[f + (i + 1) % 3]] - corner,
+                                         low.positions[low.indices[f + (i + 2) % 3]] - corner);
         sums[groups.of[v]] += low.normals[v] * angle;
     }
     starts.directions = low.normals;
@@ -181,7 +178,7 @@ public:
         float radius = starts_.limit;
         if (last.known && accepts(last.triangle)) // nothing that is further away than that can be the nearest
             radius = std::min(radius, glm::length(point - last.point) * 1.0001f + 1e-7f * body_.diagonal);
-        const LowTree::Nearest nearest = body_.tree->nearest(point, radius, accepts);
+        const LowTree::Nearest nearest = body_.tree->nearest(point, radius, std::cref(accepts));
         if (!nearest.found)
             return;
         last = {true, nearest.triangle, nearest.point};
@@ -299,14 +296,13 @@ private:
     std::vector<std::uint8_t> reached_;    // something belongs to the group
 };
 
-// Of which triangles and vertices the points are taken: 1 of all, 2 of every second. Where many triangles lie over one
-// another each point looks at many, and fewer points have to do. An error where far too many do.
-Result<std::size_t> stepFor(const HighSurface& high, float spacing, const Measuring& measuring)
+// Of which triangles and vertices (so many) the points are taken: 1 of all, 2 of every second. Where many triangles lie
+// over one another each point looks at many, and fewer points have to do. An error where far too many do.
+Result<std::size_t> stepFor(const HighSurface& high, std::size_t vertices, float spacing, const Measuring& measuring)
 {
-    std::size_t vertices = 0, between = 0, triangles = 0;
+    std::size_t between = 0, triangles = 0;
     for (std::size_t instance = 0; instance < high.names().size(); ++instance) {
         const HighSurface::Triangles part = high.triangles(instance);
-        vertices += part.positions.size();
         triangles += part.indices.size() / 3;
         for (std::size_t f = 0; f < part.indices.size() / 3; ++f)
             if (const auto cuts = std::size_t(cutsOf(part, f, spacing)))
@@ -343,7 +339,7 @@ Result<std::size_t> measure(const HighSurface& high, float spacing, Measuring& m
     std::size_t vertices = 0;
     for (std::size_t instance = 0; instance < high.names().size(); ++instance)
         vertices += high.triangles(instance).positions.size();
-    const auto fitting = stepFor(high, spacing, measuring);
+    const auto fitting = stepFor(high, vertices, spacing, measuring);
     if (!fitting)
         return fitting.error();
     const std::size_t every = *fitting, step = std::max(1 + vertices / kMaxVertices, every);
@@ -393,15 +389,6 @@ bool isCrossed(const LowSurface& low, const RayStarts& starts, std::size_t trian
     return false;
 }
 
-void findCrossed(const LowSurface& low, float diagonal, RayStarts& starts)
-{
-    starts.crossed.assign(low.triangleCount(), 0);
-    parallelRanges<std::size_t>(0, low.triangleCount(), 256, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t f = begin; f != end; ++f)
-            starts.crossed[f] = isCrossed(low, starts, f, diagonal) ? 1 : 0;
-    });
-}
-
 } // namespace
 
 std::vector<std::int64_t> shownBy(std::span<const std::uint32_t> triangleInstance,
@@ -443,17 +430,17 @@ Result<RayStarts> makeRayStarts(const LowSurface& low, const HighSurface& high, 
         return starts;
     }
     starts.tree = body->tree;
-    Result<std::size_t> measured = 1;
-    withThreads(options.threads, [&] {
+    const Status measured = withThreads(options.threads, [&]() -> Status {
         Measuring measuring(low, high, options, *body, groups, starts);
-        measured = measure(high, std::max(body->edge, kSpacing * body->diagonal), measuring);
-        if (!measured)
-            return;
+        const auto every = measure(high, std::max(body->edge, kSpacing * body->diagonal), measuring);
+        if (!every)
+            return every.error();
         starts.distances = measuring.distances();
-        if (*measured == 1)
-            findCrossed(low, body->diagonal, starts);
-        else // so crowded that the rays of all triangles are looked at as they are shot
-            starts.crossed.assign(low.triangleCount(), 1);
+        starts.crossed.assign(low.triangleCount(), 1);
+        if (*every == 1) // else so crowded that the rays of all triangles are looked at as they are shot
+            parallelFor(std::size_t(0), low.triangleCount(),
+                        [&](std::size_t f) { starts.crossed[f] = isCrossed(low, starts, f, body->diagonal) ? 1 : 0; });
+        return Done{};
     });
     if (!measured)
         return measured.error();

@@ -6,17 +6,6 @@
 
 namespace cotan {
 
-std::string counted(std::size_t number, const std::string& noun)
-{
-    return fmt::format("{} {}{}", number, noun, number == 1 ? "" : "s");
-}
-
-std::string toText(const ValueSummary& s)
-{
-    return s.count > 0 ? fmt::format("{:.2f} / {:.2f} / {:.2f}", s.mean, s.percentile95, s.maximum)
-                       : "nothing to measure";
-}
-
 Json toJson(const ValueSummary& s)
 {
     return {{"count", s.count}, {"mean", s.mean}, {"percentile95", s.percentile95}, {"maximum", s.maximum}};
@@ -109,16 +98,6 @@ std::string greenVerdict(const GreenEvidence& g)
             + ")";
     return fmt::format("{} ({})", g.asDeclared() ? "as declared" : "the other way than declared",
                        name(g.verdict.confidence));
-}
-
-std::string sentenceOf(const LintFailure& f) { return f.beside.empty() ? f.text : f.text + " (" + f.beside + ")"; }
-
-std::string summaryOf(const LintCheck& check)
-{
-    if (check.passed())
-        return {};
-    const std::string first = sentenceOf(check.failures.front());
-    return check.failures.size() == 1 ? first : fmt::format("{} and {} more", first, check.failures.size() - 1);
 }
 
 Json toJson(const LintCheck& check)

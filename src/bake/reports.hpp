@@ -1,7 +1,6 @@
-// What lint and convert report, as JSON, and words that reports share.
+// What lint and convert report, as JSON.
 #pragma once
 
-#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -12,11 +11,6 @@
 
 namespace cotan {
 
-// "1 primitive", "2 primitives".
-std::string counted(std::size_t number, const std::string& noun);
-
-// "mean / 95 % / maximum"; "nothing to measure" for an empty set.
-std::string toText(const ValueSummary& summary);
 // The figures of an empty set are null when it is written.
 Json toJson(const ValueSummary& summary);
 
@@ -27,12 +21,6 @@ Json countsOf(const Scene& scene);
 
 // Whether green is as declared, and how sure that is; or why it cannot be told.
 std::string greenVerdict(const GreenEvidence& g);
-
-// A failure with what is beside the value.
-std::string sentenceOf(const LintFailure& f);
-
-// The first failure and how many more there are, without a line's beginning; empty where the check passed.
-std::string summaryOf(const LintCheck& check);
 
 // {"passed", "limit", "limit_area", "frame", "failures": [{"kind", "where", "value", "limit", "text"}]}; null where no
 // limit was set, limits that were not set are null.

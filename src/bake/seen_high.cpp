@@ -7,6 +7,7 @@
 #include "baker.hpp"
 #include "core/loops.hpp"
 #include "scene/geometry.hpp"
+#include "scene/sample_places.hpp"
 
 namespace cotan {
 
@@ -110,15 +111,6 @@ private:
     float diagonal_ = 0, limit_ = 0;
 };
 
-void put(Image& image, std::size_t i, glm::vec3 n)
-{
-    float* pixel = image.floats() + 4 * i;
-    pixel[0] = n.x;
-    pixel[1] = n.y;
-    pixel[2] = n.z;
-    pixel[3] = 1;
-}
-
 } // namespace
 
 Result<SeenHigh> seeHigh(const LowSurface& low, const HighSurface& high, const BakeOptions& given, const View& view)
@@ -143,10 +135,10 @@ Result<SeenHigh> seeHigh(const LowSurface& low, const HighSurface& high, const B
             const std::size_t i = std::size_t(y) * std::size_t(view.width) + std::size_t(x);
             const glm::vec3 ray = rayThrough(view, view.camera, x, y);
             if (const Hit hit = high.trace({view.camera.eye, ray, 0, 1e30f}); hit.found)
-                put(seen.normals, i, looking.normalOf(hit, ray));
+                storePixel(seen.normals, x, y, glm::vec4(looking.normalOf(hit, ray), 1), false);
             const Looking::Answer answer = looking.ask(view.camera.eye, ray);
             if (answer.known)
-                put(seen.expected, i, answer.normal);
+                storePixel(seen.expected, x, y, glm::vec4(answer.normal, 1), false);
             seen.other[i] = answer.other ? 1 : 0;
         }
     });

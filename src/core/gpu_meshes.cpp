@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <array>
-#include <numeric>
 
 #include "corner_groups.hpp"
+#include "list_by_group.hpp"
 #include "tangents_mesh.hpp"
 
 namespace cotan {
@@ -15,22 +15,6 @@ namespace {
 
 using tangents::kNone;
 using tangents::Side;
-
-// Lists the items 0 to count - 1 by group, in their order; groupOf(item) may be kNone.
-void listByGroup(std::uint32_t groups, std::size_t count, const auto& groupOf, std::vector<std::uint32_t>& begin,
-                 std::vector<std::uint32_t>& items)
-{
-    begin.assign(std::size_t(groups) + 1, 0);
-    for (std::uint32_t i = 0; i < count; ++i)
-        if (const std::uint32_t g = groupOf(i); g != kNone)
-            ++begin[g + 1];
-    std::partial_sum(begin.begin(), begin.end(), begin.begin());
-    items.resize(begin.back());
-    std::vector<std::uint32_t> next(begin.begin(), begin.end() - 1);
-    for (std::uint32_t i = 0; i < count; ++i)
-        if (const std::uint32_t g = groupOf(i); g != kNone)
-            items[next[g]++] = i;
-}
 
 // slots: per vertex the slot that it belongs to; slotOf(corner): the one that it adds to, or kNoSlot. Slots are a
 // vertex and a side, as tangents::slot has them.
@@ -48,13 +32,17 @@ Adjacency adjacencyOf(const MeshView& mesh, const std::vector<std::size_t>& slot
             if (slot % 2 == std::size_t(side) && groupOf[slot] == kNone)
                 groupOf[slot] = groups++;
     }
-    const auto ofCorner = [&](std::uint32_t c) {
-        const std::size_t slot = slotOf(c);
-        return slot == kNoSlot ? kNone : groupOf[slot];
+    const auto eachVertex = [&](const auto& add) {
+        for (std::uint32_t v = 0; v < slots.size(); ++v)
+            add(groupOf[slots[v]], v);
     };
-    const auto ofVertex = [&](std::uint32_t v) { return groupOf[slots[v]]; };
-    listByGroup(groups, mesh.positions.size(), ofVertex, a.vertexBegin, a.vertices);
-    listByGroup(groups, mesh.indices.size(), ofCorner, a.cornerBegin, a.corners);
+    const auto eachCorner = [&](const auto& add) {
+        for (std::uint32_t c = 0; c < mesh.indices.size(); ++c)
+            if (const std::size_t slot = slotOf(c); slot != kNoSlot && groupOf[slot] != kNone)
+                add(groupOf[slot], c);
+    };
+    listByGroup(groups, eachVertex, a.vertexBegin, a.vertices);
+    listByGroup(groups, eachCorner, a.cornerBegin, a.corners);
     return a;
 }
 

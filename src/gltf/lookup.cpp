@@ -84,15 +84,20 @@ Json& normalSlotOf(Json& root, std::size_t material, NormalSlot slot)
     return const_cast<Json&>(*slotOf(root["materials"][material], slot));
 }
 
-void setExpansion(nlohmann::ordered_json& material, Expansion expansion)
+void setExtra(Json& material, const char* key, std::string_view text)
 {
-    if (expansion == Expansion::biased) {
+    if (!text.empty()) {
         if (!material.contains("extras") || !material["extras"].is_object())
-            material["extras"] = nlohmann::ordered_json::object();
-        material["extras"][gltf::kUnsignedKey] = "biased";
+            material["extras"] = Json::object();
+        material["extras"][key] = text;
     } else {
-        takeOut(material, "extras", gltf::kUnsignedKey);
+        takeOut(material, "extras", key);
     }
+}
+
+void setExpansion(Json& material, Expansion expansion)
+{
+    setExtra(material, gltf::kUnsignedKey, expansion == Expansion::biased ? "biased" : "");
 }
 
 gltf::Texture textureAt(const Json& root, int texture)

@@ -8,7 +8,7 @@
 #include <glm/common.hpp>
 #include <glm/mat3x3.hpp>
 
-#include "bake/lint/triangle_uv.hpp"
+#include "bake/lint/lint_parts.hpp"
 #include "image/component_types.hpp"
 #include "inspect/angles.hpp"
 #include "scene/normal_maps.hpp"

@@ -10,7 +10,7 @@
 #include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
 
-#include "bake/lint/triangle_uv.hpp"
+#include "bake/lint/lint_parts.hpp"
 #include "cotan/lint.hpp"
 #include "cotan/maps.hpp"
 #include "scene/bounds.hpp"

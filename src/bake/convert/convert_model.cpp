@@ -142,7 +142,8 @@ private:
         done.bytesBefore = done.bytesAfter = bytes->size();
         done.format = pictureFormat(*bytes);
         // Where the old map serves as well as a rounded new one, it stays, byte for byte.
-        done.figures.unconverted = errorAsItIs(*map, *uses);
+        done.figures.unconverted =
+            mapErrors(*map, *map, *uses, {&options_.frames, 1}, {}, pointsOfEach(surfaces_)).front();
         done.kept = options_.keepMaps || done.figures.unconverted.count == 0
             || (options_.bits == 0 && fitsAsItIs(done.figures.unconverted));
         if (options_.keepMaps && done.figures.unconverted.mean > kSeen)
@@ -209,12 +210,6 @@ private:
             return png.error();
         return EncodedLike{*std::move(png), "PNG", "image/png", 0,
                            fallsBack ? "the model does not require that its readers know WebP" : ""};
-    }
-
-    // How far the old map is off when it is read with the new frame.
-    ValueSummary errorAsItIs(const Image& map, const std::vector<MapUse>& uses) const
-    {
-        return mapErrors(map, map, uses, {&options_.frames, 1}, {}, pointsOfEach(surfaces_)).front();
     }
 
     // Rows of texels under all triangles, those of a surface once.

@@ -111,16 +111,8 @@ Result<std::optional<Frame>> namedFrame(const GltfDocument& document)
 
 void nameFrame(GltfDocument& document, std::size_t material, Frame frame)
 {
-    Json& m = rootOf(document)["materials"][material];
-    if (frame != Frame::mikktspace) {
-        if (!m.contains("extras") || !m["extras"].is_object())
-            m["extras"] = Json::object();
-        m["extras"][gltf::kFrameExtra] = name(frame);
-    } else if (m.contains("extras") && m["extras"].is_object()) {
-        m["extras"].erase(gltf::kFrameExtra);
-        if (m["extras"].empty())
-            m.erase("extras");
-    }
+    setExtra(rootOf(document)["materials"][material], gltf::kFrameExtra,
+             frame != Frame::mikktspace ? name(frame) : std::string_view());
 }
 
 Status putNormalMap(GltfDocument& document, std::vector<std::byte> png, const PutMapOptions& options,

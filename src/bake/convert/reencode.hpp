@@ -5,15 +5,19 @@
 #include <cstddef>
 #include <span>
 
+#include <glm/mat3x3.hpp>
+#include <glm/vec3.hpp>
+
 #include "bake/lint/map_fit.hpp"
 #include "cotan/convert.hpp"
+#include "cotan/packed_only.hpp"
 #include "cotan/result.hpp"
 
 namespace cotan {
 
 inline constexpr std::size_t kMaxPlaces = 16; // of one texel; of more, some that are spread over all count
-inline constexpr std::size_t kMaxAllPlaces = std::size_t(1)
-    << 24; // of a map; larger ones have fewer of a texel, 4 at least
+// Of a map; larger ones have fewer of a texel, 4 at least.
+inline constexpr std::size_t kMaxAllPlaces = std::size_t(1) << 24;
 
 struct Reencoded : ReencodeFigures {
     Image image; // as large as the old one
@@ -27,5 +31,24 @@ struct Reencoded : ReencodeFigures {
 // covering the centre of a texel.
 Reencoded reencode(const Image& map, std::span<const MapUse> uses, const FramePair& frames, int bits, int threads = 0,
                    CountedSteps* rows = nullptr, std::optional<Expansion> expansion = {});
+
+// ---- the one texel that several places of a surface share -------------------------------------
+
+// What a place wants: normalize(frame * texel) = target.
+struct Demand {
+    glm::dmat3 frame{1}; // columns: t and b times the factor on the slopes, n
+    glm::dvec3 target{0, 0, 1};
+};
+
+// Whether the frame turns different texels into different normals.
+bool invertible(const glm::dmat3& frame);
+
+// The unit texel that minimises the sum of |normalize(frame_i * texel) - target_i|^2: exact for one
+// place, Gauss-Newton on the sphere of directions from the sum of the places' own texels for more.
+// Demands whose frame is not invertible are left out; `otherwise` where there is no other.
+glm::dvec3 solveTexel(std::span<const Demand> demands, glm::dvec3 otherwise);
+
+// Degrees between what the place wants and what it gets.
+double degreesOff(const Demand& demand, glm::dvec3 texel);
 
 } // namespace cotan

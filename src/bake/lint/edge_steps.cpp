@@ -7,6 +7,7 @@
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 
+#include "core/list_by_group.hpp"
 #include "cotan/tangents.hpp"
 #include "cotan/vector.hpp"
 #include "lint_parts.hpp"
@@ -22,63 +23,40 @@ struct Side {
     std::size_t triangle() const { return corner / 3; }
 };
 
-// The sides of edges, listed by the edge's vertex with the smaller number.
-class SidesByVertex {
-public:
-    explicit SidesByVertex(const MappedSurface& s) : indices_(s.shared->mesh->indices)
-    {
-        const Mesh& mesh = *s.shared->mesh;
-        first_ = firstEqualVertices({mesh.positions, mesh.normals, s.shared->uv, mesh.indices});
-        if (first_.empty())
-            return;
-        begin_.assign(first_.size() + 1, 0);
-        eachSide([&](std::uint32_t low, std::uint32_t) { ++begin_[low + 1]; });
-        for (std::size_t v = 1; v < begin_.size(); ++v)
-            begin_[v] += begin_[v - 1];
-        corners_.resize(begin_.back());
-        eachSide([&](std::uint32_t low, std::uint32_t corner) { corners_[begin_[low]++] = corner; });
-        // Every vertex's beginning has become its end, which is the next one's beginning.
-    }
-
-    // Calls use(a, b) for every edge that exactly two triangles share.
-    template<class Use> void eachPair(const Use& use) const
-    {
-        std::vector<Side> sides;
-        std::uint32_t from = 0;
-        for (std::size_t low = 0; low < first_.size(); ++low) {
-            sides.clear();
-            for (std::uint32_t i = from; i < begin_[low]; ++i)
-                sides.push_back({higher(corners_[i]), corners_[i]});
-            from = begin_[low];
-            std::sort(sides.begin(), sides.end(), [](const Side& a, const Side& b) {
-                return std::array{a.high, a.corner} < std::array{b.high, b.corner};
-            });
-            for (std::size_t i = 0; i < sides.size();) {
-                std::size_t end = i + 1;
-                while (end < sides.size() && sides[end].high == sides[i].high)
-                    ++end;
-                if (end == i + 2)
-                    use(sides[i], sides[i + 1]);
-                i = end;
-            }
+// Calls use(a, b) for every edge that exactly two triangles share, its sides listed by its vertex with the smaller
+// number.
+template<class Use> void eachSharedEdge(const MappedSurface& s, const Use& use)
+{
+    const Mesh& mesh = *s.shared->mesh;
+    const auto first = firstEqualVertices({mesh.positions, mesh.normals, s.shared->uv, mesh.indices});
+    if (first.empty())
+        return;
+    const auto endsOf = [&](std::uint32_t corner) { // of the edge that begins there: smaller, larger
+        return std::minmax(first[mesh.indices[corner]], first[mesh.indices[corner / 3 * 3 + (corner + 1) % 3]]);
+    };
+    const auto eachSide = [&](const auto& add) {
+        for (std::uint32_t c = 0; c < mesh.indices.size(); ++c)
+            if (const auto [low, high] = endsOf(c); low != high)
+                add(low, c);
+    };
+    std::vector<std::uint32_t> begin, corners;
+    listByGroup(first.size(), eachSide, begin, corners);
+    std::vector<Side> sides;
+    for (std::size_t low = 0; low < first.size(); ++low) {
+        sides.clear();
+        for (std::uint32_t i = begin[low]; i < begin[low + 1]; ++i)
+            sides.push_back({endsOf(corners[i]).second, corners[i]});
+        std::ranges::sort(sides, {}, [](const Side& side) { return std::pair(side.high, side.corner); });
+        for (std::size_t i = 0; i < sides.size();) {
+            std::size_t end = i + 1;
+            while (end < sides.size() && sides[end].high == sides[i].high)
+                ++end;
+            if (end == i + 2)
+                use(sides[i], sides[i + 1]);
+            i = end;
         }
     }
-
-private:
-    std::uint32_t vertexOf(std::uint32_t corner) const { return first_[indices_[corner]]; }
-    static std::uint32_t following(std::uint32_t corner) { return corner / 3 * 3 + (corner + 1) % 3; }
-    std::uint32_t higher(std::uint32_t corner) const { return std::max(vertexOf(corner), vertexOf(following(corner))); }
-
-    template<class Use> void eachSide(const Use& use) const
-    {
-        for (std::uint32_t c = 0; c < indices_.size(); ++c)
-            if (const std::uint32_t a = vertexOf(c), b = vertexOf(following(c)); a != b)
-                use(std::min(a, b), c);
-    }
-
-    const std::vector<std::uint32_t>& indices_;
-    std::vector<std::uint32_t> first_, begin_, corners_;
-};
+}
 
 // The middle of an edge in its triangle.
 glm::dvec3 middle(const Side& side)
@@ -158,7 +136,7 @@ EdgeSteps edgeSteps(const MappedSurface& s, std::size_t maxEdges)
     const std::size_t edges = s.triangleCount() * 3 / 2; // of a closed mesh; others have fewer pairs
     const std::size_t every = std::max<std::size_t>((edges + maxEdges - 1) / maxEdges, 1);
     ValueStatistics cotangent, orthonormal;
-    SidesByVertex(s).eachPair([&](const Side& a, const Side& b) {
+    eachSharedEdge(s, [&](const Side& a, const Side& b) {
         const int orientation = orientations[a.triangle()];
         if (orientation == 0 || orientation != orientations[b.triangle()])
             return;

@@ -1,8 +1,10 @@
 #include "cotan/lint.hpp"
 
-#include <optional>
+#include <cmath>
 
 #include <fmt/format.h>
+
+#include "lint_parts.hpp"
 
 namespace cotan {
 
@@ -20,95 +22,67 @@ std::string otherGreen(const GreenEvidence& map)
                        maps::name(map.verdict.confidence));
 }
 
-// The mean over the whole model of reading with that frame, by area; nothing where no primitive was judged.
-std::optional<double> meanOf(const LintReport& report, const std::string& frame)
+// modelMean: in degrees, with the frame of the limits; NaN where nothing was judged.
+void checkPrimitive(const PrimitiveLint& p, const std::string& where, double modelMean, LintCheck& check)
 {
-    double area = 0, sum = 0;
-    for (const PrimitiveLint& p : report.primitives)
-        for (const Reading& r : p.readings)
-            if (r.name == frame && r.error.count > 0) {
-                area += p.uv.area;
-                sum += p.uv.area * r.error.mean;
-            }
-    return area > 0 ? std::optional(sum / area) : std::nullopt;
+    const char* const percent = "% of the area";
+    const auto over = [&](const char* kind, double value, double limit, const std::string& what, const char* unit) {
+        const bool fails = limit >= 0 && value > limit;
+        if (fails)
+            check.failures.push_back(
+                {.kind = kind,
+                 .where = where,
+                 .value = value,
+                 .limit = limit,
+                 .text = fmt::format("{}: {} {:.3g} {}, limit {:.3g}", where, what, value, unit, limit),
+                 .mesh = p.mesh,
+                 .material = p.material,
+                 .percent = unit == percent});
+        return fails;
+    };
+    const double degrees = check.limits.degrees, area = check.limits.area;
+    if (degrees >= 0 && p.unread)
+        check.failures.push_back({.kind = "not_judged",
+                                  .where = where,
+                                  .text = fmt::format("{}: not judged, {}", where, p.notJudged),
+                                  .mesh = p.mesh,
+                                  .material = p.material});
+    for (const Reading& r : p.readings)
+        if (r.name == check.limits.frame
+            && over("reading", r.error.percentile95, degrees, "95 % of the error of reading with " + r.name, "degrees"))
+            check.failures.back().beside = fmt::format(
+                "each primitive is held to it by itself; the mean of this one is {:.3g}, of the model {:.3g}",
+                r.error.mean, std::isnan(modelMean) ? r.error.mean : modelMean);
+    if (p.image >= 0)
+        over("rounding", p.precision, degrees, "rounding", "degrees");
+    over("degenerate_uv", 100 * p.uv.degenerate, area, "degenerate uv on", percent);
+    over("mirrored_overlap", 100 * p.uv.overlappingMirrored, area, "uv overlapping in both orientations on", percent);
+    over("reversed_w", 100 * p.stored.reversedW, area, "TANGENT.w against the uv on", percent);
+    over("turned_tangents", 100 * p.stored.turned, area, "stored tangents turned on", percent);
 }
-
-class Checker {
-public:
-    Checker(const LintReport& report, const LintLimits& limits)
-        : report_(report), check_{limits, {}}, modelMean_(meanOf(report, limits.frame))
-    {
-    }
-
-    LintCheck run()
-    {
-        for (std::size_t i = 0; i < report_.primitives.size(); ++i)
-            checkPrimitive(report_.primitives[i], cotan::nameOf(report_.primitives[i], i));
-        for (const GreenEvidence& map : report_.maps)
-            if (!map.asDeclared())
-                check_.failures.push_back(
-                    {.kind = "reversed_green", .where = nameOf(map), .text = otherGreen(map), .map = nameOf(map)});
-        bool anyMap = false, anyJudged = false;
-        for (const PrimitiveLint& p : report_.primitives) {
-            anyMap = anyMap || p.image >= 0;
-            anyJudged = anyJudged || (p.image >= 0 && p.notJudged.empty());
-        }
-        if (check_.limits.degrees >= 0 && anyMap && !anyJudged && check_.passed())
-            check_.failures.push_back({.kind = "not_judged", .where = "", .text = "no normal map could be judged"});
-        return std::move(check_);
-    }
-
-private:
-    void checkPrimitive(const PrimitiveLint& p, const std::string& where)
-    {
-        const char* const percent = "% of the area";
-        const auto over = [&](const char* kind, double value, double limit, const std::string& what, const char* unit) {
-            const bool fails = limit >= 0 && value > limit;
-            if (fails)
-                check_.failures.push_back(
-                    {.kind = kind,
-                     .where = where,
-                     .value = value,
-                     .limit = limit,
-                     .text = fmt::format("{}: {} {:.3g} {}, limit {:.3g}", where, what, value, unit, limit),
-                     .mesh = p.mesh,
-                     .material = p.material,
-                     .percent = unit == percent});
-            return fails;
-        };
-        const double degrees = check_.limits.degrees, area = check_.limits.area;
-        if (degrees >= 0 && p.unread)
-            check_.failures.push_back({.kind = "not_judged",
-                                       .where = where,
-                                       .text = fmt::format("{}: not judged, {}", where, p.notJudged),
-                                       .mesh = p.mesh,
-                                       .material = p.material});
-        for (const Reading& r : p.readings)
-            if (r.name == check_.limits.frame
-                && over("reading", r.error.percentile95, degrees, "95 % of the error of reading with " + r.name,
-                        "degrees"))
-                check_.failures.back().beside = fmt::format(
-                    "each primitive is held to it by itself; the mean of this one is {:.3g}, of the model {:.3g}",
-                    r.error.mean, modelMean_.value_or(r.error.mean));
-        if (p.image >= 0)
-            over("rounding", p.precision, degrees, "rounding", "degrees");
-        over("degenerate_uv", 100 * p.uv.degenerate, area, "degenerate uv on", percent);
-        over("mirrored_overlap", 100 * p.uv.overlappingMirrored, area, "uv overlapping in both orientations on",
-             percent);
-        over("reversed_w", 100 * p.stored.reversedW, area, "TANGENT.w against the uv on", percent);
-        over("turned_tangents", 100 * p.stored.turned, area, "stored tangents turned on", percent);
-    }
-
-    const LintReport& report_;
-    LintCheck check_;
-    std::optional<double> modelMean_; // in degrees, with the frame of the limits
-};
 
 } // namespace
 
 LintCheck checkLimits(const LintReport& report, const LintLimits& limits)
 {
-    return limits.any() ? Checker(report, limits).run() : LintCheck{limits, {}};
+    LintCheck check{limits, {}};
+    if (!limits.any())
+        return check;
+    const double modelMean = lint::meanOfReading(report, limits.frame);
+    bool anyMap = false, anyJudged = false;
+    for (std::size_t i = 0; i < report.primitives.size(); ++i) {
+        const PrimitiveLint& p = report.primitives[i];
+        checkPrimitive(p, nameOf(p, i), modelMean, check);
+        anyMap = anyMap || p.image >= 0;
+        anyJudged = anyJudged || (p.image >= 0 && p.notJudged.empty());
+    }
+    for (const GreenEvidence& map : report.maps)
+        if (!map.asDeclared())
+            check.failures.push_back(
+                {.kind = "reversed_green", .where = nameOf(map), .text = otherGreen(map), .map = nameOf(map)});
+    if (limits.degrees >= 0 && anyMap && !anyJudged && check.passed())
+        check.failures.push_back({.kind = "not_judged", .where = "", .text = "no normal map could be judged"});
+    return check;
 }
 
 const std::vector<std::string>& readingNames()

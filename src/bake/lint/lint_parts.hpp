@@ -1,10 +1,44 @@
-// The steps of lintScene, each in a file of its own.
+// The steps of lintScene, each in a file of its own, and what pictures show of them.
 #pragma once
+
+#include <array>
+#include <cstddef>
 
 #include "bake/lint/map_fit.hpp"
 #include "cotan/lint.hpp"
 
-namespace cotan::lint {
+namespace cotan {
+
+// ---- one triangle -----------------------------------------------------------------------------
+
+// How one triangle stretches its texture coordinates.
+struct TriangleUv {
+    bool usable = false;     // it has an area in space; all else is 0 without
+    bool degenerate = false; // uv along a line, or one point; stretch is 0 then
+    double stretch = 0;      // the longer axis of uv's unit circle over the shorter: at least 1
+    double shear = 0;        // degrees between the gradients of u and v and a right angle
+    double gradient = 0;     // the longer of the two, per unit of length
+    double density = 0;      // uv per unit of length: the root of the area in uv over that in space
+    int orientation = 0;     // as orientationOf: -1 mirrored
+};
+
+// Of a triangle with these edges (edgesOf). surface: with uv.
+TriangleUv triangleUv(const MappedSurface& surface, std::size_t triangle, const TriangleEdges& edges);
+
+// A stored tangent at one corner of a triangle, against the texture coordinates.
+struct StoredCorner {
+    bool compared = false; // there is a tangent and a dP/du to hold it against
+    bool reversed = false; // w points against +v
+    double degrees = 0;    // from dP/du, in the plane of the normal; 180 where the tangent has no direction there
+};
+
+// All corners of such a triangle. Nothing is compared where its uv have no area.
+std::array<StoredCorner, 3> storedCorners(const MappedSurface& surface, std::size_t triangle,
+                                          const TriangleEdges& edges);
+
+// ---- a whole surface --------------------------------------------------------------------------
+
+namespace lint {
 
 // Everything of UvQuality but the two overlaps.
 UvQuality uvQuality(const MappedSurface& surface);
@@ -33,6 +67,9 @@ std::vector<double> seen(const MappedSurface& surface, const std::vector<MeshPoi
 std::vector<Reading> readings(const MappedSurface& surface, const std::vector<MeshPoint>& points, Frame madeFor,
                               const Material& material, const Image& map, double maxPixels = kMaxPixels);
 
+// The mean over the whole model of reading with that frame, by area; NaN where no primitive was judged.
+double meanOfReading(const LintReport& report, const std::string& frame);
+
 // Whether the stored tangents contradict the uv and the maps do not make up for it; from primitives and maps.
 bool distrustStored(const LintReport& report);
 
@@ -41,4 +78,6 @@ void recommend(LintReport& report);
 
 double degreesBetween(glm::dvec3 a, glm::dvec3 b); // of unit vectors; stays exact near zero
 
-} // namespace cotan::lint
+} // namespace lint
+
+} // namespace cotan

@@ -195,16 +195,6 @@ void addMaps(LintReport& report, const Scene& scene)
 // A clear coat's image, and how a primitive reads it.
 using CoatUse = std::pair<int, MapUse>;
 
-// The frames that the normal maps of the images are for: that of the first material with each.
-std::map<int, Frame> framesOfImages(const Scene& scene)
-{
-    std::map<int, Frame> frames;
-    for (const Material& m : scene.materials)
-        for (const Texture* const texture : {&m.normalMap, &m.coat.normalMap})
-            frames.emplace(texture->image, madeFor(m));
-    return frames;
-}
-
 // How each map would do as it is with the frames that may be advised.
 void addFits(LintReport& report, const Scene& scene, const std::vector<MapUse>& uses, const std::vector<CoatUse>& coats)
 {
@@ -215,7 +205,10 @@ void addFits(LintReport& report, const Scene& scene, const std::vector<MapUse>& 
     for (const auto& [image, use] : coats)
         readers[image].push_back(use);
     const TangentOrigin from = lint::distrustStored(report) ? TangentOrigin::generated : TangentOrigin::stored;
-    const std::map<int, Frame> frames = framesOfImages(scene);
+    std::map<int, Frame> frames; // of the images: that of the first material with each
+    for (const Material& m : scene.materials)
+        for (const Texture* const texture : {&m.normalMap, &m.coat.normalMap})
+            frames.emplace(texture->image, madeFor(m));
     for (auto& [image, shown] : readers) {
         const Image& map = scene.images[std::size_t(image)];
         MapFit fit{{}, image, map.name};
@@ -277,7 +270,6 @@ Result<LintReport> lintScene(const Scene& scene, const LintOptions& options, con
     for (std::size_t i = 0; i < scene.meshes.size(); ++i) {
         const Mesh& mesh = scene.meshes[i];
         const Material& material = scene.materials[std::size_t(mesh.material)];
-        const Sampler& sampler = material.normalMap.sampler;
         const std::shared_ptr<const Mesh> held(std::shared_ptr<void>(), &mesh); // the scene outlives the surfaces
         const FrameSet frames = framesOfLint(material);
         const MappedSurface own = makeSurface(held, material.normalMap, glm::dmat3(1), frames);
@@ -289,8 +281,12 @@ Result<LintReport> lintScene(const Scene& scene, const LintOptions& options, con
         if (!counted.add(kOfSurface * double(mesh.triangleCount())))
             return stoppedError();
         for (std::size_t k = 0; k < count; ++k) {
-            uses.push_back({placedBy(own, placed[i][k]), material.normalFormat, double(material.normalScale),
-                            sampler.wrapU, sampler.wrapV});
+            const auto useOf = [&](const MappedSurface& surface, const auto& reader) { // the material or its coat
+                const Sampler& sampler = reader.normalMap.sampler;
+                return MapUse{placedBy(surface, placed[i][k]), reader.normalFormat, double(reader.normalScale),
+                              sampler.wrapU, sampler.wrapV};
+            };
+            uses.push_back(useOf(own, material));
             PrimitiveLint p = lintPrimitive(scene, mesh, uses.back().surface, report.distance, limits, counted, share);
             if (counted.stopped)
                 return stoppedError();
@@ -298,9 +294,7 @@ Result<LintReport> lintScene(const Scene& scene, const LintOptions& options, con
             p.placings = placed[i].size();
             report.primitives.push_back(std::move(p));
             if (const Texture& coat = material.coat.normalMap; coat.present())
-                coats.push_back({coat.image,
-                                 {placedBy(ofCoat, placed[i][k]), material.coat.normalFormat,
-                                  double(material.coat.normalScale), coat.sampler.wrapU, coat.sampler.wrapV}});
+                coats.push_back({coat.image, useOf(ofCoat, material.coat)});
         }
     }
     addOverlaps(report, uses);

@@ -5,7 +5,6 @@
 
 #include <glm/geometric.hpp>
 
-#include "bake/lint/texel.hpp"
 #include "lint_parts.hpp"
 #include "scene/texture_sample.hpp"
 

@@ -2,6 +2,8 @@
 // that asks for a new map. `lint` and `convert` both decide by this.
 #pragma once
 
+#include <cmath>
+#include <cstdint>
 #include <optional>
 #include <span>
 #include <vector>
@@ -11,9 +13,37 @@
 #include "cotan/convention.hpp"
 #include "cotan/convert.hpp"
 #include "cotan/lint.hpp"
+#include "cotan/portable.hpp"
 #include "cotan/scene.hpp"
+#include "scene/texture_sample.hpp"
 
 namespace cotan {
+
+// ---- texels ----------------------------------------------------------------------------------
+
+// The stored components at column x, row y, as a sampler gives them: unorm as [0,1].
+inline glm::dvec3 storedTexel(const Image& image, int x, int y)
+{
+    return atTexel(image, x, y, [](const auto* c, int most) { return glm::dvec3(c[0], c[1], c[2]) / double(most); });
+}
+
+// The texel that a coordinate falls into along one axis: `size` texels, coordinates in [0,1) the image itself.
+inline int wrappedTexel(double coordinate, int size, Wrap wrap)
+{
+    if (!(std::abs(coordinate) <= kFarthestUv))
+        return 0;
+    return wrapTexel(std::int64_t(std::floor(coordinate * size)), size, wrap);
+}
+
+// The decoded texel, nearest filter, finest level.
+inline glm::dvec3 decodedAt(const Image& image, Wrap wrapU, Wrap wrapV, const f64::cotan_normal_format& format,
+                            glm::dvec2 uv)
+{
+    return f64::cotan_decode(
+        storedTexel(image, wrappedTexel(uv.x, image.width, wrapU), wrappedTexel(uv.y, image.height, wrapV)), format);
+}
+
+// ---- places on surfaces, and how far off a map is there --------------------------------------
 
 // A set of values in short, as reports of lint and convert say it. Takes it by value, because a percentile sorts.
 inline ValueSummary summaryOf(ValueStatistics values)

@@ -68,11 +68,6 @@ Whole wholeReading(const LintReport& report, const std::string& name)
     return wholeOf(report, [&](const PrimitiveLint& p) { return errorOf(p, name); });
 }
 
-Whole wholeSteps(const LintReport& report)
-{
-    return wholeOf(report, [](const PrimitiveLint& p) { return judged(p) ? &p.steps.cotangent : nullptr; });
-}
-
 // Shares of the area with a map and stored tangents; 0 where there are none.
 struct Stored {
     double reversedW = 0, turned = 0;
@@ -93,6 +88,12 @@ Stored storedShares(const LintReport& report)
         s.turned /= area;
     }
     return s;
+}
+
+void addSentence(std::string& text, const std::string& sentence)
+{
+    if (!sentence.empty())
+        text += (text.empty() ? "" : " ") + sentence;
 }
 
 // "a, b, c and 4 more".
@@ -137,9 +138,8 @@ std::string brokenMaps(const LintReport& report)
         const std::vector<maps::Fault> faults = maps::faultsOf(g.verdict.statistics);
         if (faults.empty())
             continue;
-        text += text.empty() ? "" : " ";
-        text +=
-            maps::sentenceOf(g.name.empty() ? fmt::format("Image {}", g.image) : g.name, faults, g.verdict.statistics);
+        const std::string map = g.name.empty() ? fmt::format("Image {}", g.image) : g.name;
+        addSentence(text, maps::sentenceOf(map, faults, g.verdict.statistics));
     }
     return text;
 }
@@ -171,15 +171,17 @@ std::string defectsOfFrames(const LintReport& report)
     if (!text.empty() && green.empty() && !distrustStored(report))
         text += " Whether green is right cannot be told from the maps, so the tangents are followed.";
     if (!green.empty())
-        text += fmt::format("{}Green seems to point the other way in {} (cotan map convert {} turns it).",
-                            text.empty() ? "" : " ", green, turningOptions(report));
+        addSentence(text,
+                    fmt::format("Green seems to point the other way in {} (cotan map convert {} turns it).", green,
+                                turningOptions(report)));
     return text;
 }
 
 std::string defects(const LintReport& report)
 {
-    const std::string broken = brokenMaps(report), rest = defectsOfFrames(report);
-    return broken.empty() || rest.empty() ? broken + rest : broken + " " + rest;
+    std::string text = brokenMaps(report);
+    addSentence(text, defectsOfFrames(report));
+    return text;
 }
 
 const ValueSummary& of(const FrameSummaries& summaries, Advice advice)
@@ -222,14 +224,14 @@ std::string notJudged(const LintReport& report)
     return names.empty() ? "" : fmt::format("The normal map could not be judged in {}.", listed(names));
 }
 
-// A sentence on the primitive with the largest mean error of that reading among those where somebody might see it;
-// empty if there is none.
-std::string worstReading(const LintReport& report, const std::string& name)
+// A sentence on the primitive with the largest mean error of reading with orthonormal among those where somebody might
+// see it; empty if there is none.
+std::string worstReading(const LintReport& report)
 {
     std::string text;
     double worst = 0;
     for (const PrimitiveLint& p : report.primitives)
-        if (const ValueSummary* const error = errorOf(p, name);
+        if (const ValueSummary* const error = errorOf(p, "orthonormal");
             error && (error->mean > kUnseenMean || error->percentile95 > kUnseen95) && error->mean > worst) {
             worst = error->mean;
             text = fmt::format("The largest error is in {}: {:.2f} degrees on average, over {:.1f} on 5 % of its area.",
@@ -249,7 +251,7 @@ std::string seen(const Whole& orthonormal, const Whole& cotangent)
                        how, orthonormal.mean, cotangent.mean);
 }
 
-// Counts what the command would do; dropTangents (bake/convert/drop_tangents.cpp) says which tangents go. Maps that are
+// Counts what the command would do; dropTangents (bake/convert/map_jobs.cpp) says which tangents go. Maps that are
 // to be read as they are stay: with the frame orthonormal by --keep-maps, with one that the file names without a
 // command.
 void foresee(LintReport& report)
@@ -321,10 +323,12 @@ bool readsAsItIs(const LintReport& report, const Whole& orthonormal)
 
 void adviseForMaps(LintReport& report)
 {
-    const Whole orthonormal = wholeReading(report, "orthonormal"), steps = wholeSteps(report);
+    const Whole orthonormal = wholeReading(report, "orthonormal");
+    const Whole steps =
+        wholeOf(report, [](const PrimitiveLint& p) { return judged(p) ? &p.steps.cotangent : nullptr; });
     report.seen =
         report.named ? seenOfNamed(report, orthonormal) : seen(orthonormal, wholeReading(report, "cotangent"));
-    report.worst = report.named ? std::string() : worstReading(report, "orthonormal");
+    report.worst = report.named ? std::string() : worstReading(report);
     report.advice = report.named           ? Advice::readNamed
         : readsAsItIs(report, orthonormal) ? Advice::readOrthonormal
         : orthonormal.unseen()             ? Advice::convertToOrthonormal
@@ -335,6 +339,8 @@ void adviseForMaps(LintReport& report)
 }
 
 } // namespace
+
+double meanOfReading(const LintReport& report, const std::string& frame) { return wholeReading(report, frame).mean; }
 
 bool distrustStored(const LintReport& report)
 {
@@ -360,8 +366,7 @@ void recommend(LintReport& report)
     }
     for (const std::string* sentence :
          {&report.defects, &report.seen, &report.worst, &report.advised, &report.notJudged, &report.otherReaders})
-        if (!sentence->empty())
-            report.recommendation += (report.recommendation.empty() ? "" : " ") + *sentence;
+        addSentence(report.recommendation, *sentence);
 }
 
 } // namespace lint

@@ -80,7 +80,8 @@ template<class TextFrame> CotangentFrame<double> typed(const TextFrame& f)
 
 } // namespace
 
-Result<LowSurface> makeLowSurface(const Scene& scene, int material, Frame frame, TangentOrigin tangents)
+Result<LowSurface> makeLowSurface(const Scene& scene, int material, Frame frame, TangentOrigin tangents,
+                                  std::span<const Instance> instances)
 {
     if (dependsOnView(frame))
         return usageError("the frame " + std::string(name(frame)) + " depends on the view: no map can be made for it");
@@ -88,20 +89,20 @@ Result<LowSurface> makeLowSurface(const Scene& scene, int material, Frame frame,
     surface.frame = frame;
     bool allStored = readsTangents(frame) && tangents == TangentOrigin::stored;
     auto chosen = [&](const Mesh& mesh) { return material < 0 || mesh.material == material; };
-    for (const Instance& instance : scene.instances) {
+    for (const Instance& instance : instances) {
         const Mesh& mesh = scene.meshes[std::size_t(instance.mesh)];
         if (chosen(mesh) && !mesh.indices.empty())
             allStored = allStored && !mesh.tangents.empty();
     }
-    for (std::size_t i = 0; i < scene.instances.size(); ++i) {
-        const Mesh& mesh = scene.meshes[std::size_t(scene.instances[i].mesh)];
+    for (std::size_t i = 0; i < instances.size(); ++i) {
+        const Mesh& mesh = scene.meshes[std::size_t(instances[i].mesh)];
         if (!chosen(mesh) || mesh.indices.empty())
             continue;
         const Texture& map = scene.materials[std::size_t(mesh.material)].normalMap;
         if (mesh.texcoords[uvSetOf(map)].empty())
             return inputError(scene.name + ": mesh '" + mesh.name + "' has no texture coordinates (uv set "
                               + std::to_string(uvSetOf(map)) + ")");
-        append(surface, mesh, map, scene.instances[i].toWorld, std::uint32_t(i), allStored);
+        append(surface, mesh, map, instances[i].toWorld, std::uint32_t(i), allStored);
     }
     if (surface.indices.empty())
         return inputError(scene.name + ": expected triangles; found none");

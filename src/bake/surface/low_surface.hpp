@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include <glm/vec2.hpp>
@@ -35,7 +36,13 @@ struct LowSurface {
 // frame needs. uv are those of the material's normal map, or uv set 0 where it has none.
 // Errors: ErrorKind::input where there is no triangle or a mesh has no uv; ErrorKind::usage for a
 // frame that depends on the view, for which no map can be made.
-Result<LowSurface> makeLowSurface(const Scene& scene, int material, Frame frame, TangentOrigin tangents);
+// instances: of the scene's meshes; all of the scene's own unless given.
+Result<LowSurface> makeLowSurface(const Scene& scene, int material, Frame frame, TangentOrigin tangents,
+                                  std::span<const Instance> instances);
+inline Result<LowSurface> makeLowSurface(const Scene& scene, int material, Frame frame, TangentOrigin tangents)
+{
+    return makeLowSurface(scene, material, frame, tangents, scene.instances);
+}
 
 // One point of it.
 struct LowPoint {

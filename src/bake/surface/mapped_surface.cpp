@@ -144,12 +144,6 @@ std::shared_ptr<SurfaceMesh> shareMesh(std::shared_ptr<const Mesh> mesh, const T
     return shared;
 }
 
-MappedSurface placed(std::shared_ptr<const SurfaceMesh> shared, const glm::dmat3& linear)
-{
-    const LinearMap<double> map(linear);
-    return {std::move(shared), map, map.planeMatrix()};
-}
-
 // What a surface reads of a mesh.
 std::shared_ptr<const Mesh> copied(const Mesh& mesh)
 {
@@ -199,7 +193,7 @@ glm::dvec4 MappedSurface::generated(Frame frame, std::size_t corner) const
 MappedSurface makeSurface(std::shared_ptr<const Mesh> mesh, const Texture& map, const glm::dmat3& linear,
                           const FrameSet& wanted)
 {
-    return placed(shareMesh(std::move(mesh), map, wanted), linear);
+    return placedBy({shareMesh(std::move(mesh), map, wanted)}, linear);
 }
 
 MappedSurface makeSurface(const Mesh& mesh, const Texture& map, const glm::dmat3& linear, const FrameSet& wanted)
@@ -233,12 +227,13 @@ MappedSurface makeCoatSurface(std::shared_ptr<const Mesh> mesh, const Texture& s
         shared->cotangents = {};
         shared->ofCoat = true;
     }
-    return placed(std::move(shared), glm::dmat3(1));
+    return placedBy({std::move(shared)}, glm::dmat3(1));
 }
 
 MappedSurface placedBy(const MappedSurface& surface, const glm::dmat3& linear)
 {
-    return placed(surface.shared, linear);
+    const LinearMap<double> map(linear);
+    return {surface.shared, map, map.planeMatrix()};
 }
 
 f64::cotan_frame frameAt(const MappedSurface& s, Frame frame, TangentOrigin tangents, std::size_t triangle,

@@ -41,16 +41,12 @@ private:
 };
 
 // What was derived for the corners of a mesh, once for those of a vertex that have the same.
-struct CornerTangents {
-    std::vector<glm::vec4> values; // as glTF has them
+template<class Values> struct OfCorners {
+    Values values;
     CornerPlaces places;
 };
-
-// Gradients of u and v, likewise.
-struct CornerCotangents {
-    Cotangents values;
-    CornerPlaces places;
-};
+using CornerTangents = OfCorners<std::vector<glm::vec4>>; // as glTF has them
+using CornerCotangents = OfCorners<Cotangents>;           // gradients of u and v
 
 // What all placings of a mesh share, in the mesh's own space.
 struct SurfaceMesh {

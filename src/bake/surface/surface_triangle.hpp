@@ -1,7 +1,6 @@
 // A triangle in arrays of vertices: its corners, its edges, and what lies between its corners.
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
 #include <vector>
 

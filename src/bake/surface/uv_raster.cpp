@@ -9,6 +9,8 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
+#include "core/list_by_group.hpp"
+
 namespace cotan {
 
 namespace {
@@ -89,24 +91,15 @@ int nextFree(const std::uint8_t* full, int x, int last)
     return found ? int(static_cast<const std::uint8_t*>(found) - full) : last + 1;
 }
 
-// 0 to n - 1, each once, in steps of the golden ratio: the first few are spread evenly over all.
-class Spreading {
-public:
-    explicit Spreading(std::size_t n) : n_(n), step_(std::max<std::size_t>(std::size_t(double(n) * 0.6180339887), 1))
-    {
-        while (std::gcd(step_, n_) > 1)
-            ++step_;
-    }
-    std::size_t next()
-    {
-        const std::size_t here = at_;
-        at_ = (at_ + step_) % n_;
-        return here;
-    }
-
-private:
-    std::size_t n_, step_, at_ = 0;
-};
+// A step whose multiples modulo n are 0 to n - 1, each once: of the golden ratio, so that the first few are spread
+// evenly over all.
+std::size_t spreadingStep(std::size_t n)
+{
+    std::size_t step = std::max<std::size_t>(std::size_t(double(n) * 0.6180339887), 1);
+    while (std::gcd(step, n) > 1)
+        ++step;
+    return step;
+}
 
 } // namespace
 
@@ -190,20 +183,15 @@ template<class Use> void UvRaster::eachPlace(glm::ivec2 tile, bool wrap, const U
 }
 
 UvRaster::UvRaster(const UvTriangles& triangles, int width, int height, glm::ivec2 tile, bool wrap)
-    : triangles_(triangles), width_(width), height_(height), blockFirst_(std::size_t(blocks()) + 1, 0)
+    : triangles_(triangles), width_(width), height_(height)
 {
-    const auto eachBlock = [&](const auto& use) {
+    const auto eachBlock = [&](const auto& add) {
         eachPlace(tile, wrap, [&](const Listed& listed, const Shown& t) {
             for (int block = t.first.y / kBlockRows; block * kBlockRows <= t.last.y; ++block)
-                use(std::size_t(block), listed);
+                add(std::size_t(block), listed);
         });
     };
-    eachBlock([&](std::size_t block, const Listed&) { ++blockFirst_[block + 1]; });
-    for (std::size_t block = 1; block < blockFirst_.size(); ++block)
-        blockFirst_[block] += blockFirst_[block - 1];
-    listed_.resize(blockFirst_.back());
-    std::vector<std::size_t> next(blockFirst_.begin(), blockFirst_.end() - 1);
-    eachBlock([&](std::size_t block, const Listed& listed) { listed_[next[block]++] = listed; });
+    listByGroup(std::size_t(blocks()), eachBlock, blockFirst_, listed_);
 }
 
 std::pair<int, int> UvRaster::span(const Shown& t, double py, double reach, double& low, double& high) const
@@ -301,12 +289,12 @@ void UvRaster::row(int y, UvRow& result, const UvFew& few) const
         orders.push_back(order);
         full[std::size_t(x)] = ++next[std::size_t(x)] >= few.most;
     };
+    const std::size_t step = limited && few.most > 1 ? spreadingStep(listed.size()) : 0; // 0: in their order
     const auto eachShown = [&](const auto& scan) {
-        Spreading spreading(std::max<std::size_t>(listed.size(), 1));
         for (std::size_t i = 0; i < listed.size(); ++i) {
             if (i % 128 == 0 && !std::memchr(full.data(), 0, full.size()))
                 return;
-            order = std::uint32_t(limited && few.most > 1 ? spreading.next() : i);
+            order = std::uint32_t(step > 0 ? i * step % listed.size() : i);
             if (const Shown t = shownAt(listed[order]); t.first.y <= y && y <= t.last.y)
                 scan(t);
         }
@@ -382,23 +370,24 @@ void UvRaster::firsts(int block, UvFirsts& result) const
     }
 }
 
-void UvRaster::eachSpan(int block, const std::function<void(const UvSpan&)>& use) const
+void UvRaster::eachSpan(const std::function<void(const UvSpan&)>& use) const
 {
-    const int top = block * kBlockRows, bottom = std::min(top + kBlockRows, height_) - 1;
-    for (const Listed& listed : listedIn(block)) {
-        const Shown t = shownAt(listed);
-        for (int y = std::max(top, t.first.y); y <= std::min(bottom, t.last.y); ++y) {
-            const double py = y + 0.5;
-            double low, high;
-            auto [first, last] = span(t, py, 0, low, high);
-            while (first <= last && !covers(t, {first + 0.5, py}))
-                ++first;
-            while (first <= last && !covers(t, {last + 0.5, py}))
-                --last;
-            if (first <= last)
-                use({t.triangle, y, first, last});
+    for (int block = 0; block < blocks(); ++block)
+        for (const Listed& listed : listedIn(block)) {
+            const Shown t = shownAt(listed);
+            const int top = block * kBlockRows, bottom = std::min(top + kBlockRows, height_) - 1;
+            for (int y = std::max(top, t.first.y); y <= std::min(bottom, t.last.y); ++y) {
+                const double py = y + 0.5;
+                double low, high;
+                auto [first, last] = span(t, py, 0, low, high);
+                while (first <= last && !covers(t, {first + 0.5, py}))
+                    ++first;
+                while (first <= last && !covers(t, {last + 0.5, py}))
+                    --last;
+                if (first <= last)
+                    use({t.triangle, y, first, last});
+            }
         }
-    }
 }
 
 double rowsUnder(const UvTriangles& triangles, int height)

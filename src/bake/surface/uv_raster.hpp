@@ -90,8 +90,10 @@ public:
     static constexpr int kBlockRows = 8;
     int blocks() const { return (height_ + kBlockRows - 1) / kBlockRows; }
     void firsts(int block, UvFirsts& result) const;
-    // Calls use for every triangle and row of that block, in the order of the triangles. Takes no time for texels.
-    void eachSpan(int block, const std::function<void(const UvSpan&)>& use) const;
+
+    // Calls use for every triangle and row, block by block, in each in the order of the triangles. Takes no time for
+    // texels.
+    void eachSpan(const std::function<void(const UvSpan&)>& use) const;
 
 private:
     struct Listed { // a triangle in one of the places where the repeated image shows it

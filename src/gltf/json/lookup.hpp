@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <set>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <glm/mat3x3.hpp>
@@ -51,6 +52,9 @@ std::vector<std::size_t> materialsOf(const gltf::Json& root, const gltf::Json& p
 gltf::TextureUse normalMapOf(const gltf::Json& root, std::size_t material, NormalSlot slot = NormalSlot::surface);
 gltf::Json& normalSlotOf(gltf::Json& root, std::size_t material, NormalSlot slot);
 
+// Says something in a material's extras; an empty text: that nothing is said. What else is in them stays, but extras
+// that are no object.
+void setExtra(gltf::Json& material, const char* key, std::string_view text);
 // Says in a material's extras how its normal map stores signed numbers (kUnsignedKey); for `exact` nothing is said.
 void setExpansion(gltf::Json& material, Expansion expansion);
 
