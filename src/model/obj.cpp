@@ -193,7 +193,7 @@ Result<Scene> load(const fs::path& file, const LoadLimits& limits)
     Library library(folder, limits, scene);
     for (const std::string& line : obj->libraries)
         library.add(line, file.stem().string() + ".mtl");
-    TextureReader textures(scene, nullptr, folder, limits);
+    TextureReader textures(scene, folder, limits);
     const std::vector<int> materials = makeMaterials(*obj, library, textures, scene);
     if (!obj->texcoords.empty() && obj->polygonsWithoutUv > 0)
         scene.warnings.push_back(fmt::format("{} of {} faces have no texture coordinates; theirs are 0",

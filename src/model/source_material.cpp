@@ -7,10 +7,9 @@
 #include <string_view>
 #include <vector>
 
-#include <assimp/scene.h>
-#include <assimp/texture.h>
 #include <fmt/format.h>
 
+#include "core/named_values.hpp"
 #include "cotan/image.hpp"
 #include "cotan/maps.hpp"
 #include "files/bytes.hpp"
@@ -124,8 +123,7 @@ void setBaseColor(const SourceMaterial& source, TextureReader& textures, Scene& 
 // Names that say that green points down: "directx", or "dx" standing alone or after "normal".
 bool namesDirectX(const std::string& path)
 {
-    std::string name = path.substr(path.find_last_of("/\\") + 1);
-    std::ranges::transform(name, name.begin(), [](unsigned char c) { return std::tolower(c); });
+    const std::string name = lowerCase(path.substr(path.find_last_of("/\\") + 1));
     const auto letter = [&](std::size_t i) {
         return i < name.size() && std::isalpha(static_cast<unsigned char>(name[i]));
     };
@@ -181,12 +179,20 @@ int TextureReader::leaveOut(const std::string& path, const std::string& material
 
 int TextureReader::load(const std::string& path, const std::string& material)
 {
-    const auto addOrWarn = [&](Result<Image> image) {
+    const auto take = [&](std::uint64_t bytes, const auto& read) {
+        const LoadLimits limits = withinBudget(bytes);
+        if (limits.imageBytes == 0)
+            return leaveOut(path, material, overBudget());
+        Result<Image> image = read(limits);
         return image ? add(*std::move(image)) : leaveOut(path, material, image.error().message);
     };
-    if (const aiTexture* texture = source_ ? source_->GetEmbeddedTexture(path.c_str()) : nullptr)
-        return addOrWarn(embedded(*texture, fmt::format("{} {}", scene_.name, path)));
-
+    if (const auto embedded = embedded_(path)) {
+        if (!*embedded)
+            return leaveOut(path, material, embedded->error().message);
+        return take((*embedded)->size(), [&](const LoadLimits& limits) {
+            return decodeImage(**embedded, fmt::format("{} {}", scene_.name, path), limits);
+        });
+    }
     bool outside = false, ignored = false;
     auto file = findInFolder(folder_, path, outside);
     if (!file) {
@@ -201,10 +207,7 @@ int TextureReader::load(const std::string& path, const std::string& material)
         return entry->second;
     std::error_code error;
     const std::uintmax_t size = std::filesystem::file_size(*file, error);
-    const LoadLimits limits = withinBudget(error ? 0 : size);
-    if (limits.imageBytes == 0)
-        return leaveOut(path, material, overBudget());
-    return entry->second = addOrWarn(readImage(*file, limits));
+    return entry->second = take(error ? 0 : size, [&](const LoadLimits& limits) { return readImage(*file, limits); });
 }
 
 // The limits for an image of so many bytes: what is left for all of them together.
@@ -220,19 +223,6 @@ LoadLimits TextureReader::withinBudget(std::uint64_t bytes)
 std::string TextureReader::overBudget() const
 {
     return fmt::format("the images are over the limit of {} bytes", imageBudget(limits_, fileBytes_));
-}
-
-Result<Image> TextureReader::embedded(const aiTexture& texture, const std::string& name)
-{
-    if (!texture.pcData || texture.mWidth == 0)
-        return inputError("the embedded texture is empty");
-    if (texture.mHeight != 0) // 0: a whole image file of mWidth bytes, as all formats that are read here have it
-        return inputError("expected an embedded image file, found plain texels");
-    const LoadLimits limits = withinBudget(texture.mWidth);
-    if (limits.imageBytes == 0)
-        return inputError(overBudget());
-    return decodeImage(std::as_bytes(std::span(reinterpret_cast<const char*>(texture.pcData), texture.mWidth)), name,
-                       limits);
 }
 
 int TextureReader::normalMap(const std::string& path, const std::string& material, float strength, bool& converted)
