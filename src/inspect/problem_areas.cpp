@@ -13,7 +13,7 @@
 #include "bake/lint/triangle_uv.hpp"
 #include "cotan/lint.hpp"
 #include "cotan/maps.hpp"
-#include "scene/bounds.hpp"
+#include "scene/geometry.hpp"
 
 namespace cotan {
 

@@ -9,7 +9,7 @@
 #include <glm/geometric.hpp>
 #include <glm/gtc/type_ptr.hpp>
 
-#include "scene/bounds.hpp"
+#include "scene/geometry.hpp"
 #include "scene/texture_sample.hpp"
 
 namespace cotan::ground {
