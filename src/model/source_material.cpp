@@ -4,21 +4,25 @@
 #include <cctype>
 #include <cmath>
 #include <span>
-#include <string_view>
 #include <vector>
 
 #include <fmt/format.h>
+#include <glm/geometric.hpp>
 
 #include "core/named_values.hpp"
 #include "cotan/image.hpp"
 #include "cotan/maps.hpp"
+#include "cotan/vector.hpp"
 #include "files/bytes.hpp"
 #include "image/component_types.hpp"
 #include "maps/texels.hpp"
+#include "scene/geometry.hpp"
 
 namespace cotan {
 
 namespace {
+
+constexpr float kCreaseDegrees = 60; // where the normals of a mesh are made
 
 // ---- images ----------------------------------------------------------------------------------
 
@@ -237,7 +241,7 @@ int TextureReader::normalMap(const std::string& path, const std::string& materia
     converted = true;
     const auto [entry, isNew] = known_.try_emplace(fmt::format("bump\n{}\n{}", source, strength), -1);
     if (isNew) {
-        entry->second = add(normalMapFromHeight(scene_.images[std::size_t(source)], strength));
+        entry->second = add(normalMapFromHeight(heights, strength));
         scene_.warnings.push_back(fmt::format(
             "material {}: texture {} is grey: taken as a height map and converted to a normal map", material, path));
     }
@@ -285,6 +289,25 @@ Material makeMaterial(const SourceMaterial& source, TextureReader& textures, Sce
         material.emissive = glm::vec3(1);
     material.occlusionMap = read(source.occlusionMap, textures, material.name);
     return material;
+}
+
+void finishMesh(Mesh& mesh, std::string_view unusable, Scene& scene)
+{
+    bool usable = !mesh.normals.empty();
+    for (glm::vec3& stored : mesh.normals) {
+        const glm::dvec3 normal(stored);
+        const double length = glm::length(normal);
+        usable = usable && isFinite(normal) && length > 0;
+        stored = glm::vec3(normal / length);
+    }
+    if (!usable) {
+        if (!mesh.normals.empty())
+            scene.warnings.push_back(
+                fmt::format("mesh {}: some normals are zero or {}; all are made anew", mesh.name, unusable));
+        mesh.normals.clear();
+        generateNormals(mesh, kCreaseDegrees);
+    }
+    weldVertices(mesh);
 }
 
 void warnAboutTexcoords(const Mesh& mesh, Scene& scene)

@@ -10,6 +10,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 
 #include <glm/vec3.hpp>
 
@@ -84,7 +85,9 @@ struct SourceMaterial {
 // means opaque; a grey normal map is a height map; a normal map named for DirectX has green down.
 Material makeMaterial(const SourceMaterial& source, TextureReader& textures, Scene& scene);
 
-inline constexpr float kCreaseDegrees = 60; // where the normals of a mesh are made
+// Makes the stored normals of a mesh unit; where it has none, or one is no direction, all are made of its triangles.
+// Merges equal vertices. unusable: what such normals are beside zero, for a warning.
+void finishMesh(Mesh& mesh, std::string_view unusable, Scene& scene);
 
 // Says, once, where a mesh lacks the texture coordinates that a map of its material needs.
 void warnAboutTexcoords(const Mesh& mesh, Scene& scene);
