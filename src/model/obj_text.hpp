@@ -44,19 +44,17 @@ struct ObjText {
 
 // Reads v vt vn f g o usemtl mtllib; smoothing groups, lines, points, curves and statements that
 // nobody knows are passed over. Polygons become triangles (cutPolygon).
-// Errors (ErrorKind::input, with the line number): a number that is malformed or not finite, index
-// 0, an index out of range (a negative one counts back from the latest and is fine; a face may stand
-// before what it names), a face without corners, corners of one face with and without texture
-// coordinate or normal, no faces at all, over the limits.
+// Errors (ErrorKind::input, with the line number): a number that is malformed or not finite, index 0, an index out of
+// range (a negative one counts back from the latest and is fine; a face may stand before what it names), a face without
+// corners, corners of one face with and without texture coordinate or normal, no faces at all, over the limits.
 // Source: the OBJ specification, appendix B1 of the Advanced Visualizer manual; colours behind
 // positions as ZBrush and MeshLab write them.
 Result<ObjText> parseObj(std::string text, const std::string& name, const LoadLimits& limits);
 
-// Cuts a polygon of three corners or more into corners - 2 triangles by clipping ears, as seen
-// along its mean normal; holes that a bridge of two edges joins to the rim are fine. Appends three
-// places in `corners` a triangle; their winding is the polygon's. Of a planar polygon that does not
-// cross itself the triangles cover the polygon, once; of others, something near. A polygon without
-// area becomes a fan.
+// Cuts a polygon of three corners or more into corners - 2 triangles by clipping ears, as seen along its mean normal;
+// holes that a bridge of two edges joins to the rim are fine. Appends three places in `corners` a triangle; their
+// winding is the polygon's. Of a planar polygon that does not cross itself the triangles cover the polygon, once; of
+// others, something near. A polygon without area becomes a fan.
 // stepsLeft: comparisons of a corner with a triangle that may still be made, one budget for a
 // model: many corners that turn inwards take the square of their number. False: it is used up.
 bool cutPolygon(std::span<const glm::vec3> corners, std::vector<std::uint32_t>& triangles, std::size_t& stepsLeft);

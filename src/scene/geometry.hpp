@@ -30,10 +30,9 @@ template<class M> auto attributesOf(M& mesh)
                     mesh.cotangentsU, mesh.cotangentsV);
 }
 
-// Replaces the mesh's normals by angle-weighted averages over corners that share a position,
-// separated where faces meet at more than `creaseDegrees` (180: everything is smoothed).
-// Vertices are split where needed, all attributes with them. Degenerate triangles add nothing; a
-// vertex with no usable triangle gets (0,0,1).
+// Replaces the mesh's normals by angle-weighted averages over corners that share a position, separated where faces meet
+// at more than `creaseDegrees` (180: everything is smoothed). Vertices are split where needed, all attributes with
+// them. Degenerate triangles add nothing; a vertex with no usable triangle gets (0,0,1).
 void generateNormals(Mesh& mesh, float creaseDegrees = 180);
 
 // Merges vertices whose attributes are equal bit for bit; drops those that no triangle uses.

@@ -43,9 +43,8 @@ void addShape(Scene& scene, Mesh mesh, const Look& look, glm::vec3 place, float 
     scene.meshes.push_back(std::move(mesh));
 }
 
-// A sphere whose right half (seen with u = 1/2 in front) shows the left half's image mirrored, as
-// artists do to save texture space. `segments` must be even, so that a column of vertices lies
-// on the mirror line.
+// A sphere whose right half (seen with u = 1/2 in front) shows the left half's image mirrored, as artists do to save
+// texture space. `segments` must be even, so that a column of vertices lies on the mirror line.
 Mesh makeMirroredSphere(float radius, int segments, float repeatU, float repeatV)
 {
     Mesh mesh = makeSphere(radius, segments);
