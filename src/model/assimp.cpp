@@ -22,7 +22,6 @@
 #include "files/bytes.hpp"
 #include "scene/scene_check.hpp"
 #include "source_material.hpp"
-#include "text_lines.hpp"
 
 // Assimp's build in Debian keeps its assertions, and a failed one ends the process. This takes the
 // place of the library's function, so that a file that trips over one is refused like any other.

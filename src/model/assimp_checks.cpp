@@ -14,7 +14,6 @@
 #include "assimp_convert.hpp"
 #include "core/named_values.hpp"
 #include "core/parse_number.hpp"
-#include "text_lines.hpp"
 
 namespace cotan {
 
@@ -304,6 +303,12 @@ Problem checkAccessors(std::string_view text)
 }
 
 } // namespace
+
+std::string withoutBreaks(std::string text)
+{
+    std::ranges::replace(text, '\n', ' ');
+    return text;
+}
 
 Status checkPly(std::span<const std::byte> bytes, const std::string& name, const LoadLimits& limits)
 {

@@ -30,6 +30,9 @@ Result<Mesh> convertMesh(const aiMesh& source, const std::string& file, bool reg
 Status convertNodes(const aiScene& source, const std::string& file, const std::vector<int>& meshes,
                     const LoadLimits& limits, Scene& scene);
 
+// Spaces for line breaks: for messages of one line.
+std::string withoutBreaks(std::string text);
+
 // ---- checks ----------------------------------------------------------------------------------
 
 // Checks the header of a PLY file line by line, and walks over what it counts: every row of every

@@ -7,7 +7,6 @@
 #include <fmt/format.h>
 
 #include "core/named_values.hpp"
-#include "text_lines.hpp"
 
 namespace cotan {
 

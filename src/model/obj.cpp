@@ -12,7 +12,6 @@
 #include "files/bytes.hpp"
 #include "obj_text.hpp"
 #include "source_material.hpp"
-#include "text_lines.hpp"
 
 namespace cotan {
 
