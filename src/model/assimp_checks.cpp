@@ -246,7 +246,8 @@ std::uint64_t numberOf(std::string_view tag, std::string_view attribute, std::ui
     return number;
 }
 
-// Calls f with the text of every tag of that name, from behind the name, and with where the tag ends.
+// Calls f with the text of every tag of that name, from behind the name, and with where the tag ends. Tags without an
+// end are no XML: the parser says so.
 template<class F> void eachTag(std::string_view text, std::string_view name, F f)
 {
     const std::string open = fmt::format("<{}", name);
@@ -254,8 +255,9 @@ template<class F> void eachTag(std::string_view text, std::string_view name, F f
         at += open.size();
         const std::size_t end = text.find('>', at);
         if (end == text.npos)
-            return;                       // no XML: the parser says so
-        if (at == end || space(text[at])) // not a longer name
+            return;
+        const bool longerName = at < end && !space(text[at]);
+        if (!longerName)
             f(text.substr(at, end - at), end);
     }
 }
