@@ -1,5 +1,4 @@
-// Small questions about Scene and Mesh: vertices, cameras, names, the box around it and how much of it there is to
-// draw.
+// Small questions about Scene and Mesh: vertices, cameras, where things stand, what is drawn.
 #pragma once
 
 #include <algorithm>
@@ -151,9 +150,8 @@ template<class Work> void forEachPlacedPoint(const Scene& scene, const Work& wor
     }
 }
 
-// The box around all instances in world space; positions that are not finite count for nothing. It is
-// the smallest one up to kMaxPlacedVertices; beyond, each instance counts with the corners of its mesh's
-// box, which a matrix that turns makes larger: by sqrt(3) along an axis at most.
+// The box around all instances in world space; positions that are not finite count for nothing. Beyond
+// kMaxPlacedVertices, a matrix that turns makes it larger than the smallest one: by sqrt(3) along an axis at most.
 inline Bounds bounds(const Scene& scene)
 {
     Bounds box = emptyBounds();
