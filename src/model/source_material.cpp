@@ -190,7 +190,7 @@ int TextureReader::load(const std::string& path, const std::string& material)
         Result<Image> image = read(limits);
         return image ? add(*std::move(image)) : leaveOut(path, material, image.error().message);
     };
-    if (const auto embedded = embedded_(path)) {
+    if (const auto embedded = embedded_ ? embedded_(path) : std::nullopt) {
         if (!*embedded)
             return leaveOut(path, material, embedded->error().message);
         return take((*embedded)->size(), [&](const LoadLimits& limits) {

@@ -27,10 +27,9 @@ using EmbeddedImage = std::function<std::optional<Result<std::span<const std::by
 // be used becomes a warning and no image (-1).
 class TextureReader {
 public:
-    // folder: canonical. All that is passed by reference must outlive this.
-    TextureReader(
-        Scene& scene, const std::filesystem::path& folder, const LoadLimits& limits,
-        EmbeddedImage embedded = [](const std::string&) { return std::nullopt; })
+    // folder: canonical. All that is passed by reference must outlive this. embedded: empty where files hold none.
+    TextureReader(Scene& scene, const std::filesystem::path& folder, const LoadLimits& limits,
+                  EmbeddedImage embedded = {})
         : scene_(scene), folder_(folder), limits_(limits), embedded_(std::move(embedded))
     {
     }
