@@ -1,6 +1,6 @@
 # cotan_part(NAME [SOURCES ...] [PUBLIC ...] [PRIVATE ...] [INSIDE ...])
 # One part: a library, and its public headers in src/NAME/include/cotan, which are what is installed. Everything else of
-# src/NAME is internal: our own code includes it by its path in src, "scene/bounds.hpp"; ArchitectureTest
+# src/NAME is internal: our own code includes it by its path in src, "scene/geometry.hpp"; ArchitectureTest
 # (tests/architecture_test.py) holds that a part includes only those that it links. Without SOURCES it is header-only.
 # INSIDE: headers that only its own sources read, so that who links it once installed need not have them. A part that
 # links something which is not there is left out: there is no target cotan_NAME then, and find_package(cotan) can say why.

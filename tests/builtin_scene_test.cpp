@@ -10,7 +10,7 @@
 #include <glm/geometric.hpp>
 
 #include "cotan/scene.hpp"
-#include "scene/bounds.hpp"
+#include "scene/geometry.hpp"
 
 namespace cotan {
 namespace {

@@ -11,8 +11,8 @@
 #include "examples_browser.hpp"
 #include "flip.hpp"
 #include "models.hpp"
-#include "scene/bounds.hpp"
 #include "scene/environment_map.hpp"
+#include "scene/geometry.hpp"
 
 namespace cotan::test {
 namespace {

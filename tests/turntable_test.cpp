@@ -13,7 +13,7 @@
 
 #include "cotan/scene.hpp"
 #include "cotan/view.hpp"
-#include "scene/bounds.hpp"
+#include "scene/geometry.hpp"
 
 namespace cotan {
 namespace {

@@ -8,7 +8,7 @@
 
 #include "camera.hpp"
 #include "inspect/angles.hpp"
-#include "scene/bounds.hpp"
+#include "scene/geometry.hpp"
 #include "viewer_state.hpp"
 
 namespace cotan::viewer {

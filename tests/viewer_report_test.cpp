@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 
 #include "player.hpp"
-#include "scene/bounds.hpp"
+#include "scene/geometry.hpp"
 #include "session.hpp"
 #include "settings.hpp"
 #include "viewer_state.hpp"

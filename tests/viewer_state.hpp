@@ -6,7 +6,7 @@
 #include "commands.hpp"
 #include "event.hpp"
 #include "input.hpp"
-#include "scene/bounds.hpp"
+#include "scene/geometry.hpp"
 #include "state.hpp"
 
 namespace cotan::viewer {

@@ -15,7 +15,7 @@
 #include "image/component_types.hpp"
 #include "likely_turn.hpp"
 #include "parse.hpp"
-#include "scene/bounds.hpp"
+#include "scene/geometry.hpp"
 #include "scene/normal_maps.hpp"
 #include "scene/texture_sample.hpp"
 

@@ -12,7 +12,7 @@
 #include "files.hpp"
 #include "inspect/angles.hpp"
 #include "picture/option_words.hpp"
-#include "scene/bounds.hpp"
+#include "scene/geometry.hpp"
 #include "settings.hpp"
 
 namespace cotan::viewer {

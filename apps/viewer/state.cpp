@@ -11,7 +11,7 @@
 #include "files.hpp"
 #include "image/format_table.hpp"
 #include "picture/option_words.hpp"
-#include "scene/bounds.hpp"
+#include "scene/geometry.hpp"
 #include "settings.hpp"
 
 namespace cotan::viewer {

@@ -1,13 +1,13 @@
 #include "bake/bake_model.hpp"
 
 #include <algorithm>
-#include <cctype>
 #include <chrono>
 #include <cmath>
 
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
 
+#include "core/named_values.hpp"
 #include "cotan/covector.hpp"
 #include "scene/geometry.hpp"
 #include "scene/normal_maps.hpp"
@@ -205,7 +205,7 @@ LowRest restOf(const Scene& low, const BakeModelOptions& options)
 // "door_low" and "door_high" are of one name: what stands before the last low or high.
 std::string stem(std::string name)
 {
-    std::transform(name.begin(), name.end(), name.begin(), [](unsigned char c) { return char(std::tolower(c)); });
+    name = lowerCase(std::move(name));
     for (const char* word : {"low", "high"})
         if (const std::size_t at = name.rfind(word); at != std::string::npos)
             return name.substr(0, at);

@@ -1,6 +1,8 @@
-// Words that stand for values: constant arrays of both, each word once.
+// Words, and those that stand for values: constant arrays of both, each word once.
 #pragma once
 
+#include <algorithm>
+#include <cctype>
 #include <cstddef>
 #include <optional>
 #include <string>
@@ -39,6 +41,13 @@ std::optional<Value> valueOf(const Named<Value> (&all)[count], std::string_view 
         if (word == one.word)
             return one.value;
     return std::nullopt;
+}
+
+// Letters beyond ASCII stay as they are.
+inline std::string lowerCase(std::string text)
+{
+    std::ranges::transform(text, text.begin(), [](unsigned char c) { return char(std::tolower(c)); });
+    return text;
 }
 
 // "a, b or c".

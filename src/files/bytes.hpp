@@ -2,25 +2,19 @@
 // that a model may open files from.
 #pragma once
 
-#include <algorithm>
-#include <cctype>
 #include <cstddef>
 #include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "core/named_values.hpp"
 #include "cotan/result.hpp"
 
 namespace cotan {
 
 // ".png" of "A.PNG".
-inline std::string lowerExtension(const std::filesystem::path& file)
-{
-    std::string text = file.extension().string();
-    std::ranges::transform(text, text.begin(), [](unsigned char c) { return std::tolower(c); });
-    return text;
-}
+inline std::string lowerExtension(const std::filesystem::path& file) { return lowerCase(file.extension().string()); }
 
 // The size in bytes of a regular file that may be read.
 // Errors (ErrorKind::input): missing, not a regular file, empty, over `limit` bytes; those of noteInput.

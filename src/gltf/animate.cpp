@@ -11,7 +11,7 @@
 #include <glm/gtc/quaternion.hpp>
 
 #include "core/parse_number.hpp"
-#include "scene/bounds.hpp"
+#include "scene/geometry.hpp"
 
 namespace cotan {
 

@@ -13,7 +13,7 @@
 #include "bake/lint/lint_parts.hpp"
 #include "cotan/lint.hpp"
 #include "cotan/maps.hpp"
-#include "scene/bounds.hpp"
+#include "scene/geometry.hpp"
 
 namespace cotan {
 

@@ -22,7 +22,6 @@
 #include "files/bytes.hpp"
 #include "scene/scene_check.hpp"
 #include "source_material.hpp"
-#include "text_lines.hpp"
 
 // Assimp's build in Debian keeps its assertions, and a failed one ends the process. This takes the
 // place of the library's function, so that a file that trips over one is refused like any other.
@@ -240,9 +239,22 @@ Status checkCounts(const aiScene& source, const Job& job)
     return Done{};
 }
 
+std::optional<Result<std::span<const std::byte>>> embeddedImage(const aiScene& source, const std::string& path)
+{
+    const aiTexture* texture = source.GetEmbeddedTexture(path.c_str());
+    if (!texture)
+        return std::nullopt;
+    if (!texture->pcData || texture->mWidth == 0)
+        return inputError("the embedded texture is empty");
+    if (texture->mHeight != 0) // 0: a whole image file of mWidth bytes, as all formats that are read here have it
+        return inputError("expected an embedded image file, found plain texels");
+    return std::as_bytes(std::span(reinterpret_cast<const char*>(texture->pcData), texture->mWidth));
+}
+
 void convertMaterials(const aiScene& source, Job& job)
 {
-    TextureReader textures(job.scene, &source, job.folder, job.limits);
+    TextureReader textures(job.scene, job.folder, job.limits,
+                           [&](const std::string& path) { return embeddedImage(source, path); });
     for (unsigned i = 0; i < source.mNumMaterials; ++i)
         job.scene.materials.push_back(convertMaterial(*source.mMaterials[i], textures, job.scene));
 }

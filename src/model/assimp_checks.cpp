@@ -14,7 +14,6 @@
 #include "assimp_convert.hpp"
 #include "core/named_values.hpp"
 #include "core/parse_number.hpp"
-#include "text_lines.hpp"
 
 namespace cotan {
 
@@ -225,25 +224,6 @@ Problem checkAttribute(std::string_view text, std::string_view attribute)
     return std::nullopt;
 }
 
-Problem checkNumbers(std::string_view text, std::string_view element)
-{
-    const std::string open = fmt::format("<{}", element);
-    for (std::size_t at = text.find(open); at != text.npos; at = text.find(open, at)) {
-        at += open.size();
-        if (at == text.size() || std::string_view("> \t\r\n").find(text[at]) == text.npos)
-            continue; // a longer name
-        const std::size_t begin = text.find('>', at);
-        if (begin == text.npos)
-            return std::nullopt; // no XML: the parser says so
-        if (text[begin - 1] == '/')
-            continue;
-        const std::size_t end = text.find_first_not_of("0123456789+- \t\r\n", begin + 1);
-        if (end == text.npos || !text.substr(end).starts_with("</"))
-            return fmt::format("expected nothing but whole numbers in <{}>", element);
-    }
-    return std::nullopt;
-}
-
 // The value of an attribute in the text of a tag; empty if it is not there.
 std::string_view attributeOf(std::string_view tag, std::string_view attribute)
 {
@@ -266,7 +246,8 @@ std::uint64_t numberOf(std::string_view tag, std::string_view attribute, std::ui
     return number;
 }
 
-// Calls f with the text of every tag of that name, from behind the name, and with where the tag ends.
+// Calls f with the text of every tag of that name, from behind the name, and with where the tag ends. Tags without an
+// end are no XML: the parser says so.
 template<class F> void eachTag(std::string_view text, std::string_view name, F f)
 {
     const std::string open = fmt::format("<{}", name);
@@ -275,9 +256,21 @@ template<class F> void eachTag(std::string_view text, std::string_view name, F f
         const std::size_t end = text.find('>', at);
         if (end == text.npos)
             return;
-        if (space(text[at]))
+        const bool longerName = at < end && !space(text[at]);
+        if (!longerName)
             f(text.substr(at, end - at), end);
     }
+}
+
+Problem checkNumbers(std::string_view text, std::string_view element)
+{
+    Problem problem;
+    eachTag(text, element, [&](std::string_view, std::size_t close) {
+        const std::size_t end = text.find_first_not_of("0123456789+- \t\r\n", close + 1);
+        if (text[close - 1] != '/' && (end == text.npos || !text.substr(end).starts_with("</")))
+            problem = fmt::format("expected nothing but whole numbers in <{}>", element);
+    });
+    return problem;
 }
 
 // Accessors read from arrays of numbers; no further than these reach.
@@ -285,8 +278,11 @@ Problem checkAccessors(std::string_view text)
 {
     std::map<std::string_view, std::uint64_t> counts;
     eachTag(text, "float_array", [&](std::string_view tag, std::size_t) {
-        const auto [entry, isNew] = counts.try_emplace(attributeOf(tag, "id"), numberOf(tag, "count", 0));
-        entry->second = std::min(entry->second, numberOf(tag, "count", 0));
+        if (tag.empty())
+            return;
+        const std::uint64_t count = numberOf(tag, "count", 0);
+        const auto entry = counts.try_emplace(attributeOf(tag, "id"), count).first;
+        entry->second = std::min(entry->second, count);
     });
     Problem problem;
     eachTag(text, "accessor", [&](std::string_view tag, std::size_t end) {
@@ -309,6 +305,12 @@ Problem checkAccessors(std::string_view text)
 }
 
 } // namespace
+
+std::string withoutBreaks(std::string text)
+{
+    std::ranges::replace(text, '\n', ' ');
+    return text;
+}
 
 Status checkPly(std::span<const std::byte> bytes, const std::string& name, const LoadLimits& limits)
 {

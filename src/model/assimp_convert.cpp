@@ -19,7 +19,6 @@
 
 #include "cotan/portable.hpp"
 #include "cotan/vector.hpp"
-#include "scene/geometry.hpp"
 
 namespace cotan {
 
@@ -124,20 +123,6 @@ Status copyTriangles(const aiMesh& source, const std::string& file, Mesh& mesh)
         }
     }
     return Done{};
-}
-
-// False if one of them is not usable as a direction.
-bool copyNormals(const aiMesh& source, Mesh& mesh)
-{
-    mesh.normals.reserve(source.mNumVertices);
-    for (unsigned i = 0; i < source.mNumVertices; ++i) {
-        const glm::dvec3 normal(toGlm(source.mNormals[i]));
-        const double length = glm::length(normal);
-        if (!isFinite(normal) || !(length > 0))
-            return false;
-        mesh.normals.emplace_back(normal / length);
-    }
-    return true;
 }
 
 void copyTexcoords(const aiMesh& source, Mesh& mesh, Scene& scene)
@@ -250,17 +235,12 @@ Result<Mesh> convertMesh(const aiMesh& source, const std::string& file, bool reg
         return ok.error();
     copyTexcoords(source, mesh, scene);
     copyColors(source, mesh);
-
-    const bool stored = source.mNormals && !regenerateNormals;
-    const bool usable = stored && copyNormals(source, mesh);
-    if (stored && !usable)
-        scene.warnings.push_back(
-            fmt::format("mesh {}: some normals are zero or not finite; all are made anew", mesh.name));
-    if (!usable) {
-        mesh.normals.clear();
-        generateNormals(mesh, kCreaseDegrees);
+    if (source.mNormals && !regenerateNormals) {
+        mesh.normals.resize(source.mNumVertices);
+        std::transform(source.mNormals, source.mNormals + source.mNumVertices, mesh.normals.begin(),
+                       [](const aiVector3D& n) { return toGlm(n); });
     }
-    weldVertices(mesh);
+    finishMesh(mesh, "not finite", scene);
     return mesh;
 }
 

@@ -26,10 +26,12 @@ Material convertMaterial(const aiMaterial& source, TextureReader& textures, Scen
 // Errors: what a broken or hostile file can make Assimp deliver.
 Result<Mesh> convertMesh(const aiMesh& source, const std::string& file, bool regenerateNormals, Scene& scene);
 
-// Instances and cameras from the tree of nodes. meshes: for every mesh of the source its index in
-// the scene, or -1.
+// Instances and cameras from the tree of nodes. meshes: for every mesh of the source its index in the scene, or -1.
 Status convertNodes(const aiScene& source, const std::string& file, const std::vector<int>& meshes,
                     const LoadLimits& limits, Scene& scene);
+
+// Spaces for line breaks: for messages of one line.
+std::string withoutBreaks(std::string text);
 
 // ---- checks ----------------------------------------------------------------------------------
 
@@ -38,10 +40,9 @@ Status convertNodes(const aiScene& source, const std::string& file, const std::v
 // Source: the PLY description of G. Turk (1994), with the sized type names that are common now.
 Status checkPly(std::span<const std::byte> bytes, const std::string& name, const LoadLimits& limits);
 
-// Checks three things of COLLADA that Assimp 5.2 does not: counts, offsets and strides, by which memory is
-// taken, are no larger than the file; lists of indices hold nothing but whole numbers (at anything
-// else the parser repeats the last number until memory ends); and accessors reach no further than
-// the array of numbers that they read.
+// Checks three things of COLLADA that Assimp 5.2 does not: counts, offsets and strides, by which memory is taken, are
+// no larger than the file; lists of indices hold nothing but whole numbers (at anything else the parser repeats the
+// last number until memory ends); and accessors reach no further than the array of numbers that they read.
 Status checkCollada(std::span<const std::byte> bytes, const std::string& name);
 
 } // namespace cotan

@@ -2,13 +2,11 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include "core/named_values.hpp"
-#include "text_lines.hpp"
 
 namespace cotan {
 
@@ -116,13 +114,6 @@ bool readStatement(const std::string& keyword, Words words, SourceMaterial& m)
     return true;
 }
 
-std::string lower(std::string_view word)
-{
-    std::string text(word);
-    std::ranges::transform(text, text.begin(), [](unsigned char c) { return std::tolower(c); });
-    return text;
-}
-
 } // namespace
 
 MtlText parseMtl(std::string source)
@@ -135,7 +126,7 @@ MtlText parseMtl(std::string source)
     for (std::size_t offset = 0; offset < text.size();) {
         const std::size_t end = std::min(text.find('\n', offset), text.size());
         Words words{std::string_view(text).substr(offset, end - offset)};
-        const std::string keyword = lower(words.next());
+        const std::string keyword = lowerCase(std::string(words.next()));
         const std::size_t begin = std::exchange(offset, end + 1);
         if (keyword.empty() || keyword.starts_with('#'))
             continue;

@@ -6,15 +6,12 @@
 
 #include <fmt/format.h>
 #include <glm/common.hpp>
-#include <glm/geometric.hpp>
 
 #include "cotan/model.hpp"
 #include "cotan/portable.hpp"
 #include "files/bytes.hpp"
 #include "obj_text.hpp"
-#include "scene/geometry.hpp"
 #include "source_material.hpp"
-#include "text_lines.hpp"
 
 namespace cotan {
 
@@ -133,19 +130,6 @@ glm::vec4 linearColor(glm::vec4 stored)
     return {f32::cotan_srgb_to_linear(c.x), f32::cotan_srgb_to_linear(c.y), f32::cotan_srgb_to_linear(c.z), c.w};
 }
 
-// False if a corner has none, or one that is not usable as a direction.
-bool copyNormals(const ObjText& obj, const ObjPart& part, Mesh& mesh)
-{
-    for (const ObjCorner& corner : part.corners) {
-        const glm::dvec3 normal = corner.normal == kObjNone ? glm::vec3(0) : obj.normals[corner.normal];
-        const double length = glm::length(normal);
-        if (!(length > 0))
-            return false;
-        mesh.normals.emplace_back(normal / length);
-    }
-    return true;
-}
-
 Mesh makeMesh(const ObjText& obj, const ObjPart& part, Scene& scene)
 {
     Mesh mesh;
@@ -157,19 +141,14 @@ Mesh makeMesh(const ObjText& obj, const ObjPart& part, Scene& scene)
         mesh.positions.push_back(obj.positions[corner.position]);
         if (!obj.colors.empty())
             mesh.colors.push_back(linearColor(obj.colors[corner.position]));
+        if (normals)
+            mesh.normals.push_back(corner.normal == kObjNone ? glm::vec3(0) : obj.normals[corner.normal]);
         if (!uv)
             continue;
         const glm::vec2 stored = corner.texcoord == kObjNone ? glm::vec2(0) : obj.texcoords[corner.texcoord];
         mesh.texcoords[0].emplace_back(stored.x, 1.0f - stored.y); // v = 0 is the bottom row of the picture there
     }
-    if (!normals || !copyNormals(obj, part, mesh)) {
-        if (normals)
-            scene.warnings.push_back(
-                fmt::format("mesh {}: some normals are zero or missing; all are made anew", mesh.name));
-        mesh.normals.clear();
-        generateNormals(mesh, kCreaseDegrees);
-    }
-    weldVertices(mesh);
+    finishMesh(mesh, "missing", scene);
     return mesh;
 }
 
@@ -193,7 +172,7 @@ Result<Scene> load(const fs::path& file, const LoadLimits& limits)
     Library library(folder, limits, scene);
     for (const std::string& line : obj->libraries)
         library.add(line, file.stem().string() + ".mtl");
-    TextureReader textures(scene, nullptr, folder, limits);
+    TextureReader textures(scene, folder, limits);
     const std::vector<int> materials = makeMaterials(*obj, library, textures, scene);
     if (!obj->texcoords.empty() && obj->polygonsWithoutUv > 0)
         scene.warnings.push_back(fmt::format("{} of {} faces have no texture coordinates; theirs are 0",

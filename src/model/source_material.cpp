@@ -4,22 +4,25 @@
 #include <cctype>
 #include <cmath>
 #include <span>
-#include <string_view>
 #include <vector>
 
-#include <assimp/scene.h>
-#include <assimp/texture.h>
 #include <fmt/format.h>
+#include <glm/geometric.hpp>
 
+#include "core/named_values.hpp"
 #include "cotan/image.hpp"
 #include "cotan/maps.hpp"
+#include "cotan/vector.hpp"
 #include "files/bytes.hpp"
 #include "image/component_types.hpp"
 #include "maps/texels.hpp"
+#include "scene/geometry.hpp"
 
 namespace cotan {
 
 namespace {
+
+constexpr float kCreaseDegrees = 60; // where the normals of a mesh are made
 
 // ---- images ----------------------------------------------------------------------------------
 
@@ -124,8 +127,7 @@ void setBaseColor(const SourceMaterial& source, TextureReader& textures, Scene& 
 // Names that say that green points down: "directx", or "dx" standing alone or after "normal".
 bool namesDirectX(const std::string& path)
 {
-    std::string name = path.substr(path.find_last_of("/\\") + 1);
-    std::ranges::transform(name, name.begin(), [](unsigned char c) { return std::tolower(c); });
+    const std::string name = lowerCase(path.substr(path.find_last_of("/\\") + 1));
     const auto letter = [&](std::size_t i) {
         return i < name.size() && std::isalpha(static_cast<unsigned char>(name[i]));
     };
@@ -181,12 +183,20 @@ int TextureReader::leaveOut(const std::string& path, const std::string& material
 
 int TextureReader::load(const std::string& path, const std::string& material)
 {
-    const auto addOrWarn = [&](Result<Image> image) {
+    const auto take = [&](std::uint64_t bytes, const auto& read) {
+        const LoadLimits limits = withinBudget(bytes);
+        if (limits.imageBytes == 0)
+            return leaveOut(path, material, overBudget());
+        Result<Image> image = read(limits);
         return image ? add(*std::move(image)) : leaveOut(path, material, image.error().message);
     };
-    if (const aiTexture* texture = source_ ? source_->GetEmbeddedTexture(path.c_str()) : nullptr)
-        return addOrWarn(embedded(*texture, fmt::format("{} {}", scene_.name, path)));
-
+    if (const auto embedded = embedded_ ? embedded_(path) : std::nullopt) {
+        if (!*embedded)
+            return leaveOut(path, material, embedded->error().message);
+        return take((*embedded)->size(), [&](const LoadLimits& limits) {
+            return decodeImage(**embedded, fmt::format("{} {}", scene_.name, path), limits);
+        });
+    }
     bool outside = false, ignored = false;
     auto file = findInFolder(folder_, path, outside);
     if (!file) {
@@ -201,10 +211,7 @@ int TextureReader::load(const std::string& path, const std::string& material)
         return entry->second;
     std::error_code error;
     const std::uintmax_t size = std::filesystem::file_size(*file, error);
-    const LoadLimits limits = withinBudget(error ? 0 : size);
-    if (limits.imageBytes == 0)
-        return leaveOut(path, material, overBudget());
-    return entry->second = addOrWarn(readImage(*file, limits));
+    return entry->second = take(error ? 0 : size, [&](const LoadLimits& limits) { return readImage(*file, limits); });
 }
 
 // The limits for an image of so many bytes: what is left for all of them together.
@@ -222,19 +229,6 @@ std::string TextureReader::overBudget() const
     return fmt::format("the images are over the limit of {} bytes", imageBudget(limits_, fileBytes_));
 }
 
-Result<Image> TextureReader::embedded(const aiTexture& texture, const std::string& name)
-{
-    if (!texture.pcData || texture.mWidth == 0)
-        return inputError("the embedded texture is empty");
-    if (texture.mHeight != 0) // 0: a whole image file of mWidth bytes, as all formats that are read here have it
-        return inputError("expected an embedded image file, found plain texels");
-    const LoadLimits limits = withinBudget(texture.mWidth);
-    if (limits.imageBytes == 0)
-        return inputError(overBudget());
-    return decodeImage(std::as_bytes(std::span(reinterpret_cast<const char*>(texture.pcData), texture.mWidth)), name,
-                       limits);
-}
-
 int TextureReader::normalMap(const std::string& path, const std::string& material, float strength, bool& converted)
 {
     converted = false;
@@ -247,7 +241,7 @@ int TextureReader::normalMap(const std::string& path, const std::string& materia
     converted = true;
     const auto [entry, isNew] = known_.try_emplace(fmt::format("bump\n{}\n{}", source, strength), -1);
     if (isNew) {
-        entry->second = add(normalMapFromHeight(scene_.images[std::size_t(source)], strength));
+        entry->second = add(normalMapFromHeight(heights, strength));
         scene_.warnings.push_back(fmt::format(
             "material {}: texture {} is grey: taken as a height map and converted to a normal map", material, path));
     }
@@ -295,6 +289,25 @@ Material makeMaterial(const SourceMaterial& source, TextureReader& textures, Sce
         material.emissive = glm::vec3(1);
     material.occlusionMap = read(source.occlusionMap, textures, material.name);
     return material;
+}
+
+void finishMesh(Mesh& mesh, std::string_view unusable, Scene& scene)
+{
+    bool usable = !mesh.normals.empty();
+    for (glm::vec3& stored : mesh.normals) {
+        const glm::dvec3 normal(stored);
+        const double length = glm::length(normal);
+        usable = usable && isFinite(normal) && length > 0;
+        stored = glm::vec3(normal / length);
+    }
+    if (!usable) {
+        if (!mesh.normals.empty())
+            scene.warnings.push_back(
+                fmt::format("mesh {}: some normals are zero or {}; all are made anew", mesh.name, unusable));
+        mesh.normals.clear();
+        generateNormals(mesh, kCreaseDegrees);
+    }
+    weldVertices(mesh);
 }
 
 void warnAboutTexcoords(const Mesh& mesh, Scene& scene)

@@ -5,9 +5,12 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <optional>
+#include <span>
 #include <string>
+#include <string_view>
 
 #include <glm/vec3.hpp>
 
@@ -15,23 +18,23 @@
 #include "cotan/result.hpp"
 #include "cotan/scene.hpp"
 
-struct aiScene;
-struct aiTexture;
-
 namespace cotan {
+
+// The image file that a model holds under a path; nothing where it holds none, and a file beside the model is meant.
+using EmbeddedImage = std::function<std::optional<Result<std::span<const std::byte>>>(const std::string& path)>;
 
 // Finds the images of a model, decodes each once, converts those that must be, and fills Scene::images. Whatever cannot
 // be used becomes a warning and no image (-1).
 class TextureReader {
 public:
-    // source: where embedded textures are; null: there are none. folder: canonical. Everything passed
-    // must outlive this.
-    TextureReader(Scene& scene, const aiScene* source, const std::filesystem::path& folder, const LoadLimits& limits)
-        : scene_(scene), source_(source), folder_(folder), limits_(limits)
+    // folder: canonical. All that is passed by reference must outlive this. embedded: empty where files hold none.
+    TextureReader(Scene& scene, const std::filesystem::path& folder, const LoadLimits& limits,
+                  EmbeddedImage embedded = {})
+        : scene_(scene), folder_(folder), limits_(limits), embedded_(std::move(embedded))
     {
     }
 
-    // The image that `path` names: a file in the folder, or "*N", the Nth texture of the file.
+    // The image that `path` names: an embedded one, or a file in the folder.
     // A path from another machine is looked up by its last part. material: for messages.
     int image(const std::string& path, const std::string& material);
 
@@ -45,16 +48,15 @@ public:
 
 private:
     int load(const std::string& path, const std::string& material);
-    Result<Image> embedded(const aiTexture& texture, const std::string& name);
     int leaveOut(const std::string& path, const std::string& material, const std::string& why); // with a warning: -1
     LoadLimits withinBudget(std::uint64_t bytes);
     std::string overBudget() const; // why an image is left out
     int add(Image image);
 
     Scene& scene_;
-    const aiScene* source_;
     const std::filesystem::path& folder_;
     const LoadLimits& limits_;
+    EmbeddedImage embedded_;
     std::size_t bytes_ = 0;            // of all images
     std::uint64_t fileBytes_ = 0;      // of their files
     std::map<std::string, int> known_; // what a path, or a conversion, gave
@@ -82,7 +84,9 @@ struct SourceMaterial {
 // means opaque; a grey normal map is a height map; a normal map named for DirectX has green down.
 Material makeMaterial(const SourceMaterial& source, TextureReader& textures, Scene& scene);
 
-inline constexpr float kCreaseDegrees = 60; // where the normals of a mesh are made
+// Makes the stored normals of a mesh unit; where it has none, or one is no direction, all are made of its triangles.
+// Merges equal vertices. unusable: what such normals are beside zero, for a warning.
+void finishMesh(Mesh& mesh, std::string_view unusable, Scene& scene);
 
 // Says, once, where a mesh lacks the texture coordinates that a map of its material needs.
 void warnAboutTexcoords(const Mesh& mesh, Scene& scene);

@@ -8,7 +8,6 @@
 #include "files/bytes.hpp"
 #include "files/file_registry.hpp"
 #include "picture/option_words.hpp"
-#include "scene/bounds.hpp"
 #include "scene/geometry.hpp"
 #include "scene/normal_maps.hpp"
 #include "scene/parts.hpp"

@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "cotan/vector.hpp"
-#include "scene/bounds.hpp"
+#include "scene/geometry.hpp"
 
 namespace cotan {
 

@@ -12,6 +12,7 @@
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 
+#include "core/tangents_mesh.hpp"
 #include "scene/geometry.hpp"
 #include "scene/parts.hpp"
 
@@ -119,13 +120,12 @@ std::size_t distinctPositions(const Scene& scene)
 {
     std::size_t count = 0;
     for (const Mesh& mesh : scene.meshes) {
-        std::vector<std::array<std::uint32_t, 3>> own(mesh.positions.size()); // their bits, which have an order
-        std::ranges::transform(mesh.positions, own.begin(), [](glm::vec3 p) {
-            return std::array{std::bit_cast<std::uint32_t>(p.x), std::bit_cast<std::uint32_t>(p.y),
-                              std::bit_cast<std::uint32_t>(p.z)};
+        const auto vertices = std::uint32_t(mesh.vertexCount());
+        const auto first = tangents::firstEqual(vertices, [&](std::uint32_t i) {
+            return std::bit_cast<std::array<std::uint32_t, 4>>(glm::vec4(mesh.positions[i], 0));
         });
-        std::ranges::sort(own);
-        count += std::size_t(std::unique(own.begin(), own.end()) - own.begin());
+        for (std::uint32_t i = 0; i < vertices; ++i)
+            count += first[i] == i ? 1 : 0;
     }
     return count;
 }

@@ -20,22 +20,26 @@ inline constexpr float kBackdropRoughness = 0.6f; // of Backdrop::blurred
 // Half the width of the widest half-shadow on a scene, as a share of the shadow map's side.
 inline constexpr float kWidestPenumbra = 0.02f;
 
-// A picture of floats at a place in texels, filtered as a GPU filters.
-inline glm::vec3 readBilinear(const Image& picture, glm::vec2 texel)
+// What at(x, y) gives of four texels around a place in texels, filtered as a GPU filters.
+template<class At> glm::vec3 bilinear(glm::vec2 texel, const At& at)
 {
-    const float* values = picture.floats();
-    const auto at = [&](int x, int y) {
-        x = std::clamp(x, 0, picture.width - 1);
-        y = std::clamp(y, 0, picture.height - 1);
-        const float* p = values + 4 * (std::size_t(y) * std::size_t(picture.width) + std::size_t(x));
-        return glm::vec3(p[0], p[1], p[2]);
-    };
     const float fx = std::floor(texel.x - 0.5f), fy = std::floor(texel.y - 0.5f);
     const float kx = texel.x - 0.5f - fx, ky = texel.y - 0.5f - fy;
     const int x = int(fx), y = int(fy);
     const glm::vec3 top = at(x, y) * (1 - kx) + at(x + 1, y) * kx;
     const glm::vec3 bottom = at(x, y + 1) * (1 - kx) + at(x + 1, y + 1) * kx;
     return top * (1 - ky) + bottom * ky;
+}
+
+// A picture of floats there.
+inline glm::vec3 readBilinear(const Image& picture, glm::vec2 texel)
+{
+    return bilinear(texel, [&](int x, int y) {
+        x = std::clamp(x, 0, picture.width - 1);
+        y = std::clamp(y, 0, picture.height - 1);
+        const float* p = picture.floats() + 4 * (std::size_t(y) * std::size_t(picture.width) + std::size_t(x));
+        return glm::vec3(p[0], p[1], p[2]);
+    });
 }
 
 // Radiance along a direction of any length, as a mirror of that roughness sees it.

@@ -1,8 +1,13 @@
+// Cameras that show a scene, the lights of one that brings none, and what is drawn.
 #include "scene/geometry.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
+#include <numbers>
 
+#include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 
 #include "scene/texture_sample.hpp"
@@ -10,6 +15,133 @@
 namespace cotan {
 
 namespace {
+
+using glm::dvec3;
+
+// ---- cameras: axes ---------------------------------------------------------------------------
+
+constexpr double kShortest = 1e-30; // of a vector that has a direction
+constexpr double kParallel = 1e-6;  // sine of an angle below which `up` is along forward
+
+// ---- cameras: from the right and above -------------------------------------------------------
+
+constexpr float kMargin = 0.94f;   // of the half picture that the box may fill
+constexpr float kFlatness = 0.05f; // depth over width or height below which a box is a picture
+const glm::vec3 kFrontRightAbove{0.40f, 0.35f, 1.0f};
+
+// The smallest distance along `back` from the centre at which every corner of the box is inside
+// the picture with the margin.
+float distanceToSee(glm::vec3 halfSize, glm::vec3 back, float tanX, float tanY)
+{
+    const CameraAxes axes = axesAlong(-glm::dvec3(back), glm::dvec3(0, 1, 0));
+    const glm::vec3 right(axes.right), up(axes.up);
+    float distance = 0;
+    for (int corner = 0; corner < 8; ++corner) {
+        const glm::vec3 p = halfSize * glm::vec3(corner & 1 ? 1 : -1, corner & 2 ? 1 : -1, corner & 4 ? 1 : -1);
+        const float beside = std::max(std::abs(glm::dot(p, right)) / tanX, std::abs(glm::dot(p, up)) / tanY);
+        distance = std::max(distance, glm::dot(p, back) + beside / kMargin);
+    }
+    return distance;
+}
+
+// ---- cameras: as near as all of it shows -----------------------------------------------------
+
+constexpr double kFieldOfView = 0.523599; // 30 degrees
+constexpr double kRadians = std::numbers::pi / 180;
+constexpr double kFilled = 0.92; // of the picture, so that 4 % stay free on each side
+
+// A point as it is seen along one axis: its place, and how far before the eye it is.
+struct Seen {
+    double place = 0, before = 1;
+};
+
+// Moves the eye sideways until what is seen furthest to both sides is equally far from the middle, and likewise up and
+// down. What was inside the picture stays there. stand: the axes of the camera at what it looks at.
+void centre(const Scene& scene, const CameraAxes& stand, double distance, double& x, double& y)
+{
+    for (int round = 0; round < 4; ++round) {
+        std::array<Seen, 4> furthest; // east, west, north, south
+        std::array<double, 4> slope;
+        slope.fill(-std::numeric_limits<double>::infinity());
+        forEachFramedPoint(scene, [&](const glm::mat4& toWorld, const glm::vec3& point) {
+            const dvec3 p = dvec3(glm::dmat4(toWorld) * glm::dvec4(dvec3(point), 1)) - stand.eye;
+            const double before = distance + glm::dot(p, stand.forward);
+            const double right = glm::dot(p, stand.right), up = glm::dot(p, stand.up);
+            if (!(before > 0) || !std::isfinite(right) || !std::isfinite(up))
+                return;
+            const std::array<double, 4> here{(right - x) / before, (x - right) / before, (up - y) / before,
+                                             (y - up) / before};
+            for (std::size_t i = 0; i < 4; ++i)
+                if (here[i] > slope[i]) {
+                    slope[i] = here[i];
+                    furthest[i] = {i < 2 ? right : up, before};
+                }
+        });
+        if (!std::isfinite(slope[0]))
+            return;
+        const auto between = [](const Seen& a, const Seen& b) {
+            return (a.place * b.before + b.place * a.before) / (a.before + b.before);
+        };
+        x = between(furthest[0], furthest[1]);
+        y = between(furthest[2], furthest[3]);
+    }
+}
+
+// From where `back` points to, with that direction up. A scene without finite points: where a camera stands by itself.
+Camera filledFrom(const char* name, const Scene& scene, const Bounds& box, const dvec3& back, const glm::vec3& upward,
+                  int width, int height)
+{
+    Camera camera;
+    camera.name = name;
+    camera.verticalFieldOfView = float(kFieldOfView);
+    if (box.empty())
+        return camera;
+    camera.up = upward;
+    CameraAxes axes = axesAlong(-back, dvec3(upward));
+    axes.eye = dvec3(box.low) * 0.5 + dvec3(box.high) * 0.5;
+    const dvec3 right = axes.right, up = axes.up, middle = axes.eye;
+
+    // A point at x, y, z of these axes is inside while |x - eye.x| <= tanX (eye.z - z): each point moves four planes.
+    const double tanY = std::tan(kFieldOfView / 2) * kFilled;
+    const double tanX = tanY * (width > 0 && height > 0 ? double(width) / height : 1.0);
+    const double least = -std::numeric_limits<double>::infinity();
+    double east = least, west = least, north = least, south = least, nearest = least;
+    forEachFramedPoint(scene, [&](const glm::mat4& toWorld, const glm::vec3& point) {
+        const dvec3 p = dvec3(glm::dmat4(toWorld) * glm::dvec4(dvec3(point), 1)) - middle;
+        if (!isFinite(p))
+            return;
+        const double x = glm::dot(p, right), y = glm::dot(p, up), z = glm::dot(p, back);
+        east = std::max(east, x + tanX * z);
+        west = std::max(west, -x + tanX * z);
+        north = std::max(north, y + tanY * z);
+        south = std::max(south, -y + tanY * z);
+        nearest = std::max(nearest, z);
+    });
+    double distance = std::max((east + west) / (2 * tanX), (north + south) / (2 * tanY));
+    const double magnitude = std::max({std::abs(middle.x), std::abs(middle.y), std::abs(middle.z)});
+    if (!(distance - nearest > 1e-3 * magnitude)) // a point, or nearly: a distance that rounding does not swallow
+        distance = nearest + std::max(1e-3 * magnitude, distance > nearest ? distance - nearest : 1.0);
+    double x = (east - west) / 2, y = (north - south) / 2;
+    centre(scene, axes, distance, x, y);
+    const dvec3 aim = middle + right * x + up * y;
+    const glm::vec3 eye(aim + back * distance);
+    if (!std::isfinite(distance) || !std::isfinite(eye.x + eye.y + eye.z))
+        return camera;
+    camera.target = glm::vec3(aim);
+    camera.eye = eye;
+    return camera;
+}
+
+// Without rounding at multiples of 90 degrees: sides are seen straight on.
+double sineOf(double degrees)
+{
+    const double quarters = degrees / 90;
+    if (quarters == std::floor(quarters))
+        return std::array<double, 4>{0, 1, 0, -1}[std::size_t(std::fmod(std::fmod(quarters, 4) + 4, 4))];
+    return std::sin(degrees * kRadians);
+}
+
+// ---- what is drawn, and where it stands ------------------------------------------------------
 
 // Whether two linear maps differ by what all frames go along with, so that one surface stands for both.
 bool alikeForFrames(const glm::dmat3& a, const glm::dmat3& b)
@@ -26,6 +158,85 @@ bool alikeForFrames(const glm::dmat3& a, const glm::dmat3& b)
 glm::vec3 turned(const glm::vec3& v) { return {v.x, v.z, -v.y}; }
 
 } // namespace
+
+CameraAxes axesAlong(const glm::dvec3& forward, const glm::dvec3& up)
+{
+    const glm::dvec3 other = std::abs(forward.y) < 0.9 ? glm::dvec3(0, 1, 0) : glm::dvec3(0, 0, -1);
+    glm::dvec3 side = glm::cross(forward, unitOr(up, other, kShortest));
+    if (glm::length(side) < kParallel)
+        side = glm::cross(forward, other);
+    CameraAxes axes;
+    axes.forward = forward;
+    axes.right = side / glm::length(side);
+    axes.up = glm::cross(axes.right, forward);
+    return axes;
+}
+
+CameraAxes cameraAxes(const Camera& camera)
+{
+    const glm::dvec3 eye = isFinite(camera.eye) ? glm::dvec3(camera.eye) : glm::dvec3(0);
+    CameraAxes axes = axesAlong(unitOr(glm::dvec3(camera.target) - eye, {0, 0, -1}, kShortest), glm::dvec3(camera.up));
+    axes.eye = eye;
+    return axes;
+}
+
+Camera fitCamera(const Bounds& box, int width, int height)
+{
+    Camera camera;
+    camera.name = "fit";
+    if (box.empty() || !isFinite(box.low) || !isFinite(box.high))
+        return camera;
+
+    // Halved before they are subtracted, so that the largest floats do not overflow.
+    const glm::vec3 centre = box.low * 0.5f + box.high * 0.5f;
+    const glm::vec3 halfSize = box.high * 0.5f - box.low * 0.5f;
+    const bool flat = halfSize.z < kFlatness * std::max(halfSize.x, halfSize.y);
+    const glm::vec3 back = flat ? glm::vec3(0, 0, 1) : glm::normalize(kFrontRightAbove);
+
+    const float aspect = width > 0 && height > 0 ? float(width) / float(height) : 1.0f;
+    const float tanY = std::tan(camera.verticalFieldOfView / 2);
+    float distance = distanceToSee(halfSize, back, tanY * aspect, tanY);
+    if (!(distance > 0)) { // a single point: any distance that rounding does not swallow shows it
+        const glm::vec3 size = glm::abs(centre);
+        distance = std::max(1.0f, std::max({size.x, size.y, size.z}) * 1e-3f);
+    }
+    const glm::vec3 eye = centre + back * distance;
+    if (!isFinite(eye)) // a box of nearly the largest floats
+        return camera;
+    camera.target = centre;
+    camera.eye = eye;
+    return camera;
+}
+
+Camera turnedAbout(Camera camera, double angle)
+{
+    const glm::vec3 d = camera.eye - camera.target;
+    const float c = float(std::cos(angle)), s = float(std::sin(angle));
+    camera.eye = camera.target + glm::vec3(c * d.x + s * d.z, d.y, c * d.z - s * d.x);
+    return camera;
+}
+
+std::vector<Light> defaultLights()
+{
+    return {Light{.kind = LightKind::directional, .direction = glm::normalize(glm::vec3(0.5f, -0.9f, -0.75f))}};
+}
+
+Camera frontCamera(const Scene& scene, int width, int height)
+{
+    const Bounds box = framedBounds(scene);
+    const glm::vec3 size = box.high - box.low;
+    const bool flat = size.z < kFlatness * std::max(size.x, size.y);
+    const dvec3 back = flat ? dvec3(0, 0, 1) : glm::normalize(dvec3(0.36, 0.24, 1));
+    return filledFrom("front", scene, box, back, {0, 1, 0}, width, height);
+}
+
+Camera orbitCamera(const Scene& scene, double azimuth, double elevation, int width, int height)
+{
+    const double sinA = sineOf(azimuth), cosA = sineOf(azimuth + 90);
+    const double sinE = sineOf(elevation), cosE = sineOf(elevation + 90);
+    const glm::vec3 up = cosE == 0 ? glm::vec3(dvec3(-sinA, 0, -cosA) * sinE) : glm::vec3(0, 1, 0);
+    return filledFrom("orbit", scene, framedBounds(scene), {sinA * cosE, sinE, cosA * cosE}, up, width, height);
+}
 
 Status checkVertexAttributes(const Scene& scene, Frame frame)
 {
@@ -57,7 +268,7 @@ bool drawsNormalMaps(const Scene& scene)
         if (!mesh || mesh->triangleCount() == 0)
             return false;
         const Texture& map = scene.materials[std::size_t(mesh->material)].normalMap;
-        return map.present() && !mesh->texcoords[map.texcoord == 1 ? 1 : 0].empty();
+        return map.present() && !mesh->texcoords[uvSetOf(map)].empty();
     });
 }
 

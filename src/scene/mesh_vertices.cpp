@@ -4,8 +4,6 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
-#include <cstring>
-#include <numeric>
 #include <span>
 #include <tuple>
 #include <unordered_map>
@@ -13,6 +11,7 @@
 
 #include <glm/geometric.hpp>
 
+#include "core/tangents_mesh.hpp"
 #include "cotan/tangents.hpp"
 #include "cotan/vector.hpp"
 #include "scene/geometry.hpp"
@@ -48,24 +47,6 @@ void takeVertices(Mesh& mesh, std::span<const Index> sources)
 }
 
 // ---- normals --------------------------------------------------------------------------------
-
-// A point of space each: vertices at equal positions get equal numbers.
-std::vector<Index> positionNumbers(const std::vector<glm::vec3>& positions)
-{
-    // By bit pattern, which orders every float; adding zero makes -0 and 0 one.
-    const auto key = [&](Index i) { return std::bit_cast<std::array<std::uint32_t, 3>>(positions[i] + 0.0f); };
-    std::vector<Index> order(positions.size());
-    std::iota(order.begin(), order.end(), Index(0));
-    std::ranges::sort(order, [&](Index a, Index b) { return key(a) < key(b); });
-    std::vector<Index> number(positions.size());
-    Index current = 0;
-    for (std::size_t i = 0; i < order.size(); ++i) {
-        if (i > 0 && key(order[i]) != key(order[i - 1]))
-            ++current;
-        number[order[i]] = current;
-    }
-    return number;
-}
 
 struct Face {
     glm::dvec3 normal{0};          // unit; zero for a degenerate triangle
@@ -205,26 +186,17 @@ void assignNormals(Mesh& mesh, JoinedGroups& groups, const std::vector<glm::vec3
 
 // ---- equal vertices --------------------------------------------------------------------------
 
-std::uint64_t hashVertex(const Mesh& mesh, Index vertex)
+// All of a vertex; zeros behind it where the mesh lacks arrays.
+std::array<std::uint32_t, 24> bitsOf(const Mesh& mesh, Index vertex)
 {
-    std::uint64_t hash = 0x9e3779b97f4a7c15u;
+    std::array<std::uint32_t, 24> bits{};
+    std::size_t at = 0;
     eachAttribute(mesh, [&](const auto& attribute) {
         const auto& value = attribute[vertex];
-        for (int c = 0; c < value.length(); ++c) {
-            hash = (hash ^ std::bit_cast<std::uint32_t>(value[c])) * 0xff51afd7ed558ccdu;
-            hash ^= hash >> 32;
-        }
+        for (int c = 0; c < value.length(); ++c)
+            bits[at++] = std::bit_cast<std::uint32_t>(value[c]);
     });
-    return hash;
-}
-
-bool equalVertices(const Mesh& mesh, Index a, Index b)
-{
-    bool equal = true;
-    eachAttribute(mesh, [&](const auto& attribute) {
-        equal = equal && std::memcmp(&attribute[a], &attribute[b], sizeof attribute[a]) == 0;
-    });
-    return equal;
+    return bits;
 }
 
 // ---- frames ----------------------------------------------------------------------------------
@@ -254,9 +226,11 @@ void deriveTangents(Mesh& mesh, std::span<const glm::vec2> uv, Frame frame)
 
 void generateNormals(Mesh& mesh, float creaseDegrees)
 {
-    const std::vector<Index> number = positionNumbers(mesh.positions);
+    const auto point = tangents::firstEqual(Index(mesh.vertexCount()), [&](Index i) { // adding zero makes -0 and 0 one
+        return std::bit_cast<std::array<std::uint32_t, 4>>(glm::vec4(mesh.positions[i] + 0.0f, 0));
+    });
     std::vector<Index> pointOfCorner(mesh.indices.size());
-    std::ranges::transform(mesh.indices, pointOfCorner.begin(), [&](Index i) { return number[i]; });
+    std::ranges::transform(mesh.indices, pointOfCorner.begin(), [&](Index i) { return point[i]; });
     const std::vector<Face> faces = measureFaces(mesh);
 
     JoinedGroups groups(mesh.indices.size());
@@ -272,19 +246,16 @@ void generateNormals(Mesh& mesh, float creaseDegrees)
 
 void weldVertices(Mesh& mesh)
 {
-    std::vector<Index> table(std::bit_ceil(mesh.vertexCount() * 2 + 1), kNone); // open addressing
-    std::vector<Index> newIndex(mesh.vertexCount(), kNone);                     // of the first of equal vertices
-    std::vector<Index> kept;                                                    // old index of every new vertex
+    const auto first = tangents::firstEqual(Index(mesh.vertexCount()), [&](Index i) { return bitsOf(mesh, i); });
+    std::vector<Index> newIndex(mesh.vertexCount(), kNone); // of the first of equal vertices
+    std::vector<Index> kept;                                // old index of every new vertex
     for (Index& index : mesh.indices) {
-        std::size_t slot = hashVertex(mesh, index) & (table.size() - 1);
-        while (table[slot] != kNone && !equalVertices(mesh, table[slot], index))
-            slot = (slot + 1) & (table.size() - 1);
-        if (table[slot] == kNone) {
-            table[slot] = index;
-            newIndex[index] = Index(kept.size());
+        Index& number = newIndex[first[index]];
+        if (number == kNone) {
+            number = Index(kept.size());
             kept.push_back(index);
         }
-        index = newIndex[table[slot]];
+        index = number;
     }
     takeVertices(mesh, kept);
 }

@@ -1,7 +1,6 @@
 #include "scene/parts.hpp"
 
 #include <algorithm>
-#include <bit>
 #include <map>
 #include <string_view>
 #include <tuple>
@@ -9,6 +8,7 @@
 #include <unordered_set>
 #include <utility>
 
+#include "core/tangents_mesh.hpp"
 #include "cotan/covector.hpp"
 #include "cotan/vector.hpp"
 #include "scene/geometry.hpp"
@@ -150,50 +150,14 @@ void joinSmall(Scene& scene)
 constexpr std::size_t kAsked = 4096; // triangles of the sample
 constexpr std::size_t kMany = 40;    // of these that repeat others of them
 
-std::size_t hashOf(const CornersOfTriangle& triangle)
+// Equal for equal corners, of which -0 is 0, and equal keys.
+std::array<std::uint32_t, 12> bitsOf(const CornersOfTriangle& triangle)
 {
-    std::uint64_t hash = (std::uint64_t(triangle.key) + 1) * 0x9e3779b97f4a7c15u;
-    for (const glm::vec3& p : triangle.at)
-        for (const float c : {p.x, p.y, p.z}) {
-            hash = (hash ^ std::bit_cast<std::uint32_t>(c + 0.0f)) * 0xff51afd7ed558ccdu; // -0 is 0
-            hash ^= hash >> 32;
-        }
-    return std::size_t(hash);
-}
-
-// The triangles that were seen, by their hash; at most `most`.
-class KnownTriangles {
-public:
-    explicit KnownTriangles(std::size_t most) : table_(std::bit_ceil(2 * most + 1), 0) {}
-
-    // How often it was seen before, at most 2.
-    std::uint8_t see(const CornersOfTriangle& triangle)
-    {
-        const std::size_t last = table_.size() - 1;
-        std::size_t at = hashOf(triangle) & last;
-        for (; table_[at] != 0; at = (at + 1) & last)
-            if (const CornersOfTriangle& k = known_[table_[at] - 1]; k.key == triangle.key && k.at == triangle.at)
-                return std::exchange(times_[table_[at] - 1], std::uint8_t(2));
-        known_.push_back(triangle);
-        times_.push_back(1);
-        table_[at] = std::uint32_t(known_.size());
-        return 0;
-    }
-
-private:
-    std::vector<CornersOfTriangle> known_;
-    std::vector<std::uint8_t> times_;  // how often each was seen, at most 2
-    std::vector<std::uint32_t> table_; // numbers of known_ from 1 on; 0 where none is
-};
-
-bool manyRepeat(std::size_t count, const std::function<CornersOfTriangle(std::size_t)>& triangle)
-{
-    const std::size_t asked = std::min(count, kAsked);
-    KnownTriangles known(asked);
-    std::size_t repeated = 0;
-    for (std::size_t k = 0; k < asked; ++k)
-        repeated += known.see(triangle(std::size_t(double(k) * double(count) / double(asked)))) > 0 ? 1 : 0;
-    return repeated >= kMany;
+    std::array<std::uint32_t, 12> bits{std::uint32_t(triangle.key), std::uint32_t(triangle.key >> 32)};
+    for (std::size_t k = 0; k < 3; ++k)
+        for (int c = 0; c < 3; ++c)
+            bits[2 + 3 * k + std::size_t(c)] = tangents::bitsOf(triangle.at[k][c]);
+    return bits;
 }
 
 // The corners of a triangle from the least on, in their order round.
@@ -211,14 +175,14 @@ CornersOfTriangle cornersOf(const Mesh& mesh, std::size_t first)
 
 void dropRepeated(Mesh& mesh)
 {
-    KnownTriangles known(mesh.triangleCount());
-    std::size_t kept = 0;
-    for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3)
-        if (known.see(cornersOf(mesh, i)) == 0) {
-            std::copy_n(mesh.indices.begin() + std::ptrdiff_t(i), 3, mesh.indices.begin() + std::ptrdiff_t(kept));
-            kept += 3;
-        }
-    mesh.indices.resize(kept);
+    const auto count = std::uint32_t(mesh.triangleCount());
+    const auto first =
+        tangents::firstEqual(count, [&](std::uint32_t i) { return bitsOf(cornersOf(mesh, 3 * std::size_t(i))); });
+    std::vector<std::uint32_t> kept;
+    for (std::uint32_t i = 0; i < count; ++i)
+        if (first[i] == i)
+            kept.insert(kept.end(), &mesh.indices[3 * std::size_t(i)], &mesh.indices[3 * std::size_t(i)] + 3);
+    mesh.indices = std::move(kept);
 }
 
 } // namespace
@@ -239,12 +203,21 @@ void dropRepeated(Scene& scene)
 std::vector<std::uint8_t> repeatedTriangles(std::size_t count,
                                             const std::function<CornersOfTriangle(std::size_t)>& triangle)
 {
-    if (!manyRepeat(count, triangle))
+    const auto asked = std::uint32_t(std::min(count, kAsked));
+    const auto sample = tangents::firstEqual(asked, [&](std::uint32_t k) {
+        return bitsOf(triangle(std::size_t(double(k) * double(count) / double(asked))));
+    });
+    std::size_t many = 0;
+    for (std::uint32_t k = 0; k < asked; ++k)
+        many += sample[k] != k ? 1 : 0;
+    if (many < kMany)
         return {};
-    KnownTriangles known(count);
-    std::vector<std::uint8_t> repeated(count);
-    for (std::size_t i = 0; i < count; ++i)
-        repeated[i] = known.see(triangle(i));
+    const auto first = tangents::firstEqual(std::uint32_t(count), [&](std::uint32_t i) { return bitsOf(triangle(i)); });
+    std::vector<std::uint8_t> repeated(count), seen(count); // seen: how often the first of equal ones was, at most 2
+    for (std::size_t i = 0; i < count; ++i) {
+        repeated[i] = seen[first[i]];
+        seen[first[i]] = std::uint8_t(std::min(repeated[i] + 1, 2));
+    }
     return repeated;
 }
 

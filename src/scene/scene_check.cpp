@@ -21,7 +21,7 @@ namespace {
 // One line, or nothing.
 using Problem = std::optional<std::string>;
 
-// Words and whole numbers, one after the other.
+// Words and numbers, one after the other.
 template<class... Parts> std::string joined(const Parts&... parts)
 {
     std::string text;
@@ -211,26 +211,24 @@ Problem cameraProblem(const Camera& c)
         return "view.camera: expected a direction up across the line of sight; found one along it, or zero";
     const float lens = c.orthographic ? c.verticalExtent : c.verticalFieldOfView;
     if (!(lens > 0) || !std::isfinite(lens) || (!c.orthographic && lens >= kHalfTurn))
-        return std::string("view.camera: expected a ")
-            + (c.orthographic ? "verticalExtent over 0; found " : "verticalFieldOfView over 0 and below pi; found ")
-            + std::to_string(lens);
+        return joined("view.camera: expected a ",
+                      c.orthographic ? "verticalExtent over 0" : "verticalFieldOfView over 0 and below pi", "; found ",
+                      lens);
     return std::nullopt;
 }
 
 Problem numberProblem(const View& view)
 {
     if (view.width < 1 || view.height < 1)
-        return "view: expected a width and a height from 1 on; found " + std::to_string(view.width) + "x"
-            + std::to_string(view.height);
+        return joined("view: expected a width and a height from 1 on; found ", view.width, "x", view.height);
     if (!isFrame(int(view.frame)))
-        return "view.frame: expected 0 to " + std::to_string(kFrameCount - 1) + "; found "
-            + std::to_string(int(view.frame));
+        return joined("view.frame: expected 0 to ", kFrameCount - 1, "; found ", int(view.frame));
     if (view.samples != 1 && view.samples != 4 && view.samples != 16)
-        return "view.samples: expected 1, 4 or 16; found " + std::to_string(view.samples);
+        return joined("view.samples: expected 1, 4 or 16; found ", view.samples);
     if (!std::isfinite(view.exposure))
-        return "view.exposure: expected a finite number; found " + std::to_string(view.exposure);
+        return joined("view.exposure: expected a finite number; found ", view.exposure);
     if (!(view.shadowSoftness >= 0) || !std::isfinite(view.shadowSoftness))
-        return "view.shadowSoftness: expected a number from 0 on; found " + std::to_string(view.shadowSoftness);
+        return joined("view.shadowSoftness: expected a number from 0 on; found ", view.shadowSoftness);
     return std::nullopt;
 }
 

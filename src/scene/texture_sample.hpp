@@ -76,8 +76,7 @@ inline int wrapTexel(std::int64_t i, int size, Wrap mode)
     return int(k < size ? k : 2 * std::int64_t(size) - 1 - k);
 }
 
-// The texel that uv falls into, of `width` x `height`. texel(x, y): a glm::vec4. uv: at most
-// kFarthestUv from zero.
+// The texel that uv falls into, of `width` x `height`. texel(x, y): a glm::vec4. uv: at most kFarthestUv from zero.
 template<class Texel> glm::vec4 nearestTexel(int width, int height, const Sampler& s, glm::dvec2 uv, Texel texel)
 {
     const auto x = std::int64_t(std::floor(uv.x * width)), y = std::int64_t(std::floor(uv.y * height));

@@ -2,10 +2,11 @@
 
 #include <algorithm>
 #include <charconv>
-#include <numeric>
 #include <unordered_map>
 
 #include <fmt/format.h>
+
+#include "scene/geometry.hpp"
 
 namespace cotan {
 
@@ -66,22 +67,16 @@ std::vector<std::size_t> findCircle(const std::vector<std::vector<std::size_t>>&
 // Numbers for what hangs together, in the order of the first job of each.
 std::vector<std::size_t> groupsOf(const std::vector<std::vector<std::size_t>>& needs)
 {
-    std::vector<std::size_t> root(needs.size());
-    std::iota(root.begin(), root.end(), std::size_t(0));
-    const auto find = [&](std::size_t job) {
-        while (root[job] != job)
-            job = root[job] = root[root[job]];
-        return job;
-    };
+    JoinedGroups joined(needs.size());
     for (std::size_t job = 0; job < needs.size(); ++job)
-        for (const std::size_t need : needs[job]) {
-            const std::size_t a = find(job), b = find(need);
-            root[std::max(a, b)] = std::min(a, b);
-        }
+        for (const std::size_t need : needs[job])
+            joined.join(std::uint32_t(job), std::uint32_t(need));
     std::vector<std::size_t> group(needs.size());
     std::size_t count = 0;
-    for (std::size_t job = 0; job < needs.size(); ++job) // the root of a group is its first job
-        group[job] = find(job) == job ? count++ : group[find(job)];
+    for (std::size_t job = 0; job < needs.size(); ++job) {
+        const std::size_t first = joined.find(std::uint32_t(job));
+        group[job] = first == job ? count++ : group[first];
+    }
     return group;
 }
 

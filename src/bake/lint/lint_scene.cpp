@@ -12,7 +12,6 @@
 
 #include "bake/lint/map_fit.hpp"
 #include "lint_parts.hpp"
-#include "scene/bounds.hpp"
 #include "scene/geometry.hpp"
 #include "scene/normal_maps.hpp"
 #include "scene/scene_check.hpp"

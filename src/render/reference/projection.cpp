@@ -7,7 +7,7 @@
 #include <glm/matrix.hpp>
 
 #include "cotan/vector.hpp"
-#include "scene/bounds.hpp"
+#include "scene/geometry.hpp"
 
 namespace cotan::reference {
 

@@ -8,7 +8,6 @@
 
 #include "core/loops.hpp"
 #include "pixel.hpp"
-#include "scene/bounds.hpp"
 #include "scene/geometry.hpp"
 #include "scene/sample_places.hpp"
 #include "scene/scene_check.hpp"

@@ -9,7 +9,7 @@
 #include "core/loops.hpp"
 #include "cotan/covector.hpp"
 #include "cotan/frame.hpp"
-#include "scene/bounds.hpp"
+#include "scene/geometry.hpp"
 
 namespace cotan::reference {
 

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <cstring>
 
+#include "core/named_values.hpp"
 #include "gpu_structs.hpp"
 #include "pipeline.hpp"
 
@@ -123,12 +123,6 @@ std::vector<Candidate> findCandidates(const vk::raii::Instance& instance)
     return candidates;
 }
 
-std::string lower(std::string text)
-{
-    std::ranges::transform(text, text.begin(), [](unsigned char c) { return char(std::tolower(c)); });
-    return text;
-}
-
 std::string listed(const std::vector<Candidate>& candidates)
 {
     std::string text;
@@ -141,7 +135,7 @@ std::string listed(const std::vector<Candidate>& candidates)
 Result<Candidate> choose(std::vector<Candidate> candidates, const std::string& wanted)
 {
     for (Candidate& c : candidates)
-        if (c.missing.empty() && lower(c.name).find(lower(wanted)) != std::string::npos)
+        if (c.missing.empty() && lowerCase(c.name).find(lowerCase(wanted)) != std::string::npos)
             return std::move(c);
     return unavailableError("no Vulkan device " + (wanted.empty() ? "" : "named '" + wanted + "' ")
                             + "can be used; found: " + listed(candidates));

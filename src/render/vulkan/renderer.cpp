@@ -7,7 +7,7 @@
 #include <optional>
 
 #include "draw_passes.hpp"
-#include "scene/bounds.hpp"
+#include "scene/geometry.hpp"
 #include "scene/sample_places.hpp"
 #include "scene/scene_check.hpp"
 

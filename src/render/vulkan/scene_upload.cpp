@@ -5,7 +5,6 @@
 
 #include "cotan/convention.hpp"
 #include "gpu_structs.hpp"
-#include "scene/bounds.hpp"
 #include "scene/geometry.hpp"
 #include "view_data.hpp"
 

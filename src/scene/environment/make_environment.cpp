@@ -133,13 +133,9 @@ Result<EnvironmentMap> environmentOfPicture(const Image& picture, const Environm
         return sound({p[0], p[1], p[2]});
     };
     const Radiance radiance = [&](glm::vec3 d) {
-        const float u = (std::atan2(d.z, d.x) / (2 * kPi) + 0.5f) * float(width) - 0.5f;
-        const float v = std::acos(std::clamp(d.y, -1.0f, 1.0f)) / kPi * float(height) - 0.5f;
-        const float fx = std::floor(u), fy = std::floor(v);
-        const int x = int(fx), y = int(fy);
-        const glm::vec3 top = at(x, y) * (1 - (u - fx)) + at(x + 1, y) * (u - fx);
-        const glm::vec3 bottom = at(x, y + 1) * (1 - (u - fx)) + at(x + 1, y + 1) * (u - fx);
-        return top * (1 - (v - fy)) + bottom * (v - fy);
+        return bilinear({(std::atan2(d.z, d.x) / (2 * kPi) + 0.5f) * float(width),
+                         std::acos(std::clamp(d.y, -1.0f, 1.0f)) / kPi * float(height)},
+                        at);
     };
     // The widest texels of the finest tile are 0.009 radians wide.
     const int samples = std::clamp(int(std::ceil(0.009f * float(width) / (2 * kPi))), 1, 24);

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include <glm/geometric.hpp>
+#include <glm/integer.hpp>
 
 // Processors without such registers pass these vectors in another way; nobody outside this file is passed one.
 #if defined(__GNUC__) && !defined(__clang__)
@@ -54,13 +55,7 @@ glm::dvec3 visibleNormal(glm::dvec3 v, double alpha, glm::dvec2 u)
 // The point of a low-discrepancy set (Hammersley).
 glm::dvec2 hammersley(unsigned index, unsigned count)
 {
-    unsigned bits = index;
-    bits = (bits << 16) | (bits >> 16);
-    bits = ((bits & 0x55555555u) << 1) | ((bits & 0xaaaaaaaau) >> 1);
-    bits = ((bits & 0x33333333u) << 2) | ((bits & 0xccccccccu) >> 2);
-    bits = ((bits & 0x0f0f0f0fu) << 4) | ((bits & 0xf0f0f0f0u) >> 4);
-    bits = ((bits & 0x00ff00ffu) << 8) | ((bits & 0xff00ff00u) >> 8);
-    return {(index + 0.5) / count, bits * 0x1p-32 + 0x1p-33};
+    return {(index + 0.5) / count, glm::bitfieldReverse(index) * 0x1p-32 + 0x1p-33};
 }
 
 // Solid angle of a square of side 1 in the map, around a unit direction.

@@ -9,7 +9,7 @@
 #include <glm/geometric.hpp>
 #include <glm/gtc/type_ptr.hpp>
 
-#include "scene/bounds.hpp"
+#include "scene/geometry.hpp"
 #include "scene/texture_sample.hpp"
 
 namespace cotan::ground {
@@ -32,9 +32,6 @@ public:
     void add(const Instance& instance, const Mesh& mesh, bool odd);
 
 private:
-    Standing standing(const glm::mat4& toWorld, const glm::vec3& p) const;
-    void fill(int x, int z, float height);
-    void veil(int x, int z, float height, float stops, std::size_t layer);
     void fillTriangle(const Mesh& mesh, const std::array<std::uint32_t, 3>& corners, bool odd);
     float alphaAt(const Mesh& mesh, const std::array<std::uint32_t, 3>& corners, glm::vec3 weights) const;
 
@@ -44,32 +41,12 @@ private:
     std::vector<Standing> vertices_;
 };
 
-Standing Filling::standing(const glm::mat4& toWorld, const glm::vec3& p) const
+// Where a point stands along the lean, in x and z, and its height above the plane.
+glm::dvec3 standing(const glm::mat4& toWorld, const glm::vec3& p, double plane, glm::vec2 lean)
 {
     const glm::dvec3 world(glm::dmat4(toWorld) * glm::dvec4(glm::dvec3(p), 1));
-    const double height = world.y - plane_;
-    const glm::dvec2 place =
-        (glm::dvec2(world.x, world.z) - height * glm::dvec2(columns_.lean) - glm::dvec2(columns_.low))
-        / glm::dvec2(columns_.extent) * double(columns_.side);
-    return {glm::vec2(place), float(height)};
-}
-
-void Filling::fill(int x, int z, float height)
-{
-    const std::size_t at = std::size_t(z) * std::size_t(columns_.side) + std::size_t(x);
-    columns_.from[at] = std::min(columns_.from[at], height);
-    columns_.to[at] = std::max(columns_.to[at], height);
-}
-
-void Filling::veil(int x, int z, float height, float stops, std::size_t layer)
-{
-    if (columns_.veils.empty())
-        columns_.veils.assign(columns_.from.size(),
-                              {std::numeric_limits<float>::infinity(), -std::numeric_limits<float>::infinity(), {}});
-    Columns::Veil& veil = columns_.veils[std::size_t(z) * std::size_t(columns_.side) + std::size_t(x)];
-    veil.from = std::min(veil.from, height);
-    veil.to = std::max(veil.to, height);
-    veil.stops[layer] = std::max(veil.stops[layer], stops);
+    const double height = world.y - plane;
+    return {glm::dvec2(world.x, world.z) - height * glm::dvec2(lean), height};
 }
 
 float Filling::alphaAt(const Mesh& mesh, const std::array<std::uint32_t, 3>& corners, glm::vec3 weights) const
@@ -135,18 +112,27 @@ void Filling::fillTriangle(const Mesh& mesh, const std::array<std::uint32_t, 3>&
                 const float qv = (q.x * ac.y - q.y * ac.x) * inverse, qw = (ab.x * q.y - ab.y * q.x) * inverse;
                 stops += 0.25f * std::clamp(alphaAt(mesh, corners, inside({1 - qv - qw, qv, qw})), 0.0f, 1.0f);
             }
-            if (stops > kOpaque)
-                fill(x, z, height);
-            else if (stops > 0)
-                veil(x, z, height, stops, (area > 0 ? 0 : 1) + (odd ? 2 : 0));
+            const std::size_t at = std::size_t(z) * std::size_t(columns_.side) + std::size_t(x);
+            if (stops > kOpaque) {
+                columns_.spans[at].hold(height);
+            } else if (stops > 0) {
+                columns_.veils.resize(columns_.spans.size());
+                columns_.veils[at].span.hold(height);
+                float& layer = columns_.veils[at].stops[(area > 0 ? 0 : 1) + (odd ? 2 : 0)];
+                layer = std::max(layer, stops);
+            }
         }
 }
 
 void Filling::add(const Instance& instance, const Mesh& mesh, bool odd)
 {
     vertices_.clear();
-    for (const glm::vec3& p : mesh.positions)
-        vertices_.push_back(standing(instance.toWorld, p));
+    for (const glm::vec3& p : mesh.positions) {
+        const glm::dvec3 at = standing(instance.toWorld, p, plane_, columns_.lean);
+        const glm::dvec2 place =
+            (glm::dvec2(at) - glm::dvec2(columns_.low)) / glm::dvec2(columns_.extent) * double(columns_.side);
+        vertices_.push_back({glm::vec2(place), float(at.z)});
+    }
     for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
         const std::array<std::uint32_t, 3> corners{mesh.indices[i], mesh.indices[i + 1], mesh.indices[i + 2]};
         if (std::max({corners[0], corners[1], corners[2]}) < vertices_.size())
@@ -159,14 +145,12 @@ void setExtent(const Scene& scene, double plane, Columns& columns)
 {
     glm::dvec2 low(std::numeric_limits<double>::infinity()), high(-low);
     forEachPlacedPoint(scene, [&](const glm::mat4& toWorld, const glm::vec3& point) {
-        const glm::dvec3 world(glm::dmat4(toWorld) * glm::dvec4(glm::dvec3(point), 1));
-        const double height = world.y - plane;
-        const glm::dvec2 place = glm::dvec2(world.x, world.z) - height * glm::dvec2(columns.lean);
-        if (!std::isfinite(place.x + place.y + height))
+        const glm::dvec3 at = standing(toWorld, point, plane, columns.lean);
+        if (!std::isfinite(at.x + at.y + at.z))
             return;
-        low = glm::min(low, place);
-        high = glm::max(high, place);
-        columns.top = std::max(columns.top, float(height));
+        low = glm::min(low, glm::dvec2(at));
+        high = glm::max(high, glm::dvec2(at));
+        columns.top = std::max(columns.top, float(at.z));
     });
     if (!(low.x <= high.x))
         low = high = glm::dvec2(0);
@@ -202,9 +186,9 @@ float Columns::stopped(glm::vec2 place, glm::vec2 speed) const
         const glm::vec2 at = start + pace * (0.5f * (height + next));
         const int x = std::clamp(int(at.x), 0, side - 1), z = std::clamp(int(at.y), 0, side - 1);
         const std::size_t i = std::size_t(z) * std::size_t(side) + std::size_t(x);
-        if (from[i] <= next && to[i] > height)
+        if (spans[i].meets(height, next))
             return 1;
-        if (!veils.empty() && veils[i].from <= next && veils[i].to > height)
+        if (!veils.empty() && veils[i].span.meets(height, next))
             met = glm::max(met, glm::make_vec4(veils[i].stops.data()));
     }
     met = 1.0f - met;
@@ -217,9 +201,7 @@ Columns makeColumns(const Scene& scene, double plane, glm::vec2 lean, int side)
     columns.side = side;
     columns.lean = lean;
     setExtent(scene, plane, columns);
-    const std::size_t count = std::size_t(side) * std::size_t(side);
-    columns.from.assign(count, std::numeric_limits<float>::infinity());
-    columns.to.assign(count, -std::numeric_limits<float>::infinity());
+    columns.spans.resize(std::size_t(side) * std::size_t(side));
     Filling filling(scene, plane, columns);
     bool odd = false; // of what is translucent
     for (const Instance& instance : scene.instances) {

@@ -1,7 +1,9 @@
 // What stands above a level plane, as columns: from where to where each is filled.
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <limits>
 #include <vector>
 
 #include <glm/vec2.hpp>
@@ -14,9 +16,21 @@ namespace cotan::ground {
 // the direction of a light as lean, a column holds what shades one place. Between its lowest and its highest point a
 // column counts as full.
 struct Columns {
+    // Heights above the plane; from > to where nothing stands.
+    struct Span {
+        float from = std::numeric_limits<float>::infinity(), to = -from;
+
+        void hold(float height)
+        {
+            from = std::min(from, height);
+            to = std::max(to, height);
+        }
+        bool meets(float low, float high) const { return from <= high && to > low; }
+    };
+
     // What is translucent in a column, which counts as full in the same way.
     struct Veil {
-        float from = 0, to = 0;       // heights above the plane; from > to where there is none
+        Span span;
         std::array<float, 4> stops{}; // the share of light, of each layer of cotan_shadow_threshold
     };
 
@@ -24,9 +38,8 @@ struct Columns {
     glm::vec2 lean{0};
     glm::vec2 low{0}, extent{0}; // of the grid, in x and z
     float top = 0;               // of the highest column, above the plane
-    std::vector<float> from, to; // heights above the plane, rows along x first; from > to where nothing stands
-
-    std::vector<Veil> veils; // likewise; empty where nothing is translucent
+    std::vector<Span> spans;     // rows along x first
+    std::vector<Veil> veils;     // likewise; empty where nothing is translucent
 
     // The share of a ray's light that does not arrive. The ray leaves the plane at `place` and moves sideways by
     // `speed` as it rises by 1, the columns' lean not counted. Of the veils of one layer that it meets the densest

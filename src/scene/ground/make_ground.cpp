@@ -10,8 +10,8 @@
 
 #include "columns.hpp"
 #include "core/loops.hpp"
-#include "scene/bounds.hpp"
 #include "scene/environment_map.hpp"
+#include "scene/geometry.hpp"
 
 namespace cotan {
 

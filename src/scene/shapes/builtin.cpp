@@ -21,21 +21,16 @@ struct Look {
     float metallic, roughness;
 };
 
-int addMaterial(Scene& scene, const Look& look)
+// Adds a mesh with its material and its one instance: turned about the vertical, scaled, moved to `place`.
+void addShape(Scene& scene, Mesh mesh, const Look& look, glm::vec3 place, float degrees = 0, float scale = 1)
 {
+    mesh.material = static_cast<int>(scene.materials.size());
     Material& material = scene.materials.emplace_back();
     material.name = look.name;
     material.baseColor = glm::vec4(look.color, 1);
     material.metallic = look.metallic;
     material.roughness = look.roughness;
     material.normalMap.image = static_cast<int>(look.relief); // images are in the order of Relief
-    return static_cast<int>(scene.materials.size()) - 1;
-}
-
-// Adds a mesh and its one instance: turned about the vertical, scaled, moved to `place`.
-void addShape(Scene& scene, Mesh mesh, const Look& look, glm::vec3 place, float degrees = 0, float scale = 1)
-{
-    mesh.material = addMaterial(scene, look);
     glm::mat4 toWorld = glm::translate(glm::mat4(1), place);
     toWorld = glm::rotate(toWorld, glm::radians(degrees), glm::vec3(0, 1, 0));
     toWorld = glm::scale(toWorld, glm::vec3(scale));
@@ -43,9 +38,8 @@ void addShape(Scene& scene, Mesh mesh, const Look& look, glm::vec3 place, float 
     scene.meshes.push_back(std::move(mesh));
 }
 
-// A sphere whose right half (seen with u = 1/2 in front) shows the left half's image mirrored, as
-// artists do to save texture space. `segments` must be even, so that a column of vertices lies
-// on the mirror line.
+// A sphere whose right half (seen with u = 1/2 in front) shows the left half's image mirrored, as artists do to save
+// texture space. `segments` must be even, so that a column of vertices lies on the mirror line.
 Mesh makeMirroredSphere(float radius, int segments, float repeatU, float repeatV)
 {
     Mesh mesh = makeSphere(radius, segments);

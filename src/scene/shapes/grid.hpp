@@ -25,9 +25,8 @@ struct Grid {
     bool poleBottom = false; // the edge v = 1 is one point
 };
 
-// Adds the tessellated surface to a mesh, with texcoords set 0 = (u,v). Vertices are shared
-// between the cells. At a pole each column of cells gets one triangle and a vertex of its own,
-// whose u is the middle of the column.
+// Adds the tessellated surface to a mesh, with texcoords set 0 = (u,v). Vertices are shared between the cells. At a
+// pole each column of cells gets one triangle and a vertex of its own, whose u is the middle of the column.
 void appendGrid(Mesh& mesh, const Grid& grid, const Surface& surface);
 
 // Scales texcoords set 0.

@@ -146,8 +146,7 @@ Camera frontCamera(const Scene& scene, int width, int height);
 // looks straight down with the front below. Both finite.
 Camera orbitCamera(const Scene& scene, double azimuth, double elevation, int width, int height);
 
-// The lights for a scene that brings none: one key light from the upper left, fixed to the camera's
-// side of the scene.
+// The lights for a scene that brings none: one key light from the upper left, fixed to the camera's side of the scene.
 std::vector<Light> defaultLights();
 
 // ---- environments --------------------------------------------------------------------------
