@@ -3,7 +3,7 @@
 // both, by area, is the surface's normal. A ray sees one of them, by the area that faces it, and goes from one to the
 // other until it leaves: nothing is lost. The shadowing of NormalMapping::shadowed is that of A. Conty Estevez,
 // P. Lecocq, C. Stein, A Microfacet-Based Shadowing Function to Solve the Bump Terminator Problem, 2019.
-#include "reference_light.hpp"
+#include "pixel.hpp"
 
 #include <algorithm>
 #include <array>

@@ -12,8 +12,6 @@
 #include "scene/geometry.hpp"
 #include "scene/sample_places.hpp"
 #include "scene/scene_check.hpp"
-#include "setup.hpp"
-#include "tile.hpp"
 
 namespace cotan {
 

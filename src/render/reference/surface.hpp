@@ -13,7 +13,6 @@
 
 #include "cotan/portable.hpp"
 #include "cotan/view.hpp"
-#include "raster.hpp"
 #include "setup.hpp"
 #include "texture.hpp"
 
