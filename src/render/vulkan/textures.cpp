@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include <glm/gtc/packing.hpp>
+
 #include "core/parallel.hpp"
 
 namespace cotan {
@@ -73,6 +75,29 @@ vk::Sampler Samplers::get(const Sampler& s, bool pointSampled)
     info.anisotropyEnable = stretch;
     info.maxAnisotropy = stretch ? std::min(8.0f, device_->limits.maxSamplerAnisotropy) : 1.0f;
     return *made_.emplace(key, vk::raii::Sampler(device_->device, info)).first->second;
+}
+
+void HeldPicture::hold(const Device& device, std::shared_ptr<const void> newOwner, const Image& picture)
+{
+    if (newOwner == owner)
+        return;
+    std::vector<glm::uint64> halves(picture.pixelCount());
+    for (std::size_t i = 0; i < halves.size(); ++i) {
+        const float* p = picture.floats() + 4 * i;
+        halves[i] = glm::packHalf4x16(glm::vec4(p[0], p[1], p[2], p[3]));
+    }
+    owner.reset();
+    texture = {};
+    memory = std::make_unique<Memory>(device);
+    texture = makeTexture(device, *memory,
+                          {.format = vk::Format::eR16G16B16A16Sfloat,
+                           .extent = {std::uint32_t(picture.width), std::uint32_t(picture.height)},
+                           .usage = vk::ImageUsageFlagBits::eSampled | vk::ImageUsageFlagBits::eTransferDst});
+    const std::array levels{std::as_bytes(std::span(halves))};
+    Uploader uploader(device, halves.size() * sizeof(glm::uint64));
+    uploader.image(texture, levels, sizeof(glm::uint64));
+    uploader.finish();
+    owner = std::move(newOwner);
 }
 
 std::array<MapUse, COTAN_MAP_COUNT> mapUses(const Material& m)
