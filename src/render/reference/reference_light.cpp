@@ -1,9 +1,7 @@
 #include "pixel.hpp"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
-#include <cstdint>
 
 #include <glm/geometric.hpp>
 
@@ -122,17 +120,6 @@ bool goesByRays(const View& view, const std::optional<TangentSpace>& tangent)
     return view.normalMapping != NormalMapping::shading && view.shading == Shading::pbr && !tangent;
 }
 
-// From the place: the same in every picture of the same view.
-std::uint32_t seedOf(glm::vec3 place)
-{
-    std::uint32_t seed = 0;
-    for (int i = 0; i < 3; ++i) {
-        seed = (seed ^ std::bit_cast<std::uint32_t>(place[i])) * 0x9e3779b1u;
-        seed = (seed ^ seed >> 15) * 0x85ebca77u;
-    }
-    return seed ^ seed >> 13;
-}
-
 } // namespace
 
 std::vector<PreparedLight> prepareLights(const View& view, glm::dvec3 eye)
@@ -209,9 +196,7 @@ glm::vec3 radianceOf(const PixelInputs& all, const f32::cotan_surface& surface, 
             fromCoat += arriving * f32::cotan_reflect_coat(*layers.coat, surface.v, arrival.toLight);
     }
     if (rays)
-        radiance += radianceByRays(
-            {surface, layers.gloss.value_or(f32::cotan_plain_gloss()), point.normal, seedOf(point.position)}, view,
-            arrivals);
+        radiance += radianceByRays(surface, layers.gloss.value_or(f32::cotan_plain_gloss()), point, view, arrivals);
     if (view.environment) {
         if (!rays)
             radiance += meanOfTaps(surface, point,
