@@ -18,7 +18,6 @@ struct Candidate {
     vk::raii::PhysicalDevice physical;
     std::string name;
     vk::PhysicalDeviceType type;
-    std::uint32_t queueFamily = 0;
     std::string missing; // empty: it can run the renderer
 };
 
@@ -115,9 +114,8 @@ std::vector<Candidate> findCandidates(const vk::raii::Instance& instance)
     for (vk::raii::PhysicalDevice& physical : vk::raii::PhysicalDevices(instance)) {
         const vk::PhysicalDeviceProperties properties = physical.getProperties();
         std::string missing = missingFeature(physical);
-        const auto family = std::uint32_t(std::max(graphicsFamily(physical), 0));
         candidates.push_back({std::move(physical), std::string(properties.deviceName.data()), properties.deviceType,
-                              family, std::move(missing)});
+                              std::move(missing)});
     }
     std::ranges::stable_sort(candidates, {}, [](const Candidate& c) { return rank(c.type); });
     return candidates;
@@ -235,7 +233,7 @@ Result<std::unique_ptr<Device>> openDevice(const VulkanRendererOptions& options)
             return chosen.error();
         d->physical = std::move(chosen->physical);
         d->name = chosen->name;
-        d->queueFamily = chosen->queueFamily;
+        d->queueFamily = std::uint32_t(graphicsFamily(d->physical)); // chosen for having one
         describe(*d);
         openLogicalDevice(*d);
         return d;

@@ -181,13 +181,8 @@ gpu::CotanMaterial materialConstants(const Scene& scene, const Material& m, cons
     g.anisotropy = gpu::vec4(a.strength, std::cos(a.rotation), -std::sin(a.rotation), m.specular.ior);
     g.specular = gpu::vec4(m.specular.color, m.specular.strength);
     g.sheen = gpu::vec4(m.sheen.color, m.sheen.roughness);
-    gpu::CotanTextureUse* const uses[] = {
-        &g.baseColorMap,     &g.metallicRoughnessMap, &g.normalMapUse,      &g.occlusionMap,   &g.emissiveMap,
-        &g.coatMap,          &g.coatRoughnessMap,     &g.coatNormalMapUse,  &g.anisotropyMap,  &g.specularMap,
-        &g.specularColorMap, &g.sheenColorMap,        &g.sheenRoughnessMap, &g.transmissionMap};
-    std::size_t k = 0;
     for (const MapUse& use : mapUses(m))
-        *uses[k++] = useConstants(*use.texture, textures.present(use));
+        g.*use.constants = useConstants(*use.texture, textures.present(use));
     // Without a normal map the frame is that of uv set 0 as it is.
     if (!m.normalMap.present())
         g.normalMapUse = useConstants(Texture{}, /*present*/ false);

@@ -103,20 +103,21 @@ void HeldPicture::hold(const Device& device, std::shared_ptr<const void> newOwne
 std::array<MapUse, COTAN_MAP_COUNT> mapUses(const Material& m)
 {
     using K = TextureKind;
-    return {{{&m.baseColorMap, K::color, {}},
-             {&m.metallicRoughnessMap, K::data, {}},
-             {&m.normalMap, K::normal, m.normalFormat},
-             {&m.occlusionMap, K::data, {}},
-             {&m.emissiveMap, K::color, {}},
-             {&m.coat.map, K::data, {}},
-             {&m.coat.roughnessMap, K::data, {}},
-             {&m.coat.normalMap, K::normal, m.coat.normalFormat},
-             {&m.anisotropy.map, K::data, {}},
-             {&m.specular.map, K::data, {}},
-             {&m.specular.colorMap, K::color, {}},
-             {&m.sheen.colorMap, K::color, {}},
-             {&m.sheen.roughnessMap, K::data, {}},
-             {&m.transmission.map, K::data, {}}}};
+    using G = gpu::CotanMaterial;
+    return {{{&m.baseColorMap, K::color, {}, &G::baseColorMap},
+             {&m.metallicRoughnessMap, K::data, {}, &G::metallicRoughnessMap},
+             {&m.normalMap, K::normal, m.normalFormat, &G::normalMapUse},
+             {&m.occlusionMap, K::data, {}, &G::occlusionMap},
+             {&m.emissiveMap, K::color, {}, &G::emissiveMap},
+             {&m.coat.map, K::data, {}, &G::coatMap},
+             {&m.coat.roughnessMap, K::data, {}, &G::coatRoughnessMap},
+             {&m.coat.normalMap, K::normal, m.coat.normalFormat, &G::coatNormalMapUse},
+             {&m.anisotropy.map, K::data, {}, &G::anisotropyMap},
+             {&m.specular.map, K::data, {}, &G::specularMap},
+             {&m.specular.colorMap, K::color, {}, &G::specularColorMap},
+             {&m.sheen.colorMap, K::color, {}, &G::sheenColorMap},
+             {&m.sheen.roughnessMap, K::data, {}, &G::sheenRoughnessMap},
+             {&m.transmission.map, K::data, {}, &G::transmissionMap}}};
 }
 
 Textures::Key Textures::keyOf(const MapUse& use)

@@ -41,6 +41,7 @@ struct MapUse {
     const Texture* texture = nullptr;
     TextureKind kind = TextureKind::data;
     Convention format; // of normals
+    gpu::CotanTextureUse gpu::CotanMaterial::*constants = nullptr;
 };
 
 // All uses of a material, in the order of the bits COTAN_MAP_... and of the bindings.
