@@ -199,14 +199,6 @@ void Tile::blend(int x, int y, unsigned samples, glm::vec4 value, glm::vec3 thro
     layers_.push_back(layer);
 }
 
-std::vector<const Tile::Layer*> Tile::layersOf(std::size_t pixel) const
-{
-    std::vector<const Layer*> layers;
-    for (std::uint32_t i = newest_.empty() ? kNone : newest_[pixel]; i != kNone; i = layers_[i].before)
-        layers.push_back(&layers_[i]);
-    return layers;
-}
-
 void Tile::clear(int x, int y, glm::vec4 value)
 {
     for (std::size_t s = 0; s < samples_; ++s)
@@ -216,7 +208,9 @@ void Tile::clear(int x, int y, glm::vec4 value)
 glm::vec4 Tile::resolve(int x, int y) const
 {
     glm::vec4 sum(0);
-    std::vector<const Layer*> layers = layersOf(at(x, y) / samples_);
+    std::vector<const Layer*> layers;
+    for (auto i = newest_.empty() ? kNone : newest_[at(x, y) / samples_]; i != kNone; i = layers_[i].before)
+        layers.push_back(&layers_[i]);
     for (std::size_t s = 0; s < samples_; ++s) {
         // Their addresses are in the order in which they were added.
         std::sort(layers.begin(), layers.end(), [&](const Layer* a, const Layer* b) {

@@ -166,7 +166,6 @@ private:
 
     std::size_t at(int x, int y) const;
     float reversedDepthAt(const Plane& z, int x, int y, std::size_t sample) const;
-    std::vector<const Layer*> layersOf(std::size_t pixel) const;
 
     Rectangle area_;
     SamplePattern pattern_;

@@ -246,10 +246,10 @@ void Pipelines::begin(const std::vector<PipelineKey>& keys)
 {
     const auto tasks = std::make_shared<std::vector<std::packaged_task<vk::raii::Pipeline()>>>();
     for (const PipelineKey& key : keys) {
-        if (entries_.contains(key))
+        if (made_.contains(key))
             continue;
         tasks->emplace_back([this, key] { return make(key); });
-        entries_[key].making = tasks->back().get_future();
+        made_[key] = tasks->back().get_future();
     }
     if (!tasks->empty())
         workers_.push_back(std::async(std::launch::async, [tasks, threads = threadsFor(tasks->size(), 1)] {
@@ -259,17 +259,15 @@ void Pipelines::begin(const std::vector<PipelineKey>& keys)
 
 vk::Pipeline Pipelines::get(const PipelineKey& key)
 {
-    const auto [entry, isNew] = entries_.try_emplace(key);
+    const auto [entry, isNew] = made_.try_emplace(key);
     try {
         if (isNew)
-            entry->second.pipeline = make(key);
-        else if (entry->second.making.valid())
-            entry->second.pipeline = entry->second.making.get();
+            entry->second = std::async(std::launch::deferred, [this, key] { return make(key); });
+        return *entry->second.get();
     } catch (...) {
-        entries_.erase(entry);
+        made_.erase(entry);
         throw;
     }
-    return *entry->second.pipeline;
 }
 
 } // namespace cotan

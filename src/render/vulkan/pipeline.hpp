@@ -86,16 +86,11 @@ public:
     vk::Pipeline get(const PipelineKey& key);
 
 private:
-    struct Entry {
-        std::future<vk::raii::Pipeline> making; // not valid: made
-        vk::raii::Pipeline pipeline{nullptr};
-    };
-
     vk::raii::Pipeline make(const PipelineKey& key) const;
 
     const Device* device_;
     const Layouts* layouts_;
-    std::map<PipelineKey, Entry> entries_;
+    std::map<PipelineKey, std::shared_future<vk::raii::Pipeline>> made_;
     std::vector<std::future<void>> workers_; // the last member: they use the others
 };
 

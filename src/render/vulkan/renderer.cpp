@@ -72,13 +72,6 @@ Status checkLimits(const Device& device, const View& view)
     return Done{};
 }
 
-// Adds the pixels of floats.
-void add(Image& sum, const Image& picture)
-{
-    for (std::size_t i = 0; i < 4 * sum.pixelCount(); ++i)
-        sum.floats()[i] += picture.floats()[i];
-}
-
 // What the view asks for, of the sums of all samples.
 Image meanOf(const Image& sum, const View& view)
 {
@@ -201,7 +194,9 @@ Result<Image> CommandRecorder::draw(GpuScene& scene, const View& view, RenderTim
         const Result<Image> picture = drawOnce(scene, view, sample, timings);
         if (!picture)
             return picture;
-        add(sum, *picture);
+        const float* values = picture->floats();
+        for (std::size_t i = 0; i < 4 * sum.pixelCount(); ++i)
+            sum.floats()[i] += values[i];
     }
     return meanOf(sum, view);
 }

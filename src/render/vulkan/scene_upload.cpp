@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "cotan/convention.hpp"
 #include "gpu_structs.hpp"
@@ -293,15 +294,12 @@ void GpuScene::loadMaterials(const Scene& scene, const Layouts& layouts, Uploade
 void GpuScene::limitPipelines()
 {
     constexpr std::size_t kMax = 4;
-    std::vector<std::uint32_t> sets;
+    std::set<std::uint32_t> sets;
     for (const GpuMesh& mesh : meshes)
-        sets.push_back(materials[std::size_t(mesh.material)].maps);
-    std::sort(sets.begin(), sets.end());
-    sets.erase(std::unique(sets.begin(), sets.end()), sets.end());
+        sets.insert(materials[std::size_t(mesh.material)].maps);
     if (sets.size() <= kMax)
         return;
-    std::uint32_t all = COTAN_MAP_BASE_COLOR | COTAN_MAP_METALLIC_ROUGHNESS | COTAN_MAP_NORMAL | COTAN_MAP_OCCLUSION
-        | COTAN_MAP_EMISSIVE;
+    std::uint32_t all = COTAN_MAPS_PLAIN & ~COTAN_MAP_OCCLUSION_SHARED;
     for (const std::uint32_t set : sets)
         all |= set & ~COTAN_MAP_OCCLUSION_SHARED;
     for (GpuMaterial& material : materials)

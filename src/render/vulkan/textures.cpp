@@ -138,7 +138,7 @@ void Textures::request(const Scene& scene, const MapUse& use, std::vector<MipReq
     index_.insert(*made);
     if (!isNew)
         return;
-    MipRequest r;
+    MipRequest& r = missing.emplace_back();
     r.image = &image;
     r.kind = use.kind;
     r.normalFormat = use.format;
@@ -149,7 +149,6 @@ void Textures::request(const Scene& scene, const MapUse& use, std::vector<MipReq
         && device_->cpu && device_->filterable16)
         r.format = TexelFormat::unorm16;
     r.largest = int(device_->limits.maxImageDimension2D);
-    missing.push_back(r);
 }
 
 Texture2D Textures::upload(const MipChain& chain, Uploader& uploader)
