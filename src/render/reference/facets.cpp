@@ -175,7 +175,7 @@ private:
         return std::min(lobe.white * factors.x + lobe.f90 * factors.y, 1.0f);
     }
 
-    // Of f0 and f90, as albedoFactors of the part `environment`.
+    // Of f0 and f90, as albedoFactors of src/scene/environment.
     glm::vec2 factors(float nv) const
     {
         static const AlbedoTable table = makeAlbedos();
