@@ -159,7 +159,6 @@ void describe(Device& d)
     d.driver = std::string(driver.driverName.data()) + " " + std::string(driver.driverInfo.data());
     d.cpu = core.deviceType == vk::PhysicalDeviceType::eCpu;
     d.limits = core.limits;
-    d.granularity = std::max<vk::DeviceSize>(core.limits.bufferImageGranularity, 1);
     d.memory = d.physical.getMemoryProperties();
     d.filterable16 = filterable(d.physical, vk::Format::eR16G16B16A16Unorm);
     d.filterable32 = filterable(d.physical, vk::Format::eR32G32B32A32Sfloat);

@@ -24,19 +24,15 @@ struct LayerLists {
     // width: of the picture, in pixels.
     LayerLists(const Device& device, std::uint32_t pictureWidth);
 
-    // Rows that a band may have, at least 1.
-    std::uint32_t maxRows() const;
     // Empties the lists, for the band of `rows` that starts at `top`.
     void clear(const vk::raii::CommandBuffer& commands, std::uint32_t top, std::uint32_t rows) const;
     // Makes what was drawn readable for fragments to come, and the count for the host.
     void finish(const vk::raii::CommandBuffer& commands) const;
-    // How many layers were drawn. Only after the commands have been waited for. Over the capacity, some were not kept.
-    std::uint32_t count() const;
 
     Memory memory;
     std::uint32_t width;
     Buffer lists, layers;
-    Buffer hostCount; // host
+    Buffer hostCount; // of the layers that were drawn: over the capacity, some were not kept
 };
 
 // What pictures share: constants, shadow map, targets; kept from one picture to the next.

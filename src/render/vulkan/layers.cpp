@@ -35,12 +35,6 @@ LayerLists::LayerLists(const Device& device, std::uint32_t pictureWidth) : memor
     hostCount = makeHostBuffer(device, memory, sizeof(std::uint32_t), Usage::eTransferDst, /*readBack*/ true);
 }
 
-std::uint32_t LayerLists::maxRows() const
-{
-    const vk::DeviceSize pixels = (kListBytes - sizeof(gpu::CotanLayerLists)) / sizeof(std::uint32_t);
-    return static_cast<std::uint32_t>(std::max<vk::DeviceSize>(pixels / width, 1));
-}
-
 void LayerLists::clear(const vk::raii::CommandBuffer& commands, std::uint32_t top, std::uint32_t rows) const
 {
     const gpu::CotanLayerLists head{0, kCapacity, width, top, top + rows};
@@ -60,13 +54,6 @@ void LayerLists::finish(const vk::raii::CommandBuffer& commands) const
     barrier(commands, Stage::eTransfer, Access::eTransferWrite, Stage::eHost, Access::eHostRead);
 }
 
-std::uint32_t LayerLists::count() const
-{
-    std::uint32_t count = 0;
-    std::memcpy(&count, hostCount.mapped, sizeof count);
-    return count;
-}
-
 // Draws the translucent fragments of a band into their lists; returns how many there are.
 std::uint32_t CommandRecorder::keepLayers(const DrawLists& lists, const vk::Rect2D& band)
 {
@@ -77,7 +64,9 @@ std::uint32_t CommandRecorder::keepLayers(const DrawLists& lists, const vk::Rect
     commands.endRendering();
     layers_->finish(commands);
     commands_.submitAndWait();
-    return layers_->count();
+    std::uint32_t count = 0;
+    std::memcpy(&count, layers_->hostCount.mapped, sizeof count);
+    return count;
 }
 
 // Lays the lists of a band over the picture, one sample after the other: so they need no device that
@@ -100,7 +89,8 @@ Status CommandRecorder::drawLayers(const DrawLists& lists)
 {
     const PixelArea& area = lists.translucentArea;
     const auto width = static_cast<std::uint32_t>(area.x1 - area.x0), end = static_cast<std::uint32_t>(area.y1);
-    std::uint32_t rows = layers_->maxRows();
+    constexpr vk::DeviceSize pixels = (kListBytes - sizeof(gpu::CotanLayerLists)) / sizeof(std::uint32_t);
+    auto rows = static_cast<std::uint32_t>(std::max<vk::DeviceSize>(pixels / layers_->width, 1)); // of a band
     for (auto top = static_cast<std::uint32_t>(area.y0); top < end && width > 0;) {
         const std::uint32_t height = std::min(rows, end - top);
         const vk::Rect2D band({area.x0, std::int32_t(top)}, {width, height});

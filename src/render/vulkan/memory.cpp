@@ -58,7 +58,7 @@ Memory::Piece Memory::allocate(const vk::MemoryRequirements& requirements, vk::M
 {
     const std::uint32_t type = chooseType(requirements.memoryTypeBits, needed, wanted);
     // Buffers and images may share a block, so both keep the distance that they need.
-    const vk::DeviceSize alignment = std::max(requirements.alignment, device_->granularity);
+    const vk::DeviceSize alignment = std::max(requirements.alignment, device_->limits.bufferImageGranularity);
     Block* block = nullptr;
     for (Block& b : blocks_)
         if (b.type == type && aligned(b.used, alignment) + requirements.size <= b.size)
@@ -85,7 +85,7 @@ Buffer makeHostBuffer(const Device& device, Memory& memory, vk::DeviceSize size,
 
 Texture2D makeTexture(const Device& device, Memory& memory, const TextureInfo& info)
 {
-    Texture2D t{.format = info.format, .extent = info.extent, .levels = info.levels};
+    Texture2D t{.extent = info.extent, .levels = info.levels};
     t.image = vk::raii::Image(device.device,
                               vk::ImageCreateInfo({}, vk::ImageType::e2D, info.format, vk::Extent3D(info.extent, 1),
                                                   info.levels, 1, info.samples, vk::ImageTiling::eOptimal, info.usage));

@@ -57,7 +57,6 @@ struct Buffer {
 struct Texture2D {
     vk::raii::Image image{nullptr};
     vk::raii::ImageView view{nullptr};
-    vk::Format format = vk::Format::eUndefined;
     vk::Extent2D extent;
     std::uint32_t levels = 1;
 };
