@@ -12,7 +12,7 @@
 
 namespace cotan {
 
-// The pipelines of a picture; of surfaces without the maps.
+// The pipelines that a picture may be drawn with: those of surfaces without the maps, which keyOf adds.
 struct PictureKeys {
     PipelineKey forward, layers, compose, background, surround, resolve;
 };
@@ -21,7 +21,7 @@ PictureKeys keysOf(const View& view, const Targets& targets);
 
 // Where translucent fragments are kept until they are composed: lists for a band of the picture's rows.
 struct LayerLists {
-    // width: of the picture, in pixels.
+    // pictureWidth: in pixels.
     LayerLists(const Device& device, std::uint32_t pictureWidth);
 
     // Empties the lists, for the band of `rows` that starts at `top`.
