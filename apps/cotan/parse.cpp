@@ -23,6 +23,13 @@ std::vector<std::string> splitAtCommas(const std::string& text)
     return words;
 }
 
+Result<Frame> parseFrame(const std::string& text, std::string_view option)
+{
+    if (const auto frame = frameFromName(text))
+        return *frame;
+    return usageError(fmt::format("{}: expected one of {}; found '{}'", option, frameNames(), text));
+}
+
 Error unknownWord(const std::string& option, const std::vector<std::string_view>& known, const std::string& word)
 {
     return usageError(fmt::format("{}: expected {}; found '{}'", option, eitherOf({known.begin(), known.end()}), word));

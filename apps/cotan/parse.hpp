@@ -19,6 +19,9 @@ std::vector<std::string> presetWords();
 // The words between commas; none of an empty text.
 std::vector<std::string> splitAtCommas(const std::string& text);
 
+// A frame's name; the error lists all of them, and begins with the option.
+Result<Frame> parseFrame(const std::string& text, std::string_view option);
+
 template<class Value> using Words = std::vector<std::pair<std::string_view, Value>>;
 
 // Says that a word is none of these: "--mode: expected a, b or c; found 'x'".

@@ -34,23 +34,6 @@ Backdrop backdropOf(Background background)
                                              : Backdrop::gradient;
 }
 
-// A name of environmentNames, or a file.
-Result<EnvironmentMap> openEnvironment(const PictureOptions& o)
-{
-    EnvironmentOptions made;
-    made.rotation = float(o.environmentRotation * kRadians);
-    made.intensity = o.environmentIntensity;
-    if (auto map = builtinEnvironment(o.environment, made))
-        return std::move(*map);
-    if (std::filesystem::path(o.environment).extension().empty())
-        return usageError(fmt::format("--environment: expected {}, none, or a .hdr or .exr file; found '{}'",
-                                      fmt::join(environmentNames(), ", "), o.environment));
-    const auto picture = readImage(o.environment, limitsFor(o.memory));
-    if (!picture)
-        return picture.error();
-    return environmentOfPicture(*picture, made);
-}
-
 // What lights models in a built-in environment beside the environment itself, turned with it: in the studio a lamp in
 // front of the large box on the left, in the evening the sun. An overcast sky casts no shadow, nor is anything known of
 // the lamps in a file.
@@ -99,14 +82,24 @@ std::shared_ptr<const GroundMap> groundOf(const PictureOptions& options, const S
     return map ? std::make_shared<const GroundMap>(std::move(*map)) : nullptr;
 }
 
-Result<std::shared_ptr<const EnvironmentMap>> openEnvironmentMap(const PictureOptions& options)
+Result<std::shared_ptr<const EnvironmentMap>> openEnvironmentMap(const PictureOptions& o)
 {
-    if (!surrounded(options) || options.use == PictureUse::data)
+    if (!surrounded(o) || o.use == PictureUse::data)
         return std::shared_ptr<const EnvironmentMap>();
-    auto map = openEnvironment(options);
+    const EnvironmentOptions made{.rotation = float(o.environmentRotation * kRadians),
+                                  .intensity = o.environmentIntensity};
+    if (auto map = builtinEnvironment(o.environment, made))
+        return std::make_shared<const EnvironmentMap>(std::move(*map));
+    if (std::filesystem::path(o.environment).extension().empty())
+        return usageError(fmt::format("--environment: expected {}, none, or a .hdr or .exr file; found '{}'",
+                                      fmt::join(environmentNames(), ", "), o.environment));
+    const auto picture = readImage(o.environment, limitsFor(o.memory));
+    if (!picture)
+        return picture.error();
+    auto map = environmentOfPicture(*picture, made);
     if (!map)
         return map.error();
-    return std::shared_ptr<const EnvironmentMap>(std::make_shared<const EnvironmentMap>(std::move(*map)));
+    return std::make_shared<const EnvironmentMap>(std::move(*map));
 }
 
 double shadowSoftnessOf(const PictureOptions& options)

@@ -164,13 +164,6 @@ std::vector<std::string> frameWords()
 
 std::string frameNames() { return fmt::format("{}", fmt::join(frameWords(), ", ")); }
 
-Result<Frame> parseFrame(const std::string& text, std::string_view field)
-{
-    if (const auto frame = frameFromName(text))
-        return *frame;
-    return usageError(fmt::format("{}: expected one of {}; found '{}'", field, frameNames(), text));
-}
-
 Result<FrameChoice> parseFrameChoice(const std::string& text, std::string_view field)
 {
     if (text == kAutoFrame)

@@ -67,13 +67,11 @@ std::vector<std::string> sizePresetWords();
 std::vector<std::string> frameWords();
 std::string frameNames();
 
-// A frame's name; the error lists all of them, and begins with the option or the field that it was given for.
-Result<Frame> parseFrame(const std::string& text, std::string_view field = "frame");
-
 // What the frame that the normal maps mean is called, where pictures are drawn.
 inline constexpr std::string_view kAutoFrame = "auto";
 
-// The same, or kAutoFrame for none.
+// A frame's name, or kAutoFrame for none; the error lists all of them, and begins with the option or the field that it
+// was given for.
 Result<FrameChoice> parseFrameChoice(const std::string& text, std::string_view field = "frame");
 
 // Sets what the words of the command line of `cotan render` ask for: "--size", "640x480", "--edges=all", and a model

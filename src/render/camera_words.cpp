@@ -7,7 +7,9 @@
 #include <string_view>
 
 #include <glm/geometric.hpp>
+#include <glm/vec2.hpp>
 
+#include "core/named_values.hpp"
 #include "core/parse_number.hpp"
 #include "scene/geometry.hpp"
 
@@ -74,12 +76,9 @@ Result<Camera> lookingFromTo(const std::string& text)
     return camera;
 }
 
-struct Side {
-    std::string_view name;
-    double azimuth, elevation;
-};
-constexpr std::array<Side, 5> kSides = {
-    {{"left", -90, 0}, {"right", 90, 0}, {"top", 0, 90}, {"bottom", 0, -90}, {"back", 180, 0}}};
+// Azimuth and elevation, in degrees.
+constexpr Named<glm::dvec2> kSides[] = {
+    {"left", {-90, 0}}, {"right", {90, 0}}, {"top", {0, 90}}, {"bottom", {0, -90}}, {"back", {180, 0}}};
 constexpr std::string_view kOrbit = "orbit:";
 
 Result<Camera> orbiting(const std::string& text, const Scene& scene, int width, int height)
@@ -102,9 +101,8 @@ Result<Camera> parseCamera(const std::string& text, const Scene& scene, int widt
         return fitCamera(framedBounds(scene), width, height);
     if (text == "front")
         return frontCamera(scene, width, height);
-    for (const Side& side : kSides)
-        if (text == side.name)
-            return orbitCamera(scene, side.azimuth, side.elevation, width, height);
+    if (const auto side = valueOf(kSides, text))
+        return orbitCamera(scene, side->x, side->y, width, height);
     if (text.starts_with(kOrbit))
         return orbiting(text, scene, width, height);
     int number = 0;

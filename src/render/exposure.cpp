@@ -18,42 +18,37 @@ constexpr float kPart = 0.35f;  // of the way, in stops
 constexpr float kDarkestMean = 0.045f, kBrightestMean = 0.45f;
 constexpr float kBrightest = 0.92f; // of the brightest fiftieth
 
-// The brightness of grey light that a curve shows so: steps of 1/8 of a stop, ascending.
-class Undone {
-public:
-    explicit Undone(ToneMapping tone)
-    {
-        for (std::size_t i = 0; i < shown_.size(); ++i)
-            shown_[i] = f32::cotan_tone_of(int(tone), glm::vec3(light(float(i)))).y;
-    }
-    float operator()(float shown) const
-    {
-        const auto above = std::upper_bound(shown_.begin(), shown_.end(), shown);
-        if (above == shown_.begin())
-            return light(0);
-        if (above == shown_.end())
-            return light(float(shown_.size() - 1));
-        const float low = *(above - 1);
-        return light(float(above - shown_.begin() - 1) + (shown - low) / (*above - low));
-    }
+// Grey light in steps of 1/8 of a stop.
+float lightAt(float step) { return std::exp2(step / 8 - 12); }
 
-private:
-    static float light(float step) { return std::exp2(step / 8 - 12); }
+// What a curve shows of each step, ascending, to a light of 2^8.
+using ShownSteps = std::array<float, 161>;
 
-    std::array<float, 161> shown_{}; // to 2^8
-};
+// The light that a curve shows so.
+float undone(const ShownSteps& steps, float shown)
+{
+    const auto above = std::upper_bound(steps.begin(), steps.end(), shown);
+    if (above == steps.begin())
+        return lightAt(0);
+    if (above == steps.end())
+        return lightAt(float(steps.size() - 1));
+    const float low = *(above - 1);
+    return lightAt(float(above - steps.begin() - 1) + (shown - low) / (*above - low));
+}
 
 // Of the pixels that the scene covers.
 std::vector<float> brightness(const Image& picture, ToneMapping tone)
 {
-    const Undone undone(tone);
+    ShownSteps steps{};
+    for (std::size_t i = 0; i < steps.size(); ++i)
+        steps[i] = f32::cotan_tone_of(int(tone), glm::vec3(lightAt(float(i)))).y;
     std::vector<float> found;
     for (std::size_t i = 0; i < picture.pixelCount(); ++i) {
         const std::uint8_t* p = picture.bytes8() + 4 * i;
         if (p[3] < 128)
             continue;
         const auto linear = [&](int c) { return f32::cotan_srgb_to_linear(float(p[c]) / 255); };
-        found.push_back(undone(0.2126f * linear(0) + 0.7152f * linear(1) + 0.0722f * linear(2)) / kProbe);
+        found.push_back(undone(steps, 0.2126f * linear(0) + 0.7152f * linear(1) + 0.0722f * linear(2)) / kProbe);
     }
     return found;
 }

@@ -3,11 +3,13 @@
 // both, by area, is the surface's normal. A ray sees one of them, by the area that faces it, and goes from one to the
 // other until it leaves: nothing is lost. The shadowing of NormalMapping::shadowed is that of A. Conty Estevez,
 // P. Lecocq, C. Stein, A Microfacet-Based Shadowing Function to Solve the Bump Terminator Problem, 2019.
-#include "reference_light.hpp"
+#include "pixel.hpp"
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
+#include <cstdint>
 #include <numbers>
 
 #include <glm/geometric.hpp>
@@ -78,6 +80,17 @@ float nextRandom(std::uint32_t& state) // M. O'Neill's PCG, RXS-M-XS
     state = state * 747796405u + 2891336453u;
     const std::uint32_t word = ((state >> ((state >> 28u) + 4u)) ^ state) * 277803737u;
     return float(((word >> 22u) ^ word) >> 8u) * 0x1p-24f;
+}
+
+// From the place: the same in every picture of the same view.
+std::uint32_t seedOf(glm::vec3 place)
+{
+    std::uint32_t seed = 0;
+    for (int i = 0; i < 3; ++i) {
+        seed = (seed ^ std::bit_cast<std::uint32_t>(place[i])) * 0x9e3779b1u;
+        seed = (seed ^ seed >> 15) * 0x85ebca77u;
+    }
+    return seed ^ seed >> 13;
 }
 
 // Metallic-roughness for light that meets a surface more than once: one bounce by GGX; the rest is scattered so that
@@ -162,7 +175,7 @@ private:
         return std::min(lobe.white * factors.x + lobe.f90 * factors.y, 1.0f);
     }
 
-    // Of f0 and f90, as albedoFactors of the part `environment`.
+    // Of f0 and f90, as albedoFactors of src/scene/environment.
     glm::vec2 factors(float nv) const
     {
         static const AlbedoTable table = makeAlbedos();
@@ -242,7 +255,7 @@ private:
 glm::vec3 mirrored(glm::vec3 w) { return {-w.x, w.y, w.z}; }
 
 struct Walker {
-    const FacetPoint& point;
+    const f32::cotan_surface& surface;
     const View& view;
     const std::vector<ArrivingLight>& lights; // in the surface's axes
     Axes axes;                                // the surface's
@@ -255,7 +268,7 @@ struct Walker {
         if (!view.environment)
             return glm::vec3(0);
         const glm::vec3 d = axes.leave(w);
-        return point.surface.occlusion
+        return surface.occlusion
             * (view.environmentMap ? radianceAlong(*view.environmentMap, d, 0) : f32::cotan_environment(d, 0));
     }
 
@@ -331,17 +344,22 @@ struct Walker {
 
 } // namespace
 
-glm::vec3 radianceByRays(const FacetPoint& point, const View& view, const std::vector<ArrivingLight>& lights)
+glm::vec3 radianceByRays(const f32::cotan_surface& surface, const f32::cotan_gloss& gloss, const LitPoint& point,
+                         const View& view, const std::vector<ArrivingLight>& lights)
 {
-    const Axes axes = axesAround(point.normal, point.surface.n);
+    const Axes axes = axesAround(point.normal, surface.n);
     std::vector<ArrivingLight> entered = lights;
     for (ArrivingLight& light : entered)
         light.toLight = axes.enter(light.toLight);
-    glm::vec3 v = axes.enter(point.surface.v);
+    glm::vec3 v = axes.enter(surface.v);
     v = glm::normalize(glm::vec3(v.x, v.y, std::max(v.z, 1e-3f)));
-    Walker walker{
-        point,     view, entered, axes, FacetMaterial(point.surface, point.gloss), Facets(axes.enter(point.surface.n)),
-        point.seed};
+    Walker walker{surface,
+                  view,
+                  entered,
+                  axes,
+                  FacetMaterial(surface, gloss),
+                  Facets(axes.enter(surface.n)),
+                  seedOf(point.position)};
     const bool classic = view.normalMapping == NormalMapping::rays || view.normalMapping == NormalMapping::shadowed;
     glm::vec3 sum(0);
     for (int i = 0; i < kWalks; ++i)

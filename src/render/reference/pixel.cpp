@@ -129,8 +129,7 @@ Lit shadedColor(const PixelInputs& all, const SurfaceInputs& in, glm::vec3 baseC
     }
     const auto tangent = tangentSpaceOf(in, lane, normal, surface, all.projection.orthographic);
     const Layers layers = layersOf(all, in, lane, normal);
-    return {radianceOf(surface, layers, point, all.view, all.lights, all.shadow, tangent),
-            transmittanceOf(surface, layers)};
+    return {radianceOf(all, surface, layers, point, tangent), transmittanceOf(surface, layers)};
 }
 
 glm::vec3 dataOutput(const PixelInputs& all, const SurfaceInputs& in, int lane)

@@ -1,21 +1,60 @@
-// The value of one pixel of a triangle, or of the background.
+// From a surface to the value of its pixel: lights, the shadow of one of them, rays, and what is behind it all.
 #pragma once
 
+#include <array>
+#include <optional>
+#include <span>
 #include <vector>
 
+#include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
 
-#include "projection.hpp"
-#include "reference_light.hpp"
+#include "cotan/portable.hpp"
+#include "cotan/view.hpp"
 #include "surface.hpp"
 
 namespace cotan::reference {
 
-struct Fragment {
-    glm::vec4 value{0};     // shaded: linear colour and alpha; otherwise the output's x y z, and 1
-    glm::vec3 through{0};   // factors of what is behind, where the material is translucent
-    bool discarded = false; // invisible
+// ---- the shadow of the first directional light ----------------------------------------------
+
+struct ShadowMap {
+    Projection projection;
+    int size = 0;                     // texels a side; 0: no map, everything is lit
+    std::vector<float> reversedDepth; // of what the light meets first; rows first
+    float texel = 0;                  // world units a texel
+    float depthUnit = 0;              // reversed depth of one world unit along the light
+
+    float at(int x, int y) const { return reversedDepth[std::size_t(y) * std::size_t(size) + std::size_t(x)]; }
 };
+
+// Draws the scene as the light sees it, 2048 texels a side, fitted to the ball. Masked materials
+// cast the shadow of what their mask leaves; blended ones cover as many texels as their alpha says, by
+// cotan_shadow_threshold; what transmits casts none.
+ShadowMap makeShadowMap(const Scene& scene, const View& view, const std::vector<Draw>& draws,
+                        const TextureLibrary& textures, glm::vec3 direction, const Ball& ball, glm::dvec3 eye);
+
+// The share of light that arrives, 0..1, of a light that covers a disc, whose tangent of half the angle is `softness`
+// (shaders/cotan/shadow.h); 0: nine bilinear comparisons around the point. The point is first moved off its surface
+// along n, and compared with a bias that grows with the slope, both in proportion to a texel.
+// position: relative to the eye of the projection. n: unit, on the side that is seen. toLight: unit.
+float lightReaching(const ShadowMap& map, glm::vec3 position, glm::vec3 n, glm::vec3 toLight, float softness);
+
+// ---- light ----------------------------------------------------------------------------------
+
+// A light, ready for shading.
+struct PreparedLight {
+    LightKind kind = LightKind::directional;
+    glm::vec3 radiance{0};      // colour times intensity
+    glm::vec3 position{0};      // relative to the eye
+    glm::vec3 toLight{0, 1, 0}; // unit, against the way the light travels
+    float range = 0;
+    float cosInner = 1;
+    float cosOuter = 0;
+    bool castsShadow = false;
+};
+
+// The view's lights; the first directional one casts the shadow, if the view has shadows.
+std::vector<PreparedLight> prepareLights(const View& view, glm::dvec3 eye);
 
 // What all pixels of a picture share.
 struct PixelInputs {
@@ -23,6 +62,69 @@ struct PixelInputs {
     Projection projection;
     std::vector<PreparedLight> lights;
     ShadowMap shadow;
+};
+
+// Lighting in tangent space, as tutorials do it: vectors come to the map's normal, not it to them. Vectors along t, b,
+// n n of a pixel.
+struct TangentSpace {
+    f32::cotan_surface surface; // n: the texel; v: carried to tangent space
+    f32::cotan_frame pixel{};   // in the pixel
+    bool perVertex = false;     // carry at the corners, and interpolate
+    std::array<f32::cotan_frame, 3> corners{};
+    std::array<glm::vec3, 3> positions{}; // of the corners, relative to the eye
+    std::array<double, 3> weights{};
+};
+
+// Nothing where the view lights in the world, where there is no normal map, and where what is asked
+// for is missing: tangents at the vertices, or a frame that can be inverted.
+// surface: in the world.
+std::optional<TangentSpace> tangentSpaceOf(const SurfaceInputs& in, int lane, const SurfaceNormal& normal,
+                                           const f32::cotan_surface& surface, bool orthographic);
+
+// A shaded point, beyond what the portable text's surface holds.
+struct LitPoint {
+    glm::vec3 position{0};        // relative to the eye
+    glm::vec3 normal{0};          // unit, not perturbed, on the camera's side: for the shadow
+    std::span<const LitTap> taps; // what is reflected is their mean; none: as the surface says
+};
+
+// What extensions add to a surface, in the world. Blinn-Phong has none of it.
+struct Layers {
+    std::optional<f32::cotan_gloss> gloss; // in place of metallic-roughness' own reflections
+    std::optional<f32::cotan_sheen> sheen;
+    std::optional<f32::cotan_coat> coat;
+};
+
+// Linear radiance towards the eye: lights, environment, emission. Not yet exposed.
+// tangent: where there is one, lights are taken there and meet its surface in place of `surface`; highlights are not
+// stretched.
+glm::vec3 radianceOf(const PixelInputs& all, const f32::cotan_surface& surface, const Layers& layers,
+                     const LitPoint& point, const std::optional<TangentSpace>& tangent);
+
+// The factors, by colour, of what is behind a surface that transmits.
+glm::vec3 transmittanceOf(const f32::cotan_surface& surface, const Layers& layers);
+
+// ---- light on rays: classic normal mapping, and two facets that make a surface of a turned normal -----------
+
+// Light from one direction, of that irradiance perpendicular to it.
+struct ArrivingLight {
+    glm::vec3 toLight{0};
+    glm::vec3 irradiance{0};
+};
+
+// Linear radiance towards the eye of what lights and, where the view has one, the environment give, by one of
+// View::normalMapping's ways but `shading`: the mean of 64 walks. Emission is not in it.
+// A direction to the eye below the surface counts as one along it. surface: its n is the turned normal. gloss: its
+// anisotropy counts as 0. point: its place is where random numbers come from.
+glm::vec3 radianceByRays(const f32::cotan_surface& surface, const f32::cotan_gloss& gloss, const LitPoint& point,
+                         const View& view, const std::vector<ArrivingLight>& lights);
+
+// ---- pixels ---------------------------------------------------------------------------------
+
+struct Fragment {
+    glm::vec4 value{0};     // shaded: linear colour and alpha; otherwise the output's x y z, and 1
+    glm::vec3 through{0};   // factors of what is behind, where the material is translucent
+    bool discarded = false; // invisible
 };
 
 // Always finite. Shaded colours are exposed and, unless the view wants them linear, tone mapped.

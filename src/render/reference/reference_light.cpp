@@ -1,9 +1,7 @@
-#include "reference_light.hpp"
+#include "pixel.hpp"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
-#include <cstdint>
 
 #include <glm/geometric.hpp>
 
@@ -19,13 +17,13 @@ struct Arrival {
     float strength = 0;
 };
 
-Arrival arrivalOf(const PreparedLight& light, const LitPoint& point, const ShadowMap& shadow, float softness)
+Arrival arrivalOf(const PreparedLight& light, const LitPoint& point, const PixelInputs& all)
 {
     if (light.kind == LightKind::directional)
         return {light.toLight,
-                !light.castsShadow ? 1.0f
-                    : softness > 0 ? softLightReaching(shadow, point.position, point.normal, light.toLight, softness)
-                                   : lightReaching(shadow, point.position, point.normal, light.toLight)};
+                !light.castsShadow
+                    ? 1.0f
+                    : lightReaching(all.shadow, point.position, point.normal, light.toLight, all.view.shadowSoftness)};
     glm::vec3 offset = light.position - point.position;
     float distance = glm::length(offset);
     Arrival arrival;
@@ -122,17 +120,6 @@ bool goesByRays(const View& view, const std::optional<TangentSpace>& tangent)
     return view.normalMapping != NormalMapping::shading && view.shading == Shading::pbr && !tangent;
 }
 
-// From the place: the same in every picture of the same view.
-std::uint32_t seedOf(glm::vec3 place)
-{
-    std::uint32_t seed = 0;
-    for (int i = 0; i < 3; ++i) {
-        seed = (seed ^ std::bit_cast<std::uint32_t>(place[i])) * 0x9e3779b1u;
-        seed = (seed ^ seed >> 15) * 0x85ebca77u;
-    }
-    return seed ^ seed >> 13;
-}
-
 } // namespace
 
 std::vector<PreparedLight> prepareLights(const View& view, glm::dvec3 eye)
@@ -182,18 +169,18 @@ std::optional<TangentSpace> tangentSpaceOf(const SurfaceInputs& in, int lane, co
     return space;
 }
 
-glm::vec3 radianceOf(const f32::cotan_surface& surface, const Layers& layers, const LitPoint& point, const View& view,
-                     const std::vector<PreparedLight>& lights, const ShadowMap& shadow,
-                     const std::optional<TangentSpace>& tangent)
+glm::vec3 radianceOf(const PixelInputs& all, const f32::cotan_surface& surface, const Layers& layers,
+                     const LitPoint& point, const std::optional<TangentSpace>& tangent)
 {
+    const View& view = all.view;
     glm::vec3 radiance = surface.emissive, fromCoat(0);
     Layers even = layers; // in tangent space highlights are not stretched
     if (even.gloss)
         even.gloss->anisotropy = 0;
     const bool rays = goesByRays(view, tangent);
     std::vector<ArrivingLight> arrivals; // of rays
-    for (const PreparedLight& light : lights) {
-        Arrival arrival = arrivalOf(light, point, shadow, view.shadowSoftness);
+    for (const PreparedLight& light : all.lights) {
+        const Arrival arrival = arrivalOf(light, point, all);
         if (!(arrival.strength > 0))
             continue;
         const glm::vec3 arriving = light.radiance * arrival.strength;
@@ -209,9 +196,7 @@ glm::vec3 radianceOf(const f32::cotan_surface& surface, const Layers& layers, co
             fromCoat += arriving * f32::cotan_reflect_coat(*layers.coat, surface.v, arrival.toLight);
     }
     if (rays)
-        radiance += radianceByRays(
-            {surface, layers.gloss.value_or(f32::cotan_plain_gloss()), point.normal, seedOf(point.position)}, view,
-            arrivals);
+        radiance += radianceByRays(surface, layers.gloss.value_or(f32::cotan_plain_gloss()), point, view, arrivals);
     if (view.environment) {
         if (!rays)
             radiance += meanOfTaps(surface, point,

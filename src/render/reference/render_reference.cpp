@@ -1,5 +1,6 @@
 #include "cotan/render.hpp"
 
+#include <algorithm>
 #include <array>
 #include <new>
 #include <optional>
@@ -11,8 +12,6 @@
 #include "scene/geometry.hpp"
 #include "scene/sample_places.hpp"
 #include "scene/scene_check.hpp"
-#include "setup.hpp"
-#include "tile.hpp"
 
 namespace cotan {
 
@@ -30,17 +29,6 @@ struct Frozen : PixelInputs {
     TiledTriangles tiled;
 };
 
-// The direction of the light that casts shadows; nothing if none does or nobody would see it.
-std::optional<glm::vec3> shadowDirection(const View& view, const std::vector<PreparedLight>& lights)
-{
-    if (view.output != Output::shaded)
-        return std::nullopt;
-    for (const PreparedLight& light : lights)
-        if (light.castsShadow)
-            return -light.toLight;
-    return std::nullopt;
-}
-
 Frozen prepare(const Scene& scene, const View& view)
 {
     Frozen f{{view, {}, {}, {}}, scene, {}, {}, {}};
@@ -49,8 +37,9 @@ Frozen prepare(const Scene& scene, const View& view)
     f.textures = makeTextures(scene, view);
     f.draws = makeDraws(scene, f.projection.eye, view.frame, view.output == Output::shaded);
     f.lights = prepareLights(view, f.projection.eye);
-    if (std::optional<glm::vec3> direction = shadowDirection(view, f.lights))
-        f.shadow = makeShadowMap(scene, view, f.draws, f.textures, *direction, ball, f.projection.eye);
+    const auto caster = std::ranges::find(f.lights, true, &PreparedLight::castsShadow);
+    if (view.output == Output::shaded && caster != f.lights.end())
+        f.shadow = makeShadowMap(scene, view, f.draws, f.textures, -caster->toLight, ball, f.projection.eye);
     f.tiled = setUpTriangles(scene, f.draws, f.projection, Cull::backFaces);
     return f;
 }

@@ -1,4 +1,4 @@
-#include "shadow.hpp"
+#include "pixel.hpp"
 
 #include <algorithm>
 #include <array>
@@ -11,7 +11,6 @@
 
 #include "core/loops.hpp"
 #include "scene/environment_map.hpp"
-#include "surface.hpp"
 
 namespace cotan::reference {
 
@@ -125,31 +124,8 @@ struct ShadowPass {
 // What four texels in a row weigh when three bilinear reads side by side are averaged.
 std::array<float, 4> filterWeights(float fraction) { return {(1 - fraction) / 3, 1.0f / 3, 1.0f / 3, fraction / 3}; }
 
-} // namespace
-
-ShadowMap makeShadowMap(const Scene& scene, const View& view, const std::vector<Draw>& draws,
-                        const TextureLibrary& textures, glm::vec3 direction, const Ball& ball, glm::dvec3 eye)
+float hardLightReaching(const ShadowMap& map, glm::vec3 position, glm::vec3 n, glm::vec3 toLight)
 {
-    ShadowMap map;
-    map.size = kShadowTexels;
-    map.projection = shadowProjection(glm::dvec3(direction), ball, eye, map.size);
-    map.reversedDepth.assign(std::size_t(map.size) * std::size_t(map.size), 0.0f);
-    map.texel = float(2 * ball.radius / (map.size - 2));
-    map.depthUnit = float(0.5 / (ball.radius * 1.01));
-    const TiledTriangles tiled = setUpTriangles(scene, draws, map.projection, Cull::nothing);
-    const auto translucent = [&](const Draw& draw) {
-        return scene.materials[std::size_t(draw.material)].translucent();
-    };
-    const auto first = std::find_if(draws.begin(), draws.end(), translucent);
-    ShadowPass pass{scene, view, draws, textures, map, std::size_t(first - draws.begin()), tiled};
-    parallelFor(std::size_t(0), tiled.tiles.size(), [&](std::size_t tile) { pass.drawTile(tile); });
-    return map;
-}
-
-float lightReaching(const ShadowMap& map, glm::vec3 position, glm::vec3 n, glm::vec3 toLight)
-{
-    if (map.size == 0)
-        return 1;
     float cosine = glm::dot(n, toLight);
     float sine = std::sqrt(std::max(0.0f, 1 - cosine * cosine));
     glm::vec3 moved = position + n * (map.texel * (0.5f + 2.0f * sine));
@@ -176,8 +152,6 @@ float lightReaching(const ShadowMap& map, glm::vec3 position, glm::vec3 n, glm::
 
 float softLightReaching(const ShadowMap& map, glm::vec3 position, glm::vec3 n, glm::vec3 toLight, float softness)
 {
-    if (map.size == 0)
-        return 1;
     const float cosine = glm::dot(n, toLight), sine = std::sqrt(std::max(0.0f, 1 - cosine * cosine));
     const glm::dvec4 moved(position + n * (map.texel * (0.5f + 1.5f * sine)), 1);
     const glm::dvec4 p = map.projection.toRaster * moved;
@@ -225,6 +199,35 @@ float softLightReaching(const ShadowMap& map, glm::vec3 position, glm::vec3 n, g
         direction = f32::cotan_next_tap(direction);
     }
     return arriving / COTAN_SHADOW_TAPS;
+}
+
+} // namespace
+
+ShadowMap makeShadowMap(const Scene& scene, const View& view, const std::vector<Draw>& draws,
+                        const TextureLibrary& textures, glm::vec3 direction, const Ball& ball, glm::dvec3 eye)
+{
+    ShadowMap map;
+    map.size = kShadowTexels;
+    map.projection = shadowProjection(glm::dvec3(direction), ball, eye, map.size);
+    map.reversedDepth.assign(std::size_t(map.size) * std::size_t(map.size), 0.0f);
+    map.texel = float(2 * ball.radius / (map.size - 2));
+    map.depthUnit = float(0.5 / (ball.radius * 1.01));
+    const TiledTriangles tiled = setUpTriangles(scene, draws, map.projection, Cull::nothing);
+    const auto translucent = [&](const Draw& draw) {
+        return scene.materials[std::size_t(draw.material)].translucent();
+    };
+    const auto first = std::find_if(draws.begin(), draws.end(), translucent);
+    ShadowPass pass{scene, view, draws, textures, map, std::size_t(first - draws.begin()), tiled};
+    parallelFor(std::size_t(0), tiled.tiles.size(), [&](std::size_t tile) { pass.drawTile(tile); });
+    return map;
+}
+
+float lightReaching(const ShadowMap& map, glm::vec3 position, glm::vec3 n, glm::vec3 toLight, float softness)
+{
+    if (map.size == 0)
+        return 1;
+    return softness > 0 ? softLightReaching(map, position, n, toLight, softness)
+                        : hardLightReaching(map, position, n, toLight);
 }
 
 } // namespace cotan::reference

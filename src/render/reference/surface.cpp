@@ -25,26 +25,17 @@ glm::vec<N, float> interpolated(const std::vector<glm::vec<N, float>>& values, c
 
 std::size_t setOf(const Texture& texture) { return texture.texcoord == 1 ? 1 : 0; }
 
-// The two lanes whose difference a lane takes.
-struct Pair {
-    int from, to;
-};
-
-// Fine: along the lane's own row or column. Coarse: along the first row or column for all four.
-Pair alongX(int lane, Derivatives d)
+// The differences that a lane takes of what lanes have. Fine: along the lane's own row or column. Coarse: along the
+// first row or column for all four.
+template<class ValueAt> auto alongX(const ValueAt& valueAt, int lane, Derivatives d)
 {
     const int first = d == Derivatives::fine ? lane & 2 : 0;
-    return {first, first | 1};
+    return valueAt(first | 1) - valueAt(first);
 }
-Pair alongY(int lane, Derivatives d)
+template<class ValueAt> auto alongY(const ValueAt& valueAt, int lane, Derivatives d)
 {
     const int first = d == Derivatives::fine ? lane & 1 : 0;
-    return {first, first | 2};
-}
-
-glm::vec3 difference(const QuadPoints& quad, Pair pair)
-{
-    return quad.position[std::size_t(pair.to)] - quad.position[std::size_t(pair.from)];
+    return valueAt(first | 2) - valueAt(first);
 }
 
 // The part of a texture's transform that moves differences.
@@ -85,20 +76,15 @@ f32::cotan_frame frameOfVertices(const SurfaceInputs& in, Frame frame, glm::vec3
 
 glm::vec3 finiteOrZero(glm::vec3 v) { return f32::cotan_sum_abs(v) <= 1e37f ? v : glm::vec3(0); }
 
-// The texture's uv in `to` minus those in `from`, from uv relative to the triangle's corner: near
-// zero floats are dense, so close steps of uv far from zero are not lost to rounding.
-glm::vec2 uvDifference(const Texture& texture, const QuadPoints& quad, Pair pair)
-{
-    const std::array<glm::vec2, 4>& uv = quad.cornerUv[setOf(texture)];
-    return transformedEdge(texture, uv[std::size_t(pair.to)] - uv[std::size_t(pair.from)]);
-}
-
-// Texture coordinates of a map in one lane, transformed as it asks, with their differences.
+// Texture coordinates of a map in one lane, transformed as it asks, with their differences. These are of uv relative to
+// the triangle's corner: near zero floats are dense, so close steps of uv far from zero are not lost to rounding.
 UvDifferences uvOf(const SurfaceInputs& in, const Texture& texture, int lane)
 {
-    const Pair x = alongX(lane, in.view->derivatives), y = alongY(lane, in.view->derivatives);
-    return {textureUv(texture, in.points->uv[setOf(texture)][std::size_t(lane)]), uvDifference(texture, *in.points, x),
-            uvDifference(texture, *in.points, y)};
+    const std::size_t set = setOf(texture);
+    const auto cornerUv = [&](int at) { return in.points->cornerUv[set][std::size_t(at)]; };
+    return {textureUv(texture, in.points->uv[set][std::size_t(lane)]),
+            transformedEdge(texture, alongX(cornerUv, lane, in.view->derivatives)),
+            transformedEdge(texture, alongY(cornerUv, lane, in.view->derivatives))};
 }
 
 // Interpolates a uv set in one lane, as it is and relative to the triangle's first corner.
@@ -125,8 +111,9 @@ struct Smooth {
 Smooth smoothOf(const SurfaceInputs& in, int lane, const UvDifferences& uv)
 {
     Smooth smooth;
-    smooth.dpdx = difference(*in.points, alongX(lane, in.view->derivatives));
-    smooth.dpdy = difference(*in.points, alongY(lane, in.view->derivatives));
+    const auto position = [&](int at) { return in.points->position[std::size_t(at)]; };
+    smooth.dpdx = alongX(position, lane, in.view->derivatives);
+    smooth.dpdy = alongY(position, lane, in.view->derivatives);
     if (!in.draw->normals.empty())
         smooth.raw = interpolated(in.draw->normals, *in.triangle, in.points->weights[std::size_t(lane)]);
     f32::cotan_differences safe = f32::cotan_scale_differences(smooth.dpdx, smooth.dpdy, uv.dx, uv.dy);
@@ -140,9 +127,8 @@ void addTurn(SurfaceNormal& result, const SurfaceInputs& in, int lane)
     if (!in.view->specularAntialiasing)
         return;
     const auto normal = [&](int at) { return smoothOf(in, at, {}).n; };
-    const Pair x = alongX(lane, in.view->derivatives), y = alongY(lane, in.view->derivatives);
-    result.turnX = normal(x.to) - normal(x.from);
-    result.turnY = normal(y.to) - normal(y.from);
+    result.turnX = alongX(normal, lane, in.view->derivatives);
+    result.turnY = alongY(normal, lane, in.view->derivatives);
     result.turn = result.spread = f32::cotan_spread_of_turn(result.turnX, result.turnY);
 }
 

@@ -1,6 +1,6 @@
 // What a pixel of a triangle sees of its surface: normal, frame, material.
 //
-// The part `surface` answers the same question for bakers and checkers. This is a second answer on purpose: what they
+// `src/bake/surface` answers the same question for bakers and checkers. This is a second answer on purpose: what they
 // make is judged by pictures that are drawn here, so nothing is shared but Scene and the portable text.
 #pragma once
 
@@ -13,7 +13,6 @@
 
 #include "cotan/portable.hpp"
 #include "cotan/view.hpp"
-#include "raster.hpp"
 #include "setup.hpp"
 #include "texture.hpp"
 

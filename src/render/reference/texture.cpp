@@ -61,6 +61,20 @@ bool isSrgb(const MipChain& chain)
     return chain.content == Content::color && chain.image->type != PixelType::float32;
 }
 
+// A texel, with colours made linear. Normal maps come as stored, with 1 in the fourth channel of level 0. x, y: inside
+// the level.
+glm::vec4 texel(const MipChain& chain, int level, int x, int y)
+{
+    const Image& image = chain.level(level);
+    if (!isSrgb(chain)) {
+        const glm::vec4 stored = storedComponents(image, x, y);
+        // A texel of the file is one direction, whatever its alpha says.
+        return level == 0 && chain.content == Content::normal ? glm::vec4(glm::vec3(stored), 1) : stored;
+    }
+    const std::size_t at = 4 * (std::size_t(y) * std::size_t(image.width) + std::size_t(x));
+    return image.type == PixelType::unorm8 ? srgbTexel(image.bytes8(), at) : srgbTexel(image.words(), at);
+}
+
 // What is averaged: for normal maps the unit vector and 1, or zeros where there is none, otherwise the linear texel.
 glm::vec4 toAverage(glm::vec4 value, Content content, const f32::cotan_normal_format& format)
 {
@@ -123,6 +137,37 @@ void halve(const MipChain& chain, const f32::cotan_normal_format& format, int wi
             store(target, at, toStored(sum, chain, format));
         }
     });
+}
+
+// Builds the chain of a usable image. Colours are averaged as linear light; normal maps as decoded vectors, which are
+// normalised before they are stored again, with their length in the fourth channel: 1 where all agree; everything else
+// as numbers. Every texel of a level is the average of the area that it covers in the one before, also where a size is
+// odd.
+// withLevels: false keeps level 0 only.
+MipChain makeMipChain(const Image& image, Content content, Convention stored, bool withLevels)
+{
+    MipChain chain{&image, content, {}};
+    if (!withLevels)
+        return chain;
+    auto format = toFormat<f32::cotan_normal_format>(stored, image.type);
+    format.green = 1; // as it is stored
+    std::vector<glm::vec4> before, averages;
+    int width = image.width, height = image.height;
+    while (width > 1 || height > 1) {
+        Image target = makeImage(std::max(1, width / 2), std::max(1, height / 2), image.type, image.name);
+        if (before.empty()) {
+            auto source = [&](int x, int y) { return toAverage(texel(chain, 0, x, y), content, format); };
+            halve(chain, format, width, height, source, target, averages);
+        } else {
+            auto source = [&](int x, int y) { return before[std::size_t(y) * std::size_t(width) + std::size_t(x)]; };
+            halve(chain, format, width, height, source, target, averages);
+        }
+        std::swap(before, averages);
+        width = target.width;
+        height = target.height;
+        chain.smaller.push_back(std::move(target));
+    }
+    return chain;
 }
 
 constexpr int kMaxProbes = 8;
@@ -199,44 +244,6 @@ const MipChain* chainOf(TextureLibrary& library, const Scene& scene, const Textu
 }
 
 } // namespace
-
-MipChain makeMipChain(const Image& image, Content content, Convention stored, bool withLevels)
-{
-    MipChain chain{&image, content, {}};
-    if (!withLevels)
-        return chain;
-    auto format = toFormat<f32::cotan_normal_format>(stored, image.type);
-    format.green = 1; // as it is stored
-    std::vector<glm::vec4> before, averages;
-    int width = image.width, height = image.height;
-    while (width > 1 || height > 1) {
-        Image target = makeImage(std::max(1, width / 2), std::max(1, height / 2), image.type, image.name);
-        if (before.empty()) {
-            auto source = [&](int x, int y) { return toAverage(texel(chain, 0, x, y), content, format); };
-            halve(chain, format, width, height, source, target, averages);
-        } else {
-            auto source = [&](int x, int y) { return before[std::size_t(y) * std::size_t(width) + std::size_t(x)]; };
-            halve(chain, format, width, height, source, target, averages);
-        }
-        std::swap(before, averages);
-        width = target.width;
-        height = target.height;
-        chain.smaller.push_back(std::move(target));
-    }
-    return chain;
-}
-
-glm::vec4 texel(const MipChain& chain, int level, int x, int y)
-{
-    const Image& image = chain.level(level);
-    if (!isSrgb(chain)) {
-        const glm::vec4 stored = storedComponents(image, x, y);
-        // A texel of the file is one direction, whatever its alpha says.
-        return level == 0 && chain.content == Content::normal ? glm::vec4(glm::vec3(stored), 1) : stored;
-    }
-    const std::size_t at = 4 * (std::size_t(y) * std::size_t(image.width) + std::size_t(x));
-    return image.type == PixelType::unorm8 ? srgbTexel(image.bytes8(), at) : srgbTexel(image.words(), at);
-}
 
 glm::vec4 sample(const MipChain& chain, const Sampler& s, const UvDifferences& at, bool pointSampled)
 {

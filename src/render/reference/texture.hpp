@@ -31,17 +31,6 @@ struct MipChain {
     const Image& level(int i) const { return i == 0 ? *image : smaller[std::size_t(i - 1)]; }
 };
 
-// Builds the chain of a usable image. Colours are averaged as linear light; normal maps as decoded vectors, which are
-// normalised before they are stored again, with their length in the fourth channel: 1 where all agree; everything else
-// as numbers. Every texel of a level is the average of the area that it covers in the one before, also where a size is
-// odd.
-// withLevels: false keeps level 0 only.
-MipChain makeMipChain(const Image& image, Content content, Convention format, bool withLevels);
-
-// A texel, with colours made linear. Normal maps come as stored, with 1 in the fourth channel of level 0. x, y: inside
-// the level.
-glm::vec4 texel(const MipChain& chain, int level, int x, int y);
-
 // Texture coordinates at a pixel and their differences along its row and column.
 struct UvDifferences {
     glm::vec2 uv{0};

@@ -14,14 +14,6 @@ namespace {
 
 constexpr const char* kValidationLayer = "VK_LAYER_KHRONOS_validation";
 
-struct Candidate {
-    vk::raii::PhysicalDevice physical;
-    std::string name;
-    vk::PhysicalDeviceType type;
-    std::uint32_t queueFamily = 0;
-    std::string missing; // empty: it can run the renderer
-};
-
 VKAPI_ATTR VkBool32 VKAPI_CALL collectMessage(VkDebugUtilsMessageSeverityFlagBitsEXT, VkDebugUtilsMessageTypeFlagsEXT,
                                               const VkDebugUtilsMessengerCallbackDataEXT* data, void* messages)
 {
@@ -69,11 +61,11 @@ vk::raii::Instance makeInstance(const vk::raii::Context& context, bool validate,
 // ---- choosing -------------------------------------------------------------------------------
 
 // 0 is the best.
-std::ptrdiff_t rank(vk::PhysicalDeviceType type)
+std::ptrdiff_t rank(const vk::raii::PhysicalDevice& physical)
 {
     using T = vk::PhysicalDeviceType;
     constexpr std::array kOrder{T::eDiscreteGpu, T::eIntegratedGpu, T::eVirtualGpu, T::eCpu}; // others come last
-    return std::ranges::find(kOrder, type) - kOrder.begin();
+    return std::ranges::find(kOrder, physical.getProperties().deviceType) - kOrder.begin();
 }
 
 // The family with graphics; -1 if there is none.
@@ -86,6 +78,12 @@ int graphicsFamily(const vk::raii::PhysicalDevice& physical)
     return -1;
 }
 
+std::string nameOf(const vk::raii::PhysicalDevice& physical)
+{
+    return std::string(physical.getProperties().deviceName.data());
+}
+
+// Why it cannot run the renderer; empty: it can.
 std::string missingFeature(const vk::raii::PhysicalDevice& physical)
 {
     const vk::PhysicalDeviceProperties properties = physical.getProperties();
@@ -109,36 +107,32 @@ std::string missingFeature(const vk::raii::PhysicalDevice& physical)
     return {};
 }
 
-std::vector<Candidate> findCandidates(const vk::raii::Instance& instance)
+// All of them, in order of preference.
+std::vector<vk::raii::PhysicalDevice> devicesOf(const vk::raii::Instance& instance)
 {
-    std::vector<Candidate> candidates;
-    for (vk::raii::PhysicalDevice& physical : vk::raii::PhysicalDevices(instance)) {
-        const vk::PhysicalDeviceProperties properties = physical.getProperties();
-        std::string missing = missingFeature(physical);
-        const auto family = std::uint32_t(std::max(graphicsFamily(physical), 0));
-        candidates.push_back({std::move(physical), std::string(properties.deviceName.data()), properties.deviceType,
-                              family, std::move(missing)});
-    }
-    std::ranges::stable_sort(candidates, {}, [](const Candidate& c) { return rank(c.type); });
-    return candidates;
+    vk::raii::PhysicalDevices found(instance);
+    std::ranges::stable_sort(found, {}, rank);
+    return found;
 }
 
-std::string listed(const std::vector<Candidate>& candidates)
+std::string listed(const std::vector<vk::raii::PhysicalDevice>& devices)
 {
     std::string text;
-    for (const Candidate& c : candidates)
-        text += (text.empty() ? "" : ", ") + c.name + (c.missing.empty() ? "" : " (" + c.missing + ")");
+    for (const vk::raii::PhysicalDevice& d : devices) {
+        const std::string missing = missingFeature(d);
+        text += (text.empty() ? "" : ", ") + nameOf(d) + (missing.empty() ? "" : " (" + missing + ")");
+    }
     return text.empty() ? "none" : text;
 }
 
-// The first usable candidate whose name contains `wanted`.
-Result<Candidate> choose(std::vector<Candidate> candidates, const std::string& wanted)
+// The first usable one whose name contains `wanted`.
+Result<vk::raii::PhysicalDevice> choose(std::vector<vk::raii::PhysicalDevice> devices, const std::string& wanted)
 {
-    for (Candidate& c : candidates)
-        if (c.missing.empty() && lowerCase(c.name).find(lowerCase(wanted)) != std::string::npos)
-            return std::move(c);
+    for (vk::raii::PhysicalDevice& d : devices)
+        if (missingFeature(d).empty() && lowerCase(nameOf(d)).find(lowerCase(wanted)) != std::string::npos)
+            return std::move(d);
     return unavailableError("no Vulkan device " + (wanted.empty() ? "" : "named '" + wanted + "' ")
-                            + "can be used; found: " + listed(candidates));
+                            + "can be used; found: " + listed(devices));
 }
 
 // ---- opening --------------------------------------------------------------------------------
@@ -159,7 +153,6 @@ void describe(Device& d)
     d.driver = std::string(driver.driverName.data()) + " " + std::string(driver.driverInfo.data());
     d.cpu = core.deviceType == vk::PhysicalDeviceType::eCpu;
     d.limits = core.limits;
-    d.granularity = std::max<vk::DeviceSize>(core.limits.bufferImageGranularity, 1);
     d.memory = d.physical.getMemoryProperties();
     d.filterable16 = filterable(d.physical, vk::Format::eR16G16B16A16Unorm);
     d.filterable32 = filterable(d.physical, vk::Format::eR32G32B32A32Sfloat);
@@ -224,12 +217,12 @@ Result<std::unique_ptr<Device>> openDevice(const VulkanRendererOptions& options)
     try {
         auto d = std::make_unique<Device>();
         startValidation(*d, options.validation);
-        Result<Candidate> chosen = choose(findCandidates(d->instance), options.device);
+        auto chosen = choose(devicesOf(d->instance), options.device);
         if (!chosen)
             return chosen.error();
-        d->physical = std::move(chosen->physical);
-        d->name = chosen->name;
-        d->queueFamily = chosen->queueFamily;
+        d->physical = std::move(*chosen);
+        d->name = nameOf(d->physical);
+        d->queueFamily = std::uint32_t(graphicsFamily(d->physical)); // chosen for having one
         describe(*d);
         openLogicalDevice(*d);
         return d;
@@ -244,13 +237,13 @@ Result<std::vector<std::string>> renderDevices()
         const vk::raii::Context context;
         std::vector<std::string> messages;
         const vk::raii::Instance instance = makeInstance(context, false, messages);
-        const std::vector<Candidate> candidates = findCandidates(instance);
+        const std::vector<vk::raii::PhysicalDevice> devices = devicesOf(instance);
         std::vector<std::string> names;
-        for (const Candidate& c : candidates)
-            if (c.missing.empty())
-                names.push_back(c.name);
+        for (const vk::raii::PhysicalDevice& d : devices)
+            if (missingFeature(d).empty())
+                names.push_back(nameOf(d));
         if (names.empty())
-            return unavailableError("no Vulkan device can be used; found: " + listed(candidates));
+            return unavailableError("no Vulkan device can be used; found: " + listed(devices));
         return names;
     } catch (const std::exception& e) {
         return unavailableError("Vulkan cannot be used: " + reason(e));

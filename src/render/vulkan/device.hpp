@@ -28,12 +28,11 @@ struct Device {
     bool cpu = false; // a driver that draws on the processor
     vk::PhysicalDeviceLimits limits;
     vk::PhysicalDeviceMemoryProperties memory;
-    vk::DeviceSize granularity = 1; // between buffers and images in one allocation
-    bool anisotropy = false;        // textures can be filtered anisotropically
-    bool exact = false;             // fragments can read their triangle's vertices
-    bool dualSource = false;        // blending can have a factor for each channel
-    bool filterable16 = false;      // 16-bit unorm textures can be filtered
-    bool filterable32 = false;      // 32-bit float textures can be filtered
+    bool anisotropy = false;   // textures can be filtered anisotropically
+    bool exact = false;        // fragments can read their triangle's vertices
+    bool dualSource = false;   // blending can have a factor for each channel
+    bool filterable16 = false; // 16-bit unorm textures can be filtered
+    bool filterable32 = false; // 32-bit float textures can be filtered
 };
 
 Result<std::unique_ptr<Device>> openDevice(const VulkanRendererOptions& options);

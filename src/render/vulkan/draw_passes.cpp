@@ -46,28 +46,60 @@ std::uint32_t mapsNeeded(const PipelineKey& key)
     return alpha | (key.output == Output::normal ? COTAN_MAP_NORMAL : 0u);
 }
 
+// BACKDROP_... of background.frag.
+int backdropOf(const View& view)
+{
+    if (!view.background)
+        return 3;
+    if (view.backdrop == Backdrop::paper)
+        return 2;
+    return view.environmentMap && view.backdrop != Backdrop::gradient ? 1 : 0;
+}
+
 } // namespace
 
-PipelineKey forwardKey(const View& view, const Targets& targets)
+PictureKeys keysOf(const View& view, const Targets& targets)
 {
-    PipelineKey key{.frame = view.frame,
-                    .output = view.output,
-                    .coarse = view.derivatives == Derivatives::coarse,
-                    .normalMaps = view.normalMaps,
-                    .samples = targets.kind().samples,
-                    .format = targets.kind().format};
+    const Targets::Kind& kind = targets.kind();
+    const bool levels = kind.shown == vk::Format::eR8G8B8A8Unorm;
+    PictureKeys keys;
+    PipelineKey& forward = keys.forward;
+    forward = {.frame = view.frame,
+               .output = view.output,
+               .coarse = view.derivatives == Derivatives::coarse,
+               .normalMaps = view.normalMaps,
+               .samples = kind.samples,
+               .format = kind.format};
     if (view.output == Output::shaded) {
-        key.shading = view.shading;
-        key.environment = view.environment;
-        key.environmentMap = view.environment && view.environmentMap;
-        key.shadows = castsShadow(view);
-        key.specularAntialiasing = view.specularAntialiasing;
-        key.separateSamples = view.samples > kMaxSharedSamples;
-        key.softShadows = key.shadows && view.shadowSoftness > 0;
-        key.toneMap = !view.linearOutput;
-        key.tone = view.linearOutput ? key.tone : view.toneMapping;
+        forward.shading = view.shading;
+        forward.environment = view.environment;
+        forward.environmentMap = view.environment && view.environmentMap;
+        forward.shadows = castsShadow(view);
+        forward.specularAntialiasing = view.specularAntialiasing;
+        forward.separateSamples = view.samples > kMaxSharedSamples;
+        forward.softShadows = forward.shadows && view.shadowSoftness > 0;
+        forward.toneMap = !view.linearOutput;
+        forward.tone = view.linearOutput ? forward.tone : view.toneMapping;
     }
-    return key;
+    keys.layers = forward;
+    keys.layers.pass = Pass::layers;
+    keys.layers.format = vk::Format::eUndefined;
+    keys.compose = {.pass = Pass::compose, .samples = kind.samples, .format = kind.format};
+    keys.background = {.pass = Pass::background,
+                       .toneMap = forward.toneMap,
+                       .tone = forward.tone,
+                       .backdrop = backdropOf(view),
+                       .ground = view.ground != nullptr,
+                       .samples = kind.samples,
+                       .format = kind.format};
+    keys.surround = keys.background;
+    keys.surround.pass = Pass::surround;
+    keys.surround.levels = levels;
+    keys.surround.samples = vk::SampleCountFlagBits::e1;
+    keys.surround.format = kind.shown;
+    keys.resolve = {
+        .pass = Pass::resolve, .levels = levels, .multisampledSource = targets.multisampled(), .format = kind.shown};
+    return keys;
 }
 
 CommandRecorder::CommandRecorder(const Device& device, const Layouts& layouts)
@@ -141,7 +173,7 @@ void CommandRecorder::prepare(const View& view, const CameraAxes& axes, const gp
     if (view.ground)
         ground_.hold(*device_, view.ground, view.ground->shares);
     const std::uint32_t width = targets_->kind().width;
-    if (layered && !(layers_ && layers_->width() == width)) {
+    if (layered && !(layers_ && layers_->width == width)) {
         layers_.reset(); // its memory may be needed for the new ones
         layers_ = std::make_unique<LayerLists>(*device_, width);
     }
@@ -155,8 +187,8 @@ void CommandRecorder::writePictureSet(bool layered)
     const vk::DescriptorBufferInfo view(*viewBuffer_.buffer, 0, VK_WHOLE_SIZE);
     const vk::DescriptorBufferInfo lights(*lightBuffer_.buffer, 0, VK_WHOLE_SIZE);
     const vk::DescriptorImageInfo shadow(*shadowSampler_, *shadowMap_.view, vk::ImageLayout::eShaderReadOnlyOptimal);
-    const vk::DescriptorBufferInfo lists(layered ? *layers_->lists().buffer : lights.buffer, 0, VK_WHOLE_SIZE);
-    const vk::DescriptorBufferInfo layers(layered ? *layers_->layers().buffer : lights.buffer, 0, VK_WHOLE_SIZE);
+    const vk::DescriptorBufferInfo lists(layered ? *layers_->lists.buffer : lights.buffer, 0, VK_WHOLE_SIZE);
+    const vk::DescriptorBufferInfo layers(layered ? *layers_->layers.buffer : lights.buffer, 0, VK_WHOLE_SIZE);
     const vk::DescriptorImageInfo depth(*depthSampler_, targets_->depthView(),
                                         vk::ImageLayout::eDepthStencilReadOnlyOptimal);
     const vk::DescriptorImageInfo samples(*depthSampler_, targets_->colorView(),
@@ -209,22 +241,18 @@ void CommandRecorder::beginPipelines(const DrawLists& lists, const View& view, b
         }
     };
     const bool shaded = view.output == Output::shaded;
-    const PipelineKey picture = forwardKey(view, *targets_);
-    add(lists.opaque, picture);
-    add(lists.mask, picture);
-    if (layered) {
-        add(lists.translucent, layersKey(view));
-        keys.push_back(composeKey());
-    } else {
-        add(lists.translucent, picture);
-    }
+    add(lists.opaque, keys_.forward);
+    add(lists.mask, keys_.forward);
+    add(lists.translucent, layered ? keys_.layers : keys_.forward);
+    if (layered)
+        keys.push_back(keys_.compose);
     if (shaded && (view.background || view.ground)) {
-        keys.push_back(backgroundKey(view));
+        keys.push_back(keys_.background);
         if (targets_->resolves())
-            keys.push_back(surroundKey(view));
+            keys.push_back(keys_.surround);
     }
     if (targets_->resolves())
-        keys.push_back(resolveKey());
+        keys.push_back(keys_.resolve);
     pipelines_.begin(keys);
 }
 
@@ -286,14 +314,15 @@ void CommandRecorder::recordShadow(const vk::raii::CommandBuffer& commands, cons
     if (shadowDrawn_ == shown)
         return;
     constexpr auto kDepth = vk::ImageAspectFlagBits::eDepth;
-    const auto stages = Stage::eEarlyFragmentTests | Stage::eLateFragmentTests;
-    const auto write = Access::eDepthStencilAttachmentRead | Access::eDepthStencilAttachmentWrite;
+    const ImageUse drawnInto{vk::ImageLayout::eDepthAttachmentOptimal,
+                             Stage::eEarlyFragmentTests | Stage::eLateFragmentTests,
+                             Access::eDepthStencilAttachmentRead | Access::eDepthStencilAttachmentWrite};
     const bool draws = shadowMap_.extent.width > 1;
     shadowDrawn_.reset();
     if (draws)
         shadowDrawn_ = shown;
-    transition(commands, *shadowMap_.image, kDepth, vk::ImageLayout::eUndefined,
-               vk::ImageLayout::eDepthAttachmentOptimal, Stage::eFragmentShader, {}, stages, write);
+    transition(commands, *shadowMap_.image, kDepth, {vk::ImageLayout::eUndefined, Stage::eFragmentShader, {}},
+               drawnInto);
     if (draws) {
         const vk::RenderingAttachmentInfo depth(*shadowMap_.view, vk::ImageLayout::eDepthAttachmentOptimal, {}, {}, {},
                                                 vk::AttachmentLoadOp::eClear, vk::AttachmentStoreOp::eStore,
@@ -307,22 +336,19 @@ void CommandRecorder::recordShadow(const vk::raii::CommandBuffer& commands, cons
         drawItems(commands, lists.veils, {.pass = Pass::shadowMask});
         commands.endRendering();
     }
-    transition(commands, *shadowMap_.image, kDepth, vk::ImageLayout::eDepthAttachmentOptimal,
-               vk::ImageLayout::eShaderReadOnlyOptimal, stages, write, Stage::eFragmentShader,
-               Access::eShaderSampledRead);
+    transition(commands, *shadowMap_.image, kDepth, drawnInto, kSampled);
 }
 
 // Everything that writes depth, and the background.
 void CommandRecorder::recordPicture(const vk::raii::CommandBuffer& commands, const DrawLists& lists, const View& view)
 {
-    const PipelineKey key = forwardKey(view, *targets_);
     const bool shaded = view.output == Output::shaded;
-    drawItems(commands, lists.opaque, key);
-    drawItems(commands, lists.mask, key);
+    drawItems(commands, lists.opaque, keys_.forward);
+    drawItems(commands, lists.mask, keys_.forward);
     if (shaded && (view.background || view.ground))
-        drawOver(commands, backgroundKey(view));
+        drawOver(commands, keys_.background);
     if (!shaded)
-        drawItems(commands, lists.translucent, key);
+        drawItems(commands, lists.translucent, keys_.forward);
 }
 
 const vk::raii::CommandBuffer& CommandRecorder::begin()

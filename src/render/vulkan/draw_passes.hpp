@@ -12,47 +12,27 @@
 
 namespace cotan {
 
-// The pipeline that draws opaque surfaces of a view, without the maps.
-PipelineKey forwardKey(const View& view, const Targets& targets);
-
-vk::Rect2D rectangle(const PixelArea& area);
-
-// A picture of floats on the device, as halfs; kept from one picture to the next as long as it is the same one.
-struct HeldPicture {
-    std::shared_ptr<const void> owner; // what the texture holds; null: nothing
-    std::unique_ptr<Memory> memory;
-    Texture2D texture;
-
-    void hold(const Device& device, std::shared_ptr<const void> newOwner, const Image& picture);
+// The pipelines that a picture may be drawn with: those of surfaces without the maps, which keyOf adds.
+struct PictureKeys {
+    PipelineKey forward, layers, compose, background, surround, resolve;
 };
 
+PictureKeys keysOf(const View& view, const Targets& targets);
+
 // Where translucent fragments are kept until they are composed: lists for a band of the picture's rows.
-class LayerLists {
-public:
-    // width: of the picture, in pixels.
-    LayerLists(const Device& device, std::uint32_t width);
-
-    std::uint32_t width() const { return width_; }
-    // Rows that a band may have, at least 1.
-    std::uint32_t maxRows() const;
-    std::uint32_t capacity() const; // in layers
-
-    const Buffer& lists() const { return lists_; }
-    const Buffer& layers() const { return layers_; }
+struct LayerLists {
+    // pictureWidth: in pixels.
+    LayerLists(const Device& device, std::uint32_t pictureWidth);
 
     // Empties the lists, for the band of `rows` that starts at `top`.
     void clear(const vk::raii::CommandBuffer& commands, std::uint32_t top, std::uint32_t rows) const;
     // Makes what was drawn readable for fragments to come, and the count for the host.
     void finish(const vk::raii::CommandBuffer& commands) const;
-    // How many layers were drawn. Only after the commands have been waited for. Over the capacity, some were not kept.
-    std::uint32_t count() const;
 
-private:
-    Memory memory_;
-    std::uint32_t width_;
-    Buffer lists_;
-    Buffer layers_;
-    Buffer count_; // host
+    Memory memory;
+    std::uint32_t width;
+    Buffer lists, layers;
+    Buffer hostCount; // of the layers that were drawn: over the capacity, some were not kept
 };
 
 // What pictures share: constants, shadow map, targets; kept from one picture to the next.
@@ -102,17 +82,12 @@ private:
     void recordShadow(const vk::raii::CommandBuffer& commands, const DrawLists& lists, const ShadowView& shown);
     void recordPicture(const vk::raii::CommandBuffer& commands, const DrawLists& lists, const View& view);
     static PipelineKey keyOf(PipelineKey key, const Item& item);
-    PipelineKey layersKey(const View& view) const;
-    PipelineKey composeKey() const;
-    PipelineKey resolveKey() const;
-    PipelineKey backgroundKey(const View& view) const;
-    PipelineKey surroundKey(const View& view) const;
-    void recordSurround(const vk::raii::CommandBuffer& commands, const View& view, const PixelArea& inside);
+    void recordSurround(const vk::raii::CommandBuffer& commands, const View& view, const PixelArea& a);
     void finish(const vk::raii::CommandBuffer& commands, const PixelArea& area);
     void drawOver(const vk::raii::CommandBuffer& commands, const PipelineKey& key);
     const vk::raii::CommandBuffer& begin();
-    Status drawLayers(const DrawLists& lists, const View& view);
-    std::uint32_t keepLayers(const DrawLists& lists, const View& view, const vk::Rect2D& band);
+    Status drawLayers(const DrawLists& lists);
+    std::uint32_t keepLayers(const DrawLists& lists, const vk::Rect2D& band);
     void composeLayers(const vk::Rect2D& band);
     void drawItems(const vk::raii::CommandBuffer& commands, const std::vector<Item>& items, PipelineKey key);
 
@@ -134,6 +109,7 @@ private:
     vk::raii::DescriptorPool pool_{nullptr};
     vk::DescriptorSet pictureSet_, composeSet_; // owned by the pool; the second reads the targets
     std::unique_ptr<Targets> targets_;
+    PictureKeys keys_;
     std::unique_ptr<LayerLists> layers_; // once there is something translucent
     vk::raii::Sampler depthSampler_{nullptr};
 };

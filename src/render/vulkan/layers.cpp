@@ -16,6 +16,7 @@ using Usage = vk::BufferUsageFlagBits;
 
 constexpr vk::DeviceSize kLayerBytes = vk::DeviceSize(128) << 20; // what every device can bind
 constexpr vk::DeviceSize kListBytes = vk::DeviceSize(16) << 20;
+constexpr auto kCapacity = std::uint32_t(kLayerBytes / sizeof(gpu::CotanLayer));
 
 void barrier(const vk::raii::CommandBuffer& commands, vk::PipelineStageFlags2 before, vk::AccessFlags2 written,
              vk::PipelineStageFlags2 after, vk::AccessFlags2 used)
@@ -26,29 +27,21 @@ void barrier(const vk::raii::CommandBuffer& commands, vk::PipelineStageFlags2 be
 
 } // namespace
 
-LayerLists::LayerLists(const Device& device, std::uint32_t width) : memory_(device), width_(width)
+LayerLists::LayerLists(const Device& device, std::uint32_t pictureWidth) : memory(device), width(pictureWidth)
 {
-    lists_ = makeDeviceBuffer(device, memory_, kListBytes,
-                              Usage::eStorageBuffer | Usage::eTransferDst | Usage::eTransferSrc);
-    layers_ = makeDeviceBuffer(device, memory_, kLayerBytes, Usage::eStorageBuffer);
-    count_ = makeHostBuffer(device, memory_, sizeof(std::uint32_t), Usage::eTransferDst, /*readBack*/ true);
+    lists =
+        makeDeviceBuffer(device, memory, kListBytes, Usage::eStorageBuffer | Usage::eTransferDst | Usage::eTransferSrc);
+    layers = makeDeviceBuffer(device, memory, kLayerBytes, Usage::eStorageBuffer);
+    hostCount = makeHostBuffer(device, memory, sizeof(std::uint32_t), Usage::eTransferDst, /*readBack*/ true);
 }
-
-std::uint32_t LayerLists::maxRows() const
-{
-    const vk::DeviceSize pixels = (kListBytes - sizeof(gpu::CotanLayerLists)) / sizeof(std::uint32_t);
-    return static_cast<std::uint32_t>(std::max<vk::DeviceSize>(pixels / width_, 1));
-}
-
-std::uint32_t LayerLists::capacity() const { return static_cast<std::uint32_t>(kLayerBytes / sizeof(gpu::CotanLayer)); }
 
 void LayerLists::clear(const vk::raii::CommandBuffer& commands, std::uint32_t top, std::uint32_t rows) const
 {
-    const gpu::CotanLayerLists head{0, capacity(), width_, top, top + rows};
+    const gpu::CotanLayerLists head{0, kCapacity, width, top, top + rows};
     barrier(commands, Stage::eFragmentShader | Stage::eTransfer, Access::eShaderStorageRead | Access::eTransferRead,
             Stage::eTransfer, Access::eTransferWrite);
-    commands.updateBuffer<gpu::CotanLayerLists>(*lists_.buffer, 0, head);
-    commands.fillBuffer(*lists_.buffer, sizeof head, vk::DeviceSize(rows) * width_ * sizeof(std::uint32_t), 0);
+    commands.updateBuffer<gpu::CotanLayerLists>(*lists.buffer, 0, head);
+    commands.fillBuffer(*lists.buffer, sizeof head, vk::DeviceSize(rows) * width * sizeof(std::uint32_t), 0);
     barrier(commands, Stage::eTransfer, Access::eTransferWrite, Stage::eFragmentShader,
             Access::eShaderStorageRead | Access::eShaderStorageWrite);
 }
@@ -57,77 +50,59 @@ void LayerLists::finish(const vk::raii::CommandBuffer& commands) const
 {
     barrier(commands, Stage::eFragmentShader, Access::eShaderStorageWrite, Stage::eFragmentShader | Stage::eTransfer,
             Access::eShaderStorageRead | Access::eTransferRead);
-    commands.copyBuffer(*lists_.buffer, *count_.buffer, vk::BufferCopy(0, 0, sizeof(std::uint32_t)));
+    commands.copyBuffer(*lists.buffer, *hostCount.buffer, vk::BufferCopy(0, 0, sizeof(std::uint32_t)));
     barrier(commands, Stage::eTransfer, Access::eTransferWrite, Stage::eHost, Access::eHostRead);
 }
 
-std::uint32_t LayerLists::count() const
-{
-    std::uint32_t count = 0;
-    std::memcpy(&count, count_.mapped, sizeof count);
-    return count;
-}
-
-PipelineKey CommandRecorder::layersKey(const View& view) const
-{
-    PipelineKey key = forwardKey(view, *targets_);
-    key.pass = Pass::layers;
-    key.format = vk::Format::eUndefined;
-    return key;
-}
-
-PipelineKey CommandRecorder::composeKey() const
-{
-    return {.pass = Pass::compose, .samples = targets_->kind().samples, .format = targets_->kind().format};
-}
-
 // Draws the translucent fragments of a band into their lists; returns how many there are.
-std::uint32_t CommandRecorder::keepLayers(const DrawLists& lists, const View& view, const vk::Rect2D& band)
+std::uint32_t CommandRecorder::keepLayers(const DrawLists& lists, const vk::Rect2D& band)
 {
     const vk::raii::CommandBuffer& commands = begin();
     layers_->clear(commands, static_cast<std::uint32_t>(band.offset.y), band.extent.height);
     targets_->beginLayers(commands, band);
-    drawItems(commands, lists.translucent, layersKey(view));
+    drawItems(commands, lists.translucent, keys_.layers);
     commands.endRendering();
     layers_->finish(commands);
     commands_.submitAndWait();
-    return layers_->count();
+    std::uint32_t count = 0;
+    std::memcpy(&count, layers_->hostCount.mapped, sizeof count);
+    return count;
 }
 
 // Lays the lists of a band over the picture, one sample after the other: so they need no device that
 // shades each sample.
 void CommandRecorder::composeLayers(const vk::Rect2D& band)
 {
-    const PipelineKey key = composeKey();
     const vk::raii::CommandBuffer& commands = begin();
     commands.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, *layouts_->pipeline, 0, composeSet_, {});
     targets_->beginCompose(commands, band);
-    for (std::uint32_t sample = 0; sample < static_cast<std::uint32_t>(key.samples); ++sample) {
+    for (std::uint32_t sample = 0; sample < static_cast<std::uint32_t>(keys_.compose.samples); ++sample) {
         commands.pushConstants<std::uint32_t>(*layouts_->pipeline, kBothStages, 0, sample);
-        drawOver(commands, key);
+        drawOver(commands, keys_.compose);
     }
     commands.endRendering();
     commands_.submitAndWait();
 }
 
 // The picture in bands of rows that are low enough for their layers to find room.
-Status CommandRecorder::drawLayers(const DrawLists& lists, const View& view)
+Status CommandRecorder::drawLayers(const DrawLists& lists)
 {
     const PixelArea& area = lists.translucentArea;
     const auto width = static_cast<std::uint32_t>(area.x1 - area.x0), end = static_cast<std::uint32_t>(area.y1);
-    std::uint32_t rows = layers_->maxRows();
+    constexpr vk::DeviceSize pixels = (kListBytes - sizeof(gpu::CotanLayerLists)) / sizeof(std::uint32_t);
+    auto rows = static_cast<std::uint32_t>(std::max<vk::DeviceSize>(pixels / layers_->width, 1)); // of a band
     for (auto top = static_cast<std::uint32_t>(area.y0); top < end && width > 0;) {
         const std::uint32_t height = std::min(rows, end - top);
         const vk::Rect2D band({area.x0, std::int32_t(top)}, {width, height});
-        const std::uint32_t count = keepLayers(lists, view, band);
-        if (count <= layers_->capacity()) {
+        const std::uint32_t count = keepLayers(lists, band);
+        if (count <= kCapacity) {
             composeLayers(band);
             top += height;
         } else if (height > 1) {
             rows = height / 2;
         } else {
             return unavailableError(std::to_string(count) + " translucent fragments in one row of pixels: at most "
-                                    + std::to_string(layers_->capacity()) + " can be put in order");
+                                    + std::to_string(kCapacity) + " can be put in order");
         }
     }
     return Done{};

@@ -58,7 +58,7 @@ Memory::Piece Memory::allocate(const vk::MemoryRequirements& requirements, vk::M
 {
     const std::uint32_t type = chooseType(requirements.memoryTypeBits, needed, wanted);
     // Buffers and images may share a block, so both keep the distance that they need.
-    const vk::DeviceSize alignment = std::max(requirements.alignment, device_->granularity);
+    const vk::DeviceSize alignment = std::max(requirements.alignment, device_->limits.bufferImageGranularity);
     Block* block = nullptr;
     for (Block& b : blocks_)
         if (b.type == type && aligned(b.used, alignment) + requirements.size <= b.size)
@@ -85,7 +85,7 @@ Buffer makeHostBuffer(const Device& device, Memory& memory, vk::DeviceSize size,
 
 Texture2D makeTexture(const Device& device, Memory& memory, const TextureInfo& info)
 {
-    Texture2D t{.format = info.format, .extent = info.extent, .levels = info.levels};
+    Texture2D t{.extent = info.extent, .levels = info.levels};
     t.image = vk::raii::Image(device.device,
                               vk::ImageCreateInfo({}, vk::ImageType::e2D, info.format, vk::Extent3D(info.extent, 1),
                                                   info.levels, 1, info.samples, vk::ImageTiling::eOptimal, info.usage));
@@ -123,11 +123,10 @@ void Commands::submitAndWait()
 }
 
 void transition(const vk::raii::CommandBuffer& commands, vk::Image image, vk::ImageAspectFlags aspect,
-                vk::ImageLayout from, vk::ImageLayout to, vk::PipelineStageFlags2 before, vk::AccessFlags2 written,
-                vk::PipelineStageFlags2 after, vk::AccessFlags2 used)
+                const ImageUse& before, const ImageUse& after)
 {
-    const vk::ImageMemoryBarrier2 barrier(before, written, after, used, from, to, VK_QUEUE_FAMILY_IGNORED,
-                                          VK_QUEUE_FAMILY_IGNORED, image,
+    const vk::ImageMemoryBarrier2 barrier(before.stages, before.access, after.stages, after.access, before.layout,
+                                          after.layout, VK_QUEUE_FAMILY_IGNORED, VK_QUEUE_FAMILY_IGNORED, image,
                                           {aspect, 0, VK_REMAINING_MIP_LEVELS, 0, VK_REMAINING_ARRAY_LAYERS});
     commands.pipelineBarrier2(vk::DependencyInfo({}, {}, {}, barrier));
 }
@@ -194,14 +193,12 @@ void Uploader::level(const Texture2D& target, std::uint32_t index, std::span<con
 void Uploader::image(const Texture2D& target, std::span<const std::span<const std::byte>> levels,
                      std::size_t bytesPerTexel)
 {
-    const auto color = vk::ImageAspectFlagBits::eColor;
-    transition(recording(), *target.image, color, vk::ImageLayout::eUndefined, vk::ImageLayout::eTransferDstOptimal,
-               Stage::eTopOfPipe, {}, Stage::eTransfer, Access::eTransferWrite);
+    constexpr auto color = vk::ImageAspectFlagBits::eColor;
+    constexpr ImageUse written{vk::ImageLayout::eTransferDstOptimal, Stage::eTransfer, Access::eTransferWrite};
+    transition(recording(), *target.image, color, {vk::ImageLayout::eUndefined, Stage::eTopOfPipe, {}}, written);
     for (std::uint32_t i = 0; i < target.levels; ++i)
         level(target, i, levels[i], bytesPerTexel);
-    transition(recording(), *target.image, color, vk::ImageLayout::eTransferDstOptimal,
-               vk::ImageLayout::eShaderReadOnlyOptimal, Stage::eTransfer, Access::eTransferWrite,
-               Stage::eFragmentShader, Access::eShaderSampledRead);
+    transition(recording(), *target.image, color, written, kSampled);
 }
 
 } // namespace cotan

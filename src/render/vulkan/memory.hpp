@@ -57,7 +57,6 @@ struct Buffer {
 struct Texture2D {
     vk::raii::Image image{nullptr};
     vk::raii::ImageView view{nullptr};
-    vk::Format format = vk::Format::eUndefined;
     vk::Extent2D extent;
     std::uint32_t levels = 1;
 };
@@ -91,9 +90,17 @@ private:
     vk::raii::Fence fence_{nullptr};
 };
 
+// How an image is used: in which layout, where, and what is done with it.
+struct ImageUse {
+    vk::ImageLayout layout;
+    vk::PipelineStageFlags2 stages;
+    vk::AccessFlags2 access;
+};
+inline constexpr ImageUse kSampled{vk::ImageLayout::eShaderReadOnlyOptimal, vk::PipelineStageFlagBits2::eFragmentShader,
+                                   vk::AccessFlagBits2::eShaderSampledRead};
+
 void transition(const vk::raii::CommandBuffer& commands, vk::Image image, vk::ImageAspectFlags aspect,
-                vk::ImageLayout from, vk::ImageLayout to, vk::PipelineStageFlags2 before, vk::AccessFlags2 written,
-                vk::PipelineStageFlags2 after, vk::AccessFlags2 used);
+                const ImageUse& before, const ImageUse& after);
 
 // Copies data into device buffers and images through one staging buffer, which is emptied when
 // full. finish() must be called before what was uploaded is used.

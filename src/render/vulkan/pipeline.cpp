@@ -4,6 +4,7 @@
 #include <array>
 #include <bit>
 #include <memory>
+#include <span>
 
 #include "core/parallel.hpp"
 #include "cotan_shaders.h"
@@ -56,6 +57,8 @@ struct Specialization {
     }
     Specialization(const Specialization&) = delete; // info points into this
 };
+
+using Spirv = std::span<const std::uint32_t>; // words of a compiled shader
 
 struct StageShaders {
     Spirv vertex;
@@ -200,34 +203,22 @@ vk::DescriptorSet allocateSet(const Device& device, const vk::raii::DescriptorPo
     return (*device.device).allocateDescriptorSets(info, *device.device.getDispatcher())[0];
 }
 
-vk::ShaderModule Pipelines::module(Spirv code)
-{
-    if (code.empty())
-        return {};
-    auto found = modules_.find(code.data());
-    if (found == modules_.end()) {
-        const vk::ShaderModuleCreateInfo info({}, code.size_bytes(), code.data());
-        found = modules_.emplace(code.data(), vk::raii::ShaderModule(device_->device, info)).first;
-    }
-    return *found->second;
-}
-
-Pipelines::Stages Pipelines::stagesOf(const PipelineKey& key)
-{
-    const StageShaders shaders = shadersOf(key, device_->exact);
-    return {module(shaders.vertex), module(shaders.fragment)};
-}
-
-vk::raii::Pipeline Pipelines::make(const PipelineKey& key, const Stages& modules) const
+vk::raii::Pipeline Pipelines::make(const PipelineKey& key) const
 {
     const bool shadow = isShadow(key.pass);
     const std::uint32_t colors = shadow || key.pass == Pass::layers ? 0 : 1;
     const Specialization specialization(key);
     std::vector<vk::PipelineShaderStageCreateInfo> stages;
-    stages.emplace_back(vk::PipelineShaderStageCreateFlags(), vk::ShaderStageFlagBits::eVertex, modules.vertex, "main");
-    if (modules.fragment)
-        stages.emplace_back(vk::PipelineShaderStageCreateFlags(), vk::ShaderStageFlagBits::eFragment, modules.fragment,
-                            "main", &specialization.info);
+    std::vector<vk::raii::ShaderModule> modules; // until the pipeline is made
+    const auto add = [&](vk::ShaderStageFlagBits stage, Spirv code, const vk::SpecializationInfo* constants) {
+        const vk::ShaderModuleCreateInfo info({}, code.size_bytes(), code.data());
+        const vk::ShaderModule module = *modules.emplace_back(device_->device, info);
+        stages.emplace_back(vk::PipelineShaderStageCreateFlags(), stage, module, "main", constants);
+    };
+    const StageShaders shaders = shadersOf(key, device_->exact);
+    add(vk::ShaderStageFlagBits::eVertex, shaders.vertex, nullptr);
+    if (!shaders.fragment.empty())
+        add(vk::ShaderStageFlagBits::eFragment, shaders.fragment, &specialization.info);
 
     const VertexInput vertexInput(key.pass);
     const vk::PipelineInputAssemblyStateCreateInfo assembly({}, vk::PrimitiveTopology::eTriangleList);
@@ -255,10 +246,10 @@ void Pipelines::begin(const std::vector<PipelineKey>& keys)
 {
     const auto tasks = std::make_shared<std::vector<std::packaged_task<vk::raii::Pipeline()>>>();
     for (const PipelineKey& key : keys) {
-        if (entries_.contains(key))
+        if (made_.contains(key))
             continue;
-        tasks->emplace_back([this, key, modules = stagesOf(key)] { return make(key, modules); });
-        entries_[key].making = tasks->back().get_future();
+        tasks->emplace_back([this, key] { return make(key); });
+        made_[key] = tasks->back().get_future();
     }
     if (!tasks->empty())
         workers_.push_back(std::async(std::launch::async, [tasks, threads = threadsFor(tasks->size(), 1)] {
@@ -268,17 +259,15 @@ void Pipelines::begin(const std::vector<PipelineKey>& keys)
 
 vk::Pipeline Pipelines::get(const PipelineKey& key)
 {
-    const auto [entry, isNew] = entries_.try_emplace(key);
+    const auto [entry, isNew] = made_.try_emplace(key);
     try {
         if (isNew)
-            entry->second.pipeline = make(key, stagesOf(key));
-        else if (entry->second.making.valid())
-            entry->second.pipeline = entry->second.making.get();
+            entry->second = std::async(std::launch::deferred, [this, key] { return make(key); });
+        return *entry->second.get();
     } catch (...) {
-        entries_.erase(entry);
+        made_.erase(entry);
         throw;
     }
-    return *entry->second.pipeline;
 }
 
 } // namespace cotan

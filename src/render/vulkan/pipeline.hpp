@@ -5,7 +5,6 @@
 #include <compare>
 #include <future>
 #include <map>
-#include <span>
 #include <vector>
 
 #include "cotan/view.hpp"
@@ -76,8 +75,6 @@ struct PipelineKey {
     auto operator<=>(const PipelineKey&) const = default;
 };
 
-using Spirv = std::span<const std::uint32_t>; // words of a compiled shader
-
 class Pipelines {
 public:
     Pipelines(const Device& device, const Layouts& layouts) : device_(&device), layouts_(&layouts) {}
@@ -89,23 +86,11 @@ public:
     vk::Pipeline get(const PipelineKey& key);
 
 private:
-    struct Stages {
-        vk::ShaderModule vertex;
-        vk::ShaderModule fragment; // null: none
-    };
-    struct Entry {
-        std::future<vk::raii::Pipeline> making; // not valid: made
-        vk::raii::Pipeline pipeline{nullptr};
-    };
-
-    vk::ShaderModule module(Spirv code);
-    Stages stagesOf(const PipelineKey& key);
-    vk::raii::Pipeline make(const PipelineKey& key, const Stages& modules) const;
+    vk::raii::Pipeline make(const PipelineKey& key) const;
 
     const Device* device_;
     const Layouts* layouts_;
-    std::map<const std::uint32_t*, vk::raii::ShaderModule> modules_;
-    std::map<PipelineKey, Entry> entries_;
+    std::map<PipelineKey, std::shared_future<vk::raii::Pipeline>> made_;
     std::vector<std::future<void>> workers_; // the last member: they use the others
 };
 

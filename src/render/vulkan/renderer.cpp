@@ -72,13 +72,6 @@ Status checkLimits(const Device& device, const View& view)
     return Done{};
 }
 
-// Adds the pixels of floats.
-void add(Image& sum, const Image& picture)
-{
-    for (std::size_t i = 0; i < 4 * sum.pixelCount(); ++i)
-        sum.floats()[i] += picture.floats()[i];
-}
-
 // What the view asks for, of the sums of all samples.
 Image meanOf(const Image& sum, const View& view)
 {
@@ -92,14 +85,40 @@ Image meanOf(const Image& sum, const View& view)
     return image;
 }
 
+vk::Rect2D rectangle(const PixelArea& a)
+{
+    return {{a.x0, a.y0}, {static_cast<std::uint32_t>(a.x1 - a.x0), static_cast<std::uint32_t>(a.y1 - a.y0)}};
+}
+
 } // namespace
 
-PipelineKey CommandRecorder::resolveKey() const
+// What of the picture the lists may cover.
+void CommandRecorder::setAreas(DrawLists& lists, const View& view, const gpu::CotanView& constants) const
 {
-    return {.pass = Pass::resolve,
-            .levels = targets_->kind().shown == vk::Format::eR8G8B8A8Unorm,
-            .multisampledSource = targets_->multisampled(),
-            .format = targets_->kind().shown};
+    const auto areaOfItems = [&](const std::vector<Item>& items) {
+        PixelArea all;
+        for (const Item& item : items)
+            all = around(all, areaOf(constants, item.constants, item.mesh->box, view.width, view.height));
+        return all;
+    };
+    lists.translucentArea = areaOfItems(lists.translucent);
+    lists.area = around(around(areaOfItems(lists.opaque), areaOfItems(lists.mask)), lists.translucentArea);
+}
+
+// The background around an area, straight into the resolved picture: there all samples of a pixel are the same.
+void CommandRecorder::recordSurround(const vk::raii::CommandBuffer& commands, const View& view, const PixelArea& a)
+{
+    targets_->beginSurround(commands);
+    if (view.background || view.ground) {
+        for (const PixelArea& part :
+             {PixelArea{0, 0, view.width, a.y0}, PixelArea{0, a.y0, a.x0, a.y1},
+              PixelArea{a.x1, a.y0, view.width, a.y1}, PixelArea{0, a.y1, view.width, view.height}})
+            if (!part.empty()) {
+                commands.setScissor(0, rectangle(part));
+                drawOver(commands, keys_.surround);
+            }
+    }
+    commands.endRendering();
 }
 
 // Resolves what was drawn in the area, and copies the picture.
@@ -108,7 +127,7 @@ void CommandRecorder::finish(const vk::raii::CommandBuffer& commands, const Pixe
     if (targets_->resolves()) {
         commands.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, *layouts_->pipeline, 0, composeSet_, {});
         targets_->beginResolve(commands, rectangle(area));
-        drawOver(commands, resolveKey());
+        drawOver(commands, keys_.resolve);
         commands.endRendering();
     }
     targets_->copy(commands);
@@ -123,6 +142,7 @@ Result<Image> CommandRecorder::drawOnce(GpuScene& scene, const View& view, std::
     const bool layered = view.output == Output::shaded && !lists.translucent.empty();
     const gpu::CotanView constants =
         viewConstants(view, axes, scene.bounds, sample ? samplePlace(*sample) : glm::dvec2(0));
+    keys_ = keysOf(view, *targets_);
     beginPipelines(lists, view, layered);
     prepare(view, axes, constants, layered);
     setAreas(lists, view, constants);
@@ -140,7 +160,7 @@ Result<Image> CommandRecorder::drawOnce(GpuScene& scene, const View& view, std::
     if (layered) {
         targets_->endOpaque(commands);
         commands_.submitAndWait();
-        if (const Status ok = drawLayers(lists, view); !ok)
+        if (const Status ok = drawLayers(lists); !ok)
             return ok.error();
         finish(begin(), area);
     } else {
@@ -174,7 +194,9 @@ Result<Image> CommandRecorder::draw(GpuScene& scene, const View& view, RenderTim
         const Result<Image> picture = drawOnce(scene, view, sample, timings);
         if (!picture)
             return picture;
-        add(sum, *picture);
+        const float* values = picture->floats();
+        for (std::size_t i = 0; i < 4 * sum.pixelCount(); ++i)
+            sum.floats()[i] += values[i];
     }
     return meanOf(sum, view);
 }

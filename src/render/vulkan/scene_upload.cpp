@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "cotan/convention.hpp"
 #include "gpu_structs.hpp"
@@ -180,13 +181,8 @@ gpu::CotanMaterial materialConstants(const Scene& scene, const Material& m, cons
     g.anisotropy = gpu::vec4(a.strength, std::cos(a.rotation), -std::sin(a.rotation), m.specular.ior);
     g.specular = gpu::vec4(m.specular.color, m.specular.strength);
     g.sheen = gpu::vec4(m.sheen.color, m.sheen.roughness);
-    gpu::CotanTextureUse* const uses[] = {
-        &g.baseColorMap,     &g.metallicRoughnessMap, &g.normalMapUse,      &g.occlusionMap,   &g.emissiveMap,
-        &g.coatMap,          &g.coatRoughnessMap,     &g.coatNormalMapUse,  &g.anisotropyMap,  &g.specularMap,
-        &g.specularColorMap, &g.sheenColorMap,        &g.sheenRoughnessMap, &g.transmissionMap};
-    std::size_t k = 0;
     for (const MapUse& use : mapUses(m))
-        *uses[k++] = useConstants(*use.texture, textures.present(use));
+        g.*use.constants = useConstants(*use.texture, textures.present(use));
     // Without a normal map the frame is that of uv set 0 as it is.
     if (!m.normalMap.present())
         g.normalMapUse = useConstants(Texture{}, /*present*/ false);
@@ -297,15 +293,12 @@ void GpuScene::loadMaterials(const Scene& scene, const Layouts& layouts, Uploade
 void GpuScene::limitPipelines()
 {
     constexpr std::size_t kMax = 4;
-    std::vector<std::uint32_t> sets;
+    std::set<std::uint32_t> sets;
     for (const GpuMesh& mesh : meshes)
-        sets.push_back(materials[std::size_t(mesh.material)].maps);
-    std::sort(sets.begin(), sets.end());
-    sets.erase(std::unique(sets.begin(), sets.end()), sets.end());
+        sets.insert(materials[std::size_t(mesh.material)].maps);
     if (sets.size() <= kMax)
         return;
-    std::uint32_t all = COTAN_MAP_BASE_COLOR | COTAN_MAP_METALLIC_ROUGHNESS | COTAN_MAP_NORMAL | COTAN_MAP_OCCLUSION
-        | COTAN_MAP_EMISSIVE;
+    std::uint32_t all = COTAN_MAPS_PLAIN & ~COTAN_MAP_OCCLUSION_SHARED;
     for (const std::uint32_t set : sets)
         all |= set & ~COTAN_MAP_OCCLUSION_SHARED;
     for (GpuMaterial& material : materials)

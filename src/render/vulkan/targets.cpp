@@ -12,6 +12,7 @@ using Stage = vk::PipelineStageFlagBits2;
 using Access = vk::AccessFlagBits2;
 constexpr auto kColorAspect = vk::ImageAspectFlagBits::eColor;
 constexpr auto kAttachment = vk::ImageLayout::eColorAttachmentOptimal;
+constexpr ImageUse kDrawnInto{kAttachment, Stage::eColorAttachmentOutput, Access::eColorAttachmentWrite};
 constexpr auto kDepthRead = vk::ImageLayout::eDepthStencilReadOnlyOptimal;
 constexpr auto kDepthStages = Stage::eEarlyFragmentTests | Stage::eLateFragmentTests;
 
@@ -72,21 +73,22 @@ void Targets::beginColor(const vk::raii::CommandBuffer& commands, const Texture2
 
 void Targets::beginSurround(const vk::raii::CommandBuffer& commands)
 {
-    transition(commands, *resolved_->image, kColorAspect, vk::ImageLayout::eUndefined, kAttachment,
-               Stage::eTransfer | Stage::eColorAttachmentOutput, {}, Stage::eColorAttachmentOutput,
-               Access::eColorAttachmentWrite);
+    transition(commands, *resolved_->image, kColorAspect,
+               {vk::ImageLayout::eUndefined, Stage::eTransfer | Stage::eColorAttachmentOutput, {}}, kDrawnInto);
     beginColor(commands, *resolved_, vk::AttachmentLoadOp::eClear, {{0, 0}, {kind_.width, kind_.height}});
 }
 
 void Targets::begin(const vk::raii::CommandBuffer& commands, const vk::Rect2D& area, bool layersFollow)
 {
-    transition(commands, *color_.image, kColorAspect, vk::ImageLayout::eUndefined, kAttachment,
-               Stage::eTransfer | Stage::eFragmentShader | Stage::eColorAttachmentOutput, {},
-               Stage::eColorAttachmentOutput, Access::eColorAttachmentWrite);
-    transition(commands, *depth_.image, vk::ImageAspectFlagBits::eDepth, vk::ImageLayout::eUndefined,
-               vk::ImageLayout::eDepthAttachmentOptimal, kDepthStages | Stage::eFragmentShader,
-               Access::eDepthStencilAttachmentWrite, kDepthStages,
-               Access::eDepthStencilAttachmentRead | Access::eDepthStencilAttachmentWrite);
+    transition(
+        commands, *color_.image, kColorAspect,
+        {vk::ImageLayout::eUndefined, Stage::eTransfer | Stage::eFragmentShader | Stage::eColorAttachmentOutput, {}},
+        kDrawnInto);
+    transition(
+        commands, *depth_.image, vk::ImageAspectFlagBits::eDepth,
+        {vk::ImageLayout::eUndefined, kDepthStages | Stage::eFragmentShader, Access::eDepthStencilAttachmentWrite},
+        {vk::ImageLayout::eDepthAttachmentOptimal, kDepthStages,
+         Access::eDepthStencilAttachmentRead | Access::eDepthStencilAttachmentWrite});
 
     constexpr auto clear = vk::AttachmentLoadOp::eClear;
     const auto kept = layersFollow ? vk::AttachmentStoreOp::eStore : vk::AttachmentStoreOp::eDontCare;
@@ -100,9 +102,10 @@ void Targets::begin(const vk::raii::CommandBuffer& commands, const vk::Rect2D& a
 void Targets::endOpaque(const vk::raii::CommandBuffer& commands)
 {
     commands.endRendering();
-    transition(commands, *depth_.image, vk::ImageAspectFlagBits::eDepth, vk::ImageLayout::eDepthAttachmentOptimal,
-               kDepthRead, kDepthStages, Access::eDepthStencilAttachmentWrite, kDepthStages | Stage::eFragmentShader,
-               Access::eDepthStencilAttachmentRead | Access::eShaderSampledRead);
+    transition(commands, *depth_.image, vk::ImageAspectFlagBits::eDepth,
+               {vk::ImageLayout::eDepthAttachmentOptimal, kDepthStages, Access::eDepthStencilAttachmentWrite},
+               {kDepthRead, kDepthStages | Stage::eFragmentShader,
+                Access::eDepthStencilAttachmentRead | Access::eShaderSampledRead});
 }
 
 void Targets::beginLayers(const vk::raii::CommandBuffer& commands, const vk::Rect2D& area)
@@ -116,26 +119,22 @@ void Targets::beginLayers(const vk::raii::CommandBuffer& commands, const vk::Rec
 void Targets::beginCompose(const vk::raii::CommandBuffer& commands, const vk::Rect2D& area)
 {
     const auto both = Access::eColorAttachmentRead | Access::eColorAttachmentWrite;
-    transition(commands, *color_.image, kColorAspect, kAttachment, kAttachment, Stage::eColorAttachmentOutput,
-               Access::eColorAttachmentWrite, Stage::eColorAttachmentOutput, both);
+    transition(commands, *color_.image, kColorAspect, kDrawnInto, {kAttachment, Stage::eColorAttachmentOutput, both});
     beginColor(commands, color_, vk::AttachmentLoadOp::eLoad, area);
 }
 
 void Targets::beginResolve(const vk::raii::CommandBuffer& commands, const vk::Rect2D& area)
 {
-    transition(commands, *color_.image, kColorAspect, kAttachment, vk::ImageLayout::eShaderReadOnlyOptimal,
-               Stage::eColorAttachmentOutput, Access::eColorAttachmentWrite, Stage::eFragmentShader,
-               Access::eShaderSampledRead);
-    transition(commands, *resolved_->image, kColorAspect, kAttachment, kAttachment, Stage::eColorAttachmentOutput,
-               Access::eColorAttachmentWrite, Stage::eColorAttachmentOutput, Access::eColorAttachmentWrite);
+    transition(commands, *color_.image, kColorAspect, kDrawnInto, kSampled);
+    transition(commands, *resolved_->image, kColorAspect, kDrawnInto, kDrawnInto);
     beginColor(commands, *resolved_, vk::AttachmentLoadOp::eLoad, area);
 }
 
 void Targets::copy(const vk::raii::CommandBuffer& commands)
 {
     const vk::Image source = resolved_ ? *resolved_->image : *color_.image;
-    transition(commands, source, kColorAspect, kAttachment, vk::ImageLayout::eTransferSrcOptimal,
-               Stage::eColorAttachmentOutput, Access::eColorAttachmentWrite, Stage::eTransfer, Access::eTransferRead);
+    transition(commands, source, kColorAspect, kDrawnInto,
+               {vk::ImageLayout::eTransferSrcOptimal, Stage::eTransfer, Access::eTransferRead});
     const vk::BufferImageCopy copy(0, 0, 0, {kColorAspect, 0, 0, 1}, {0, 0, 0}, {kind_.width, kind_.height, 1});
     commands.copyImageToBuffer(source, vk::ImageLayout::eTransferSrcOptimal, *readBack_.buffer, copy);
     const vk::MemoryBarrier2 toHost(Stage::eTransfer, Access::eTransferWrite, Stage::eHost, Access::eHostRead);

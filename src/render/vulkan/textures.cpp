@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include <glm/gtc/packing.hpp>
+
 #include "core/parallel.hpp"
 
 namespace cotan {
@@ -75,23 +77,47 @@ vk::Sampler Samplers::get(const Sampler& s, bool pointSampled)
     return *made_.emplace(key, vk::raii::Sampler(device_->device, info)).first->second;
 }
 
+void HeldPicture::hold(const Device& device, std::shared_ptr<const void> newOwner, const Image& picture)
+{
+    if (newOwner == owner)
+        return;
+    std::vector<glm::uint64> halves(picture.pixelCount());
+    for (std::size_t i = 0; i < halves.size(); ++i) {
+        const float* p = picture.floats() + 4 * i;
+        halves[i] = glm::packHalf4x16(glm::vec4(p[0], p[1], p[2], p[3]));
+    }
+    owner.reset();
+    texture = {};
+    memory = std::make_unique<Memory>(device);
+    texture = makeTexture(device, *memory,
+                          {.format = vk::Format::eR16G16B16A16Sfloat,
+                           .extent = {std::uint32_t(picture.width), std::uint32_t(picture.height)},
+                           .usage = vk::ImageUsageFlagBits::eSampled | vk::ImageUsageFlagBits::eTransferDst});
+    const std::array levels{std::as_bytes(std::span(halves))};
+    Uploader uploader(device, halves.size() * sizeof(glm::uint64));
+    uploader.image(texture, levels, sizeof(glm::uint64));
+    uploader.finish();
+    owner = std::move(newOwner);
+}
+
 std::array<MapUse, COTAN_MAP_COUNT> mapUses(const Material& m)
 {
     using K = TextureKind;
-    return {{{&m.baseColorMap, K::color, {}},
-             {&m.metallicRoughnessMap, K::data, {}},
-             {&m.normalMap, K::normal, m.normalFormat},
-             {&m.occlusionMap, K::data, {}},
-             {&m.emissiveMap, K::color, {}},
-             {&m.coat.map, K::data, {}},
-             {&m.coat.roughnessMap, K::data, {}},
-             {&m.coat.normalMap, K::normal, m.coat.normalFormat},
-             {&m.anisotropy.map, K::data, {}},
-             {&m.specular.map, K::data, {}},
-             {&m.specular.colorMap, K::color, {}},
-             {&m.sheen.colorMap, K::color, {}},
-             {&m.sheen.roughnessMap, K::data, {}},
-             {&m.transmission.map, K::data, {}}}};
+    using G = gpu::CotanMaterial;
+    return {{{&m.baseColorMap, K::color, {}, &G::baseColorMap},
+             {&m.metallicRoughnessMap, K::data, {}, &G::metallicRoughnessMap},
+             {&m.normalMap, K::normal, m.normalFormat, &G::normalMapUse},
+             {&m.occlusionMap, K::data, {}, &G::occlusionMap},
+             {&m.emissiveMap, K::color, {}, &G::emissiveMap},
+             {&m.coat.map, K::data, {}, &G::coatMap},
+             {&m.coat.roughnessMap, K::data, {}, &G::coatRoughnessMap},
+             {&m.coat.normalMap, K::normal, m.coat.normalFormat, &G::coatNormalMapUse},
+             {&m.anisotropy.map, K::data, {}, &G::anisotropyMap},
+             {&m.specular.map, K::data, {}, &G::specularMap},
+             {&m.specular.colorMap, K::color, {}, &G::specularColorMap},
+             {&m.sheen.colorMap, K::color, {}, &G::sheenColorMap},
+             {&m.sheen.roughnessMap, K::data, {}, &G::sheenRoughnessMap},
+             {&m.transmission.map, K::data, {}, &G::transmissionMap}}};
 }
 
 Textures::Key Textures::keyOf(const MapUse& use)
@@ -112,7 +138,7 @@ void Textures::request(const Scene& scene, const MapUse& use, std::vector<MipReq
     index_.insert(*made);
     if (!isNew)
         return;
-    MipRequest r;
+    MipRequest& r = missing.emplace_back();
     r.image = &image;
     r.kind = use.kind;
     r.normalFormat = use.format;
@@ -123,7 +149,6 @@ void Textures::request(const Scene& scene, const MapUse& use, std::vector<MipReq
         && device_->cpu && device_->filterable16)
         r.format = TexelFormat::unorm16;
     r.largest = int(device_->limits.maxImageDimension2D);
-    missing.push_back(r);
 }
 
 Texture2D Textures::upload(const MipChain& chain, Uploader& uploader)

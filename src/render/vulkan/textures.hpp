@@ -3,6 +3,7 @@
 
 #include <array>
 #include <map>
+#include <memory>
 #include <tuple>
 #include <vector>
 
@@ -26,11 +27,21 @@ private:
     std::map<Key, vk::raii::Sampler> made_;
 };
 
+// A picture of floats on the device, as halfs; kept from one picture to the next as long as it is the same one.
+struct HeldPicture {
+    std::shared_ptr<const void> owner; // what the texture holds; null: nothing
+    std::unique_ptr<Memory> memory;
+    Texture2D texture;
+
+    void hold(const Device& device, std::shared_ptr<const void> newOwner, const Image& picture);
+};
+
 // How a material uses an image.
 struct MapUse {
     const Texture* texture = nullptr;
     TextureKind kind = TextureKind::data;
     Convention format; // of normals
+    gpu::CotanTextureUse gpu::CotanMaterial::*constants = nullptr;
 };
 
 // All uses of a material, in the order of the bits COTAN_MAP_... and of the bindings.

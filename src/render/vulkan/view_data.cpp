@@ -81,8 +81,7 @@ void cameraRows(gpu::CotanView& g, const View& view, const CameraAxes& axes, con
 
 const Light* shadowLight(const View& view)
 {
-    const auto found = std::find_if(view.lights.begin(), view.lights.end(),
-                                    [](const Light& light) { return light.kind == LightKind::directional; });
+    const auto found = std::ranges::find(view.lights, LightKind::directional, &Light::kind);
     return found == view.lights.end() ? nullptr : &*found;
 }
 

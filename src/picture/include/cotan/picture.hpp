@@ -42,8 +42,6 @@ namespace cotan {
 
 // ---- options -------------------------------------------------------------------------------
 
-// What a picture of a model is to show: the options of `cotan render` and of its window.
-
 inline constexpr int kDefaultMemory = 640; // MiB, of one picture
 
 // The limits of reading with so many MiB for one picture, and as much for all of a model together where that is more
@@ -79,6 +77,7 @@ enum class Edges { none, triangles, seams, all };
 // What is behind the model: nothing, which is transparent, or a Backdrop.
 enum class Background { none, gradient, blurred, sharp, paper };
 
+// What a picture of a model is to show: the options of `cotan render` and of its window.
 struct PictureOptions {
     PictureUse use = PictureUse::shown; // for the command to say
     std::string show = "shaded";        // of showNames; for the command to declare
@@ -121,8 +120,6 @@ struct PictureOptions {
 };
 
 // ---- from options to an image --------------------------------------------------------------
-
-// A picture of a model, from options to what a renderer is given. Errors name options as the command line does.
 
 // memory: MiB that one picture may take. Puts the maps on the scene's materials in place of what they have; does
 // nothing where none was given. A colour or roughness of the material that would be multiplied with a new picture
@@ -208,8 +205,6 @@ Status layEdges(Renderer& renderer, View view, const PictureOptions& options, st
                 Image& picture);
 
 // ---- light ---------------------------------------------------------------------------------
-
-// The light of a picture: the environment, lamps, what is behind the model and beneath it.
 
 // The environment that the options name; null for none. Errors: those of readImage and environmentOfPicture;
 // ErrorKind::usage for a name that is none.

@@ -35,10 +35,8 @@ Result<Image> drawView(Scene scene, const View& view, const std::string& device 
 
 // ---- several images ------------------------------------------------------------------------
 
-// Something that draws: a Vulkan device or the reference renderer.
-
-// A device that is open. Made by openRenderer; for one picture there is drawView.
-// One thread at a time.
+// A device that is open, or the reference renderer. Made by openRenderer; for one picture there is drawView. One thread
+// at a time.
 class Renderer {
 public:
     virtual ~Renderer() = default;
@@ -119,11 +117,9 @@ std::string formatCamera(const Camera& camera);
 
 // ---- the reference renderer ----------------------------------------------------------------
 
-// The reference renderer: on the CPU, in 2x2 quads, slow, obvious, the judge.
-
-// Draws the scene as a GPU would: pixels in 2x2 quads whose helper lanes extrapolate the triangle,
-// derivatives as differences inside the quad, clipping against the near plane, the portable text
-// in float. The picture is the same, byte for byte, for any number of threads.
+// Slow and obvious, the judge: draws the scene on the CPU as a GPU would, pixels in 2x2 quads whose helper lanes
+// extrapolate the triangle, derivatives as differences inside the quad, clipping against the near plane, the portable
+// text in float. The picture is the same, byte for byte, for any number of threads.
 // threads: 0 means all cores. progress is called from several threads.
 // Translucent materials are composed per sample in the order of their distance, whatever their number
 // of layers; of equally far ones the one drawn later is in front.
