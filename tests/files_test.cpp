@@ -12,6 +12,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "common.hpp"
 #include "cotan/image.hpp"
 #include "files/file_registry.hpp"
 #include "files/output.hpp"
@@ -309,6 +310,7 @@ TEST(OutputFiles, whatALibrarySaysOfAPartIsSaidOfTheFile)
 TEST(OutputPlan, foldersAreMadeOnlyWhereThatWasSaidAndOptionsAreNamed)
 {
     TemporaryFolder folder;
+    using app::plannedIn, app::planOutputs;
     const fs::path deep = folder / "new";
     EXPECT_TRUE(planOutputs(plannedIn("-o", deep, {"a.png", "b.png"})));
     const auto missing = planOutputs({{"--json", deep / "c.json"}});

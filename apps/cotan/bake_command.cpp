@@ -289,7 +289,7 @@ Result<Json> bakeEach(const BakeCommandOptions& o)
         for (PlannedOutput& file : filesOf(one))
             files.push_back(std::move(file));
     }
-    if (const auto planned = cotan::planOutputs(std::move(files)); !planned)
+    if (const auto planned = planOutputs(std::move(files)); !planned)
         return planned.error();
     Json objects = Json::array();
     for (const BakeCommandOptions& one : all) {
