@@ -8,7 +8,7 @@
 #include "cotan/image.hpp"
 #include "cotan/inspect.hpp"
 #include "image/pending.hpp"
-#include "inspect/statistics.hpp"
+#include "inspect/angles.hpp"
 #include "parse.hpp"
 #include "picture.hpp"
 #include "scene/normal_maps.hpp"

@@ -14,7 +14,7 @@
 
 #include "cotan/inspect.hpp"
 #include "cotan/scene.hpp"
-#include "inspect/statistics.hpp"
+#include "inspect/angles.hpp"
 #include "picture.hpp"
 #include "probe.hpp"
 
