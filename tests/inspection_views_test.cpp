@@ -2,6 +2,7 @@
 // say; what is under the pointer has every number right.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>

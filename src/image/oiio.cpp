@@ -1,6 +1,5 @@
 // The module of image formats: OpenImageIO behind the functions of formats.hpp.
 #include "oiio.hpp"
-#include "oiio_file.hpp"
 
 #include <algorithm>
 #include <cctype>

@@ -8,7 +8,6 @@
 #include <fmt/format.h>
 
 #include "oiio.hpp"
-#include "oiio_file.hpp"
 
 namespace cotan::oiio {
 

@@ -7,7 +7,6 @@
 
 #include "image/checks.hpp"
 #include "oiio.hpp"
-#include "oiio_file.hpp"
 
 namespace cotan::oiio {
 

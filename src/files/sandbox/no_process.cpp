@@ -24,8 +24,6 @@ Error ReaderProcess::failure() { return unavailableError("there are no processes
 void Descriptor::close() {}
 
 void dieWith(std::int64_t, int) {}
-void leaveNoCore() {}
-void limitMemory(double, double) {}
 void confine() {}
 void limitTo(const ReaderBudget&, const ReaderBudget&) {}
 
