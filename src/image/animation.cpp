@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 #include <utility>
 
 #include <fmt/format.h>
@@ -23,11 +22,10 @@ bool isGif(const std::filesystem::path& file)
     return format && format->name == "GIF";
 }
 
-// Of 8 bits, whatever comes. output: where the module writes a GIF, beside its place; WebP's writer has its own.
+// Of 8 bits, whatever comes; writer: writes to the output's path.
 class EightBits : public AnimationWriter {
 public:
-    EightBits(std::optional<OutputFile> output, std::unique_ptr<AnimationWriter> writer, AnimationFormat format,
-              std::string name)
+    EightBits(OutputFile output, std::unique_ptr<AnimationWriter> writer, AnimationFormat format, std::string name)
         : output_(std::move(output)), writer_(std::move(writer)), format_(format), name_(std::move(name))
     {
     }
@@ -43,16 +41,13 @@ public:
     Status finish() override
     {
         Status done = told(writer_->finish());
-        return done && output_ ? output_->commit() : done;
+        return done ? output_.commit() : done;
     }
 
 private:
-    Status told(Status status) const
-    {
-        return status || !output_ ? std::move(status) : Status(output_->failed(status.error()));
-    }
+    Status told(Status status) const { return status ? status : Status(output_.failed(status.error())); }
 
-    std::optional<OutputFile> output_;
+    OutputFile output_; // removed last
     std::unique_ptr<AnimationWriter> writer_;
     AnimationFormat format_;
     std::string name_;
@@ -71,23 +66,6 @@ Status checkFormat(const std::filesystem::path& file, const AnimationFormat& for
     return Done{};
 }
 
-Result<std::unique_ptr<AnimationWriter>> createGif(const std::filesystem::path& file, const AnimationFormat& format)
-{
-    const auto formats = imageFormats(file.string());
-    if (!formats)
-        return formats.error();
-    auto output = OutputFile::begin(file);
-    if (!output)
-        return output.error();
-    AnimationFormat rounded = format;
-    rounded.rate = animationRate(file, format.rate);
-    auto writer = (*formats)->createGif(output->path(), rounded, file.string());
-    if (!writer)
-        return output->failed(writer.error());
-    return std::unique_ptr<AnimationWriter>(
-        new EightBits(std::move(*output), std::move(*writer), format, file.string()));
-}
-
 } // namespace
 
 bool isAnimation(const std::filesystem::path& file) { return imageFormatHas(file, &ImageFormat::animation); }
@@ -102,12 +80,20 @@ Result<std::unique_ptr<AnimationWriter>> createAnimation(const std::filesystem::
 {
     if (Status fits = checkFormat(file, format); !fits)
         return fits.error();
-    if (isGif(file))
-        return createGif(file, format);
-    auto writer = createWebpAnimation(file, format);
+    const std::string name = file.string();
+    const auto formats = isGif(file) ? imageFormats(name) : nullptr;
+    if (!formats)
+        return formats.error();
+    auto output = OutputFile::begin(file);
+    if (!output)
+        return output.error();
+    AnimationFormat rounded = format;
+    rounded.rate = animationRate(file, format.rate);
+    auto writer = isGif(file) ? (*formats)->createGif(output->path(), rounded, name)
+                              : createWebpAnimation(output->path(), rounded, name);
     if (!writer)
-        return writer.error();
-    return std::unique_ptr<AnimationWriter>(new EightBits(std::nullopt, std::move(*writer), format, file.string()));
+        return output->failed(writer.error());
+    return std::unique_ptr<AnimationWriter>(new EightBits(std::move(*output), std::move(*writer), format, name));
 }
 
 } // namespace cotan

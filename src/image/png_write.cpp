@@ -151,10 +151,7 @@ namespace {
 
 class PngOut : public RowWriter {
 public:
-    PngOut(OutputFile output, File file, std::string name)
-        : output_(std::move(output)), file_(std::move(file)), writer_(file_.get()), name_(std::move(name))
-    {
-    }
+    PngOut(File file, std::string name) : file_(std::move(file)), writer_(file_.get()), name_(std::move(name)) {}
 
     Status start(const RowFormat& format)
     {
@@ -172,20 +169,19 @@ public:
         if (Status ended = check(endPng(writer_)); !ended)
             return ended;
         if (std::fclose(file_.release()) != 0)
-            return output_.failed(outputError(fmt::format("{}: writing failed", name_)));
-        return output_.commit();
+            return outputError(fmt::format("{}: writing failed", name_));
+        return Done{};
     }
 
 private:
     Status check(bool fine) const
     {
         if (!fine)
-            return output_.failed(outputError(
-                fmt::format("{}: expected to write the picture, libpng found: {}", name_, writer_.message)));
+            return outputError(
+                fmt::format("{}: expected to write the picture, libpng found: {}", name_, writer_.message));
         return Done{};
     }
 
-    OutputFile output_; // removed last
     File file_;
     PngWriter writer_;
     std::string name_;
@@ -193,12 +189,13 @@ private:
 
 } // namespace
 
-Result<std::unique_ptr<RowWriter>> createPngRows(OutputFile output, const RowFormat& format, const std::string& name)
+Result<std::unique_ptr<RowWriter>> createPngRows(const std::filesystem::path& file, const RowFormat& format,
+                                                 const std::string& name)
 {
-    File stream(std::fopen(output.path().c_str(), "wb"));
+    File stream(std::fopen(file.c_str(), "wb"));
     if (!stream)
-        return output.failed(outputError(fmt::format("{}: cannot be opened for writing", name)));
-    auto rows = std::make_unique<PngOut>(std::move(output), std::move(stream), name);
+        return outputError(fmt::format("{}: cannot be opened for writing", name));
+    auto rows = std::make_unique<PngOut>(std::move(stream), name);
     if (Status started = rows->start(format); !started)
         return started.error();
     return std::unique_ptr<RowWriter>(std::move(rows));

@@ -63,9 +63,10 @@ Result<std::unique_ptr<RowReader>> openWhole(const fs::path& file, const LoadLim
     return std::unique_ptr<RowReader>(std::make_unique<WholeRows>(*std::move(image)));
 }
 
-class OtherOut : public RowWriter {
+// Rows that come to their place when they are complete.
+class PlacedRows : public RowWriter {
 public:
-    OtherOut(OutputFile output, std::unique_ptr<RowWriter> writer)
+    PlacedRows(OutputFile output, std::unique_ptr<RowWriter> writer)
         : output_(std::move(output)), writer_(std::move(writer))
     {
     }
@@ -138,18 +139,18 @@ Result<std::unique_ptr<RowWriter>> createRows(const fs::path& file, const RowFor
     auto output = OutputFile::begin(file);
     if (!output)
         return output.error();
-    if (!writesItself(file)) {
+    const auto create = [&]() -> Result<std::unique_ptr<RowWriter>> {
+        if (writesItself(file) && format.type == PixelType::float32)
+            return usageError(fmt::format("{}: PNG files cannot hold floats", name));
+        if (writesItself(file))
+            return createPngRows(output->path(), format, name);
         const auto formats = imageFormats(name);
-        if (!formats)
-            return formats.error();
-        auto writer = (*formats)->createRows(output->path(), format, threads, name);
-        if (!writer)
-            return output->failed(writer.error());
-        return std::unique_ptr<RowWriter>(std::make_unique<OtherOut>(*std::move(output), *std::move(writer)));
-    }
-    if (format.type == PixelType::float32)
-        return usageError(fmt::format("{}: PNG files cannot hold floats", name));
-    return createPngRows(*std::move(output), format, name);
+        return formats ? (*formats)->createRows(output->path(), format, threads, name) : formats.error();
+    };
+    auto writer = create();
+    if (!writer)
+        return output->failed(writer.error());
+    return std::unique_ptr<RowWriter>(std::make_unique<PlacedRows>(*std::move(output), *std::move(writer)));
 }
 
 } // namespace cotan

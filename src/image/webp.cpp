@@ -10,6 +10,7 @@
 #include <webp/encode.h>
 #include <webp/mux.h>
 
+#include "files/output.hpp"
 #include "image/checks.hpp"
 #include "numbers.hpp"
 
@@ -140,8 +141,8 @@ struct Deleter {
 // libwebp's encoder keeps what is packed of the pictures in memory.
 class WebpAnimation : public AnimationWriter {
 public:
-    WebpAnimation(OutputFile output, const AnimationFormat& format, std::string name)
-        : output_(std::move(output)), format_(format), name_(std::move(name))
+    WebpAnimation(std::filesystem::path file, const AnimationFormat& format, std::string name)
+        : file_(std::move(file)), format_(format), name_(std::move(name))
     {
         WebPAnimEncoderOptions options;
         WebPAnimEncoderOptionsInit(&options);
@@ -173,12 +174,10 @@ public:
         WebPDataInit(&data);
         const bool made = encoder_ && WebPAnimEncoderAdd(encoder_.get(), nullptr, timeOf(count_), nullptr)
             && WebPAnimEncoderAssemble(encoder_.get(), &data);
-        Status written = made ? writeBytes(output_.path(), std::as_bytes(std::span(data.bytes, data.size)))
+        Status written = made ? writeBytes(file_, std::as_bytes(std::span(data.bytes, data.size)))
                               : failed(encoder_ ? WebPAnimEncoderGetError(encoder_.get()) : "not enough memory");
         WebPDataClear(&data);
-        if (!written)
-            return output_.failed(written.error());
-        return output_.commit();
+        return written;
     }
 
 private:
@@ -190,7 +189,7 @@ private:
         return outputError(fmt::format("{}: libwebp: {}", name_, std::string(why).empty() ? "failed" : why));
     }
 
-    OutputFile output_;
+    std::filesystem::path file_;
     AnimationFormat format_;
     std::string name_;
     std::unique_ptr<WebPAnimEncoder, Deleter> encoder_;
@@ -200,12 +199,9 @@ private:
 } // namespace
 
 Result<std::unique_ptr<AnimationWriter>> createWebpAnimation(const std::filesystem::path& file,
-                                                             const AnimationFormat& format)
+                                                             const AnimationFormat& format, const std::string& name)
 {
-    auto output = OutputFile::begin(file);
-    if (!output)
-        return output.error();
-    return std::unique_ptr<AnimationWriter>(new WebpAnimation(std::move(*output), format, file.string()));
+    return std::unique_ptr<AnimationWriter>(new WebpAnimation(file, format, name));
 }
 
 // ---- pictures as another one is ------------------------------------------------------------
