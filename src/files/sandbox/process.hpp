@@ -1,12 +1,16 @@
-// The parent's side of a sandboxed reader: a child process that is started, asked, timed and ended.
+// Child processes: any program's, and the parent's side of a sandboxed reader, which is started, asked, timed and
+// ended.
 #pragma once
 
 #include <chrono>
 #include <cstddef>
+#include <filesystem>
+#include <map>
 #include <memory>
 #include <span>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include <sys/types.h>
 
@@ -32,6 +36,20 @@ public:
 private:
     int number_ = -1;
 };
+
+// A program to be started as a child process.
+struct SpawnRequest {
+    std::string program;
+    std::vector<std::string> words;                   // behind the program's name
+    int input = -1;                                   // standard input; -1: nothing is there
+    int output = -1;                                  // standard output and error
+    std::filesystem::path folder{};                   // it runs in; empty: ours
+    std::map<std::string, std::string> environment{}; // variables besides ours, or in their place
+};
+
+// Starts it with these descriptors and no others, in a process group of its own, with no signal blocked or ignored:
+// Ctrl-C is for us. Returns 0 or the errno.
+int spawn(const SpawnRequest& request, pid_t& process);
 
 class ReaderProcess {
 public:
