@@ -41,7 +41,6 @@ public:
     {
         process_->restartClock();
         process_->question().number(std::int32_t(strip.height));
-        process_->question().flush(); // a failure shows in the answer
         if (Status found = process_->await(); !found)
             return found;
         const std::size_t expected = strip.data.size();
@@ -67,8 +66,6 @@ Result<Image> decodeSandboxed(std::span<const std::byte> bytes, const std::strin
                                          .limits = limits});
     if (!process)
         return process.error();
-    if (Status found = (*process)->await(); !found)
-        return found.error();
     Image image;
     exchangeImage((*process)->answer(), image);
     image.frame = std::string(frameText(image.frame));
@@ -84,8 +81,6 @@ Result<std::unique_ptr<RowReader>> openRowsSandboxed(const std::filesystem::path
     auto process = ReaderProcess::start({.kind = ReaderKind::rows, .name = file.string(), .limits = limits});
     if (!process)
         return process.error();
-    if (Status found = (*process)->await(); !found)
-        return found.error();
     auto rows = std::make_unique<SandboxedRows>(*std::move(process));
     if (Status sound = rows->readFacts(file.string(), limits); !sound)
         return sound.error();

@@ -135,7 +135,8 @@ ReaderProcess::ReaderProcess(const ReaderRequest& request)
 
 ReaderProcess::~ReaderProcess() { kill(); }
 
-Result<std::unique_ptr<ReaderProcess>> ReaderProcess::start(ReaderRequest request)
+Result<std::unique_ptr<ReaderProcess>> ReaderProcess::start(ReaderRequest request,
+                                                            const std::function<void(WireOut&)>& more)
 {
     std::unique_ptr<ReaderProcess> started(new ReaderProcess(request));
     const auto failed = [&](int problem) {
@@ -156,12 +157,17 @@ Result<std::unique_ptr<ReaderProcess>> ReaderProcess::start(ReaderRequest reques
     started->messages_ = std::move(messages[0]);
     request.parent = ::getpid();
     exchangeRequest(started->question_, request);
-    started->question_.flush(); // where nobody listens, nobody answers, and await() says why
+    request.bytes = {}; // not held while the child has them
+    if (more)
+        more(started->question_);
+    if (Status found = started->await(); !found)
+        return found.error();
     return started;
 }
 
 Status ReaderProcess::await()
 {
+    question_.flush(); // where nobody listens, nobody answers
     for (;;) {
         ReaderFrame frame = ReaderFrame::error;
         answer_.choice(frame, ReaderFrame::error);

@@ -5,6 +5,7 @@
 #include <chrono>
 #include <cstddef>
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <memory>
 #include <span>
@@ -53,18 +54,20 @@ int spawn(const SpawnRequest& request, pid_t& process);
 
 class ReaderProcess {
 public:
-    // Starts limits.sandbox.program and sends it the request. Errors: ErrorKind::unavailable where it cannot be
-    // started.
-    static Result<std::unique_ptr<ReaderProcess>> start(ReaderRequest request);
+    // Starts limits.sandbox.program, sends it the request and what `more` says, and awaits the first result.
+    // Errors: ErrorKind::unavailable where it cannot be started; those of await().
+    static Result<std::unique_ptr<ReaderProcess>> start(ReaderRequest request,
+                                                        const std::function<void(WireOut&)>& more = {});
 
     ~ReaderProcess(); // kills it
     ReaderProcess(const ReaderProcess&) = delete;
     ReaderProcess& operator=(const ReaderProcess&) = delete;
 
     WireIn& answer() { return answer_; }
-    WireOut& question() { return question_; }
+    WireOut& question() { return question_; } // where nobody listens, await() says why
 
-    // Waits for a result. Done: what follows in answer() is the value. Errors: the reader's own; failure().
+    // Sends what is still held of the question, and waits for a result. Done: what follows in answer() is the value.
+    // Errors: the reader's own; failure().
     Status await();
 
     // Gives it as much time again, from now.
