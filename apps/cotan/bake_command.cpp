@@ -11,7 +11,7 @@
 #include "cotan/image.hpp"
 #include "gltf_open.hpp"
 #include "image/format_table.hpp"
-#include "image/pending.hpp"
+#include "map_files/placed_images.hpp"
 #include "parse.hpp"
 #include "verify.hpp"
 

@@ -81,6 +81,22 @@ Result<Image> decode(std::span<const std::byte> bytes, const std::string& name, 
     return readOther(bytes, name, limits);
 }
 
+Status write(const std::filesystem::path& file, const Image& image, const std::string& name)
+{
+    if (writesItself(file))
+        return image.type == PixelType::float32 ? writePng(file, toUnorm8(image), name) : writePng(file, image, name);
+    const auto formats = imageFormats(name);
+    return formats ? (*formats)->write(file, image, name) : formats.error();
+}
+
+Result<EncodedLike> asPng(const Image& image, std::string whyNot)
+{
+    auto png = encodePng(image);
+    if (!png)
+        return png.error();
+    return EncodedLike{*std::move(png), "PNG", "image/png", 0, std::move(whyNot)};
+}
+
 } // namespace
 
 Result<Image> decodeImage(std::span<const std::byte> bytes, const std::string& name, const LoadLimits& limits)
@@ -108,18 +124,6 @@ Result<Image> readImage(const std::filesystem::path& file, const LoadLimits& lim
     }
 }
 
-namespace {
-
-Status write(const std::filesystem::path& file, const Image& image, const std::string& name)
-{
-    if (writesItself(file))
-        return image.type == PixelType::float32 ? writePng(file, toUnorm8(image), name) : writePng(file, image, name);
-    const auto formats = imageFormats(name);
-    return formats ? (*formats)->write(file, image, name) : formats.error();
-}
-
-} // namespace
-
 Result<OutputFile> writePending(const std::filesystem::path& file, const Image& image)
 {
     const std::string name = file.string();
@@ -140,36 +144,6 @@ Status writeImage(const std::filesystem::path& file, const Image& image)
     auto output = writePending(file, image);
     return output ? output->commit() : output.error();
 }
-
-Result<std::vector<OutputFile>> writePending(std::span<const PlacedImage> images)
-{
-    std::vector<OutputFile> pending;
-    for (const auto& [file, image] : images) {
-        auto output = writePending(file, *image);
-        if (!output)
-            return output.error();
-        pending.push_back(std::move(*output));
-    }
-    return pending;
-}
-
-Status writeTogether(std::span<const PlacedImage> images)
-{
-    auto pending = writePending(images);
-    return pending ? commitTogether(*pending) : pending.error();
-}
-
-namespace {
-
-Result<EncodedLike> asPng(const Image& image, std::string whyNot)
-{
-    auto png = encodePng(image);
-    if (!png)
-        return png.error();
-    return EncodedLike{*std::move(png), "PNG", "image/png", 0, std::move(whyNot)};
-}
-
-} // namespace
 
 Result<EncodedLike> encodeLike(const Image& image, std::span<const std::byte> old)
 {

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cctype>
 #include <cstdint>
-#include <cstring>
 #include <exception>
 #include <string_view>
 
@@ -31,6 +30,11 @@ template<class T> void complete(T* pixel, std::size_t count, int channels, T one
         if (channels == 1 || channels == 3)
             pixel[3] = one;
     }
+}
+
+Error broken(const std::string& name, const std::string& format, const std::string& why)
+{
+    return inputError(fmt::format("{}: broken {} image: {}", name, format, oneLine(why)));
 }
 
 } // namespace
@@ -119,15 +123,6 @@ std::string frameOf(const OIIO::ImageSpec& spec, const std::string& format)
     const std::string value = spec.get_string_attribute(std::string(kFrameKey));
     return std::string(frameText(value));
 }
-
-namespace {
-
-Error broken(const std::string& name, const std::string& format, const std::string& why)
-{
-    return inputError(fmt::format("{}: broken {} image: {}", name, format, oneLine(why)));
-}
-
-} // namespace
 
 Error brokenToOiio(const std::string& name, const std::string& format, const std::string& words)
 {

@@ -170,30 +170,6 @@ Error pngError(const std::string& name, const PngReader& reader)
         fmt::format("{}: broken PNG: expected data that libpng can read, it found: {}", name, reader.message));
 }
 
-} // namespace
-
-Result<Image> readPng(std::span<const std::byte> bytes, const std::string& name, const LoadLimits& limits)
-{
-    PngReader reader(bytes);
-    if (!reader.info)
-        return inputError(fmt::format("{}: out of memory", name));
-    PngHeader header;
-    if (!readPngHeader(reader, header))
-        return pngError(name, reader);
-    if (auto error = checkImageSize(header.width, header.height, header.type, name, limits))
-        return *error;
-
-    Image image = makeImage(int(header.width), int(header.height), header.type, name);
-    image.frame = reader.frame;
-    image.channels = header.channels;
-    const std::size_t rowBytes = std::size_t(header.width) * image.bytesPerPixel();
-    if (!readPixels(reader, header, image.bytes8(), rowBytes))
-        return pngError(name, reader);
-    return image;
-}
-
-namespace {
-
 class PngRows : public RowReader {
 public:
     explicit PngRows(File file) : file_(std::move(file)), reader_(file_.get()) {}
@@ -220,6 +196,26 @@ private:
 };
 
 } // namespace
+
+Result<Image> readPng(std::span<const std::byte> bytes, const std::string& name, const LoadLimits& limits)
+{
+    PngReader reader(bytes);
+    if (!reader.info)
+        return inputError(fmt::format("{}: out of memory", name));
+    PngHeader header;
+    if (!readPngHeader(reader, header))
+        return pngError(name, reader);
+    if (auto error = checkImageSize(header.width, header.height, header.type, name, limits))
+        return *error;
+
+    Image image = makeImage(int(header.width), int(header.height), header.type, name);
+    image.frame = reader.frame;
+    image.channels = header.channels;
+    const std::size_t rowBytes = std::size_t(header.width) * image.bytesPerPixel();
+    if (!readPixels(reader, header, image.bytes8(), rowBytes))
+        return pngError(name, reader);
+    return image;
+}
 
 std::optional<Result<std::unique_ptr<RowReader>>> openPngRows(const std::filesystem::path& file, File stream,
                                                               const LoadLimits& limits)

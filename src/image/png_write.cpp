@@ -121,34 +121,6 @@ Status writeTo(std::FILE* out, const Image& image, const std::string& name, PngE
     return Done{};
 }
 
-} // namespace
-
-Status writePng(const std::filesystem::path& file, const Image& image, const std::string& name)
-{
-    std::FILE* out = std::fopen(file.c_str(), "wb");
-    if (!out)
-        return outputError(fmt::format("{}: cannot be opened for writing", name));
-    return writeTo(out, image, name, kQuickPng);
-}
-
-Result<std::vector<std::byte>> encodePng(const Image& image)
-{
-    char* bytes = nullptr;
-    std::size_t size = 0;
-    std::FILE* out = ::open_memstream(&bytes, &size);
-    if (!out)
-        return outputError(fmt::format("{}: out of memory", image.name));
-    const Status written = writeTo(out, image, image.name, kSmallPng);
-    const auto* first = reinterpret_cast<const std::byte*>(bytes);
-    std::vector<std::byte> result(first, first + (written ? size : 0));
-    std::free(bytes);
-    if (!written)
-        return written.error();
-    return result;
-}
-
-namespace {
-
 class PngOut : public RowWriter {
 public:
     PngOut(File file, std::string name) : file_(std::move(file)), writer_(file_.get()), name_(std::move(name)) {}
@@ -188,6 +160,30 @@ private:
 };
 
 } // namespace
+
+Status writePng(const std::filesystem::path& file, const Image& image, const std::string& name)
+{
+    std::FILE* out = std::fopen(file.c_str(), "wb");
+    if (!out)
+        return outputError(fmt::format("{}: cannot be opened for writing", name));
+    return writeTo(out, image, name, kQuickPng);
+}
+
+Result<std::vector<std::byte>> encodePng(const Image& image)
+{
+    char* bytes = nullptr;
+    std::size_t size = 0;
+    std::FILE* out = ::open_memstream(&bytes, &size);
+    if (!out)
+        return outputError(fmt::format("{}: out of memory", image.name));
+    const Status written = writeTo(out, image, image.name, kSmallPng);
+    const auto* first = reinterpret_cast<const std::byte*>(bytes);
+    std::vector<std::byte> result(first, first + (written ? size : 0));
+    std::free(bytes);
+    if (!written)
+        return written.error();
+    return result;
+}
 
 Result<std::unique_ptr<RowWriter>> createPngRows(const std::filesystem::path& file, const RowFormat& format,
                                                  const std::string& name)

@@ -5,6 +5,7 @@
 #include <array>
 #include <bit>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <unordered_map>
 
@@ -49,10 +50,7 @@ using Key = std::array<std::uint32_t, 6>; // the bits of both ends, the smaller 
 struct KeyHash {
     std::size_t operator()(const Key& key) const
     {
-        std::uint64_t h = 1469598103934665603u; // FNV-1a by words
-        for (const std::uint32_t bits : key)
-            h = (h ^ bits) * 1099511628211u;
-        return std::size_t(h ^ (h >> 29));
+        return std::hash<std::string_view>()({reinterpret_cast<const char*>(key.data()), sizeof key});
     }
 };
 
