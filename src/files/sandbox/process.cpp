@@ -179,7 +179,7 @@ Status ReaderProcess::await()
         }
         std::string input;
         if (frame == ReaderFrame::input)
-            answer_.text(input);
+            answer_.array(input);
         if (!answer_.good())
             return failure();
         if (Status free = noteInput(input); !input.empty() && !free)
