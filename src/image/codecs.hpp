@@ -1,5 +1,5 @@
-// The formats that are read and written here by their own libraries, and the same readers in a child process. What a
-// build lacks the library for says so (no_png.cpp and its like).
+// The formats that are read and written here by their own libraries. What a build lacks the library for says so
+// (no_png.cpp and its like).
 #pragma once
 
 #include <cstddef>
@@ -89,11 +89,5 @@ Result<Image> readKtx2(std::span<const std::byte> bytes, const std::string& name
 // ErrorKind::unavailable where this build lacks the library.
 Status unpackZstd(std::span<const std::byte> packed, std::span<std::byte> out);
 Status unpackZlib(std::span<const std::byte> packed, std::span<std::byte> out);
-
-// ---- in a child process: limits.sandbox.program ---------------------------------------------
-
-// As decodeImage and openRows.
-Result<Image> decodeSandboxed(std::span<const std::byte> bytes, const std::string& name, const LoadLimits& limits);
-Result<std::unique_ptr<RowReader>> openRowsSandboxed(const std::filesystem::path& file, const LoadLimits& limits);
 
 } // namespace cotan

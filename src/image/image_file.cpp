@@ -8,7 +8,10 @@
 #include "codecs.hpp"
 #include "files/bytes.hpp"
 #include "files/output.hpp"
+#include "files/sandbox/process.hpp"
+#include "files/sandbox/scene_wire.hpp"
 #include "formats.hpp"
+#include "image/checks.hpp"
 #include "image/component_types.hpp"
 #include "image/format_table.hpp"
 #include "image/pending.hpp"
@@ -51,6 +54,38 @@ bool knownImage(std::span<const std::byte> bytes, const std::string& name)
         return !format->openImageIo.empty();
     const ImageFormat* const named = imageFormatOf(std::filesystem::path(name));
     return named && named->openImageIo == kNoStart && !bytes.empty();
+}
+
+Status checkPicture(const Image& image, const std::string& file, const LoadLimits& limits)
+{
+    if (auto error = checkImageSize(image.width, image.height, image.type, file, limits))
+        return *error;
+    if (image.channels < 1 || image.channels > 4)
+        return inputError(fmt::format("{}: expected 1 to 4 channels, found {}", file, image.channels));
+    if (image.data.size() != image.pixelCount() * image.bytesPerPixel())
+        return inputError(fmt::format("{}: expected the bytes of {} x {} pixels, found {}", file, image.width,
+                                      image.height, image.data.size()));
+    return Done{};
+}
+
+// In a child process: limits.sandbox.program.
+Result<Image> decodeSandboxed(std::span<const std::byte> bytes, const std::string& name, const LoadLimits& limits)
+{
+    auto process = ReaderProcess::start({.kind = ReaderKind::picture,
+                                         .name = name,
+                                         .bytes = {bytes.begin(), bytes.end()},
+                                         .fileBytes = bytes.size(),
+                                         .limits = limits});
+    if (!process)
+        return process.error();
+    Image image;
+    exchangeImage((*process)->answer(), image);
+    image.frame = std::string(frameText(image.frame));
+    if (!(*process)->answer().good())
+        return (*process)->failure();
+    if (Status sound = checkPicture(image, name, limits); !sound)
+        return sound.error();
+    return image;
 }
 
 Result<Image> decode(std::span<const std::byte> bytes, const std::string& name, const LoadLimits& limits)

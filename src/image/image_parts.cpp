@@ -13,7 +13,10 @@
 #include "codecs.hpp"
 #include "files/bytes.hpp"
 #include "files/output.hpp"
+#include "files/sandbox/process.hpp"
+#include "files/sandbox/scene_wire.hpp"
 #include "formats.hpp"
+#include "image/checks.hpp"
 #include "image/component_types.hpp"
 #include "image/format_table.hpp"
 
@@ -66,6 +69,51 @@ Result<std::unique_ptr<RowReader>> openWhole(const fs::path& file, const LoadLim
     if (!image)
         return image.error();
     return std::unique_ptr<RowReader>(std::make_unique<WholeRows>(*std::move(image)));
+}
+
+class SandboxedRows : public RowReader {
+public:
+    explicit SandboxedRows(std::unique_ptr<ReaderProcess> process) : process_(std::move(process)) {}
+
+    Status readFacts(const std::string& file, const LoadLimits& limits)
+    {
+        name = file;
+        exchangeRowFacts(process_->answer(), *this);
+        frame = std::string(frameText(frame));
+        if (channels < 1 || channels > 4 || width <= 0 || height <= 0 || width > limits.imageSide
+            || height > limits.imageSide)
+            process_->answer().refuse();
+        return process_->answer().good() ? Status(Done{}) : process_->failure();
+    }
+
+    Status read(Image& strip) override
+    {
+        process_->restartClock();
+        process_->question().number(std::int32_t(strip.height));
+        if (Status found = process_->await(); !found)
+            return found;
+        const std::size_t expected = strip.data.size();
+        process_->answer().array(strip.data);
+        if (strip.data.size() != expected)
+            process_->answer().refuse();
+        strip.data.resize(expected);
+        return process_->answer().good() ? Status(Done{}) : process_->failure();
+    }
+
+private:
+    std::unique_ptr<ReaderProcess> process_;
+};
+
+// In a child process: limits.sandbox.program.
+Result<std::unique_ptr<RowReader>> openRowsSandboxed(const std::filesystem::path& file, const LoadLimits& limits)
+{
+    auto process = ReaderProcess::start({.kind = ReaderKind::rows, .name = file.string(), .limits = limits});
+    if (!process)
+        return process.error();
+    auto rows = std::make_unique<SandboxedRows>(*std::move(process));
+    if (Status sound = rows->readFacts(file.string(), limits); !sound)
+        return sound.error();
+    return std::unique_ptr<RowReader>(std::move(rows));
 }
 
 // Rows that come to their place when they are complete.
