@@ -219,6 +219,9 @@ TEST(OutputFiles, partsOfProcessesThatAreGoneAreFoundAndOthersAreNot)
     std::ofstream(folder / ".cotan-x-0.part") << "mine";
     std::ofstream(folder / "a.part.png") << "mine";
     EXPECT_EQ(leftParts(folder.path()), std::vector<fs::path>{left});
+    removeParts(folder.path(), 0); // no process has a part
+    EXPECT_TRUE(fs::exists(left));
+    EXPECT_TRUE(fs::exists(folder / "a.part.png"));
     removeParts(folder.path(), child);
     EXPECT_FALSE(fs::exists(left));
     EXPECT_TRUE(fs::exists(folder / elsewhere));
