@@ -1,4 +1,4 @@
-// How libpng says what is wrong: it calls back, and leaves by longjmp. So the functions that call it hold nothing with a
+// How libpng says what is wrong: it calls back and leaves by longjmp, so the functions that call it hold nothing with a
 // destructor.
 #pragma once
 
