@@ -8,7 +8,7 @@ add_dependencies(cli_test cotan)
 # What is read and what is written: by functions, and by every command.
 cotan_test(files_test
   SOURCES files_test.cpp module_test.cpp overwrite_test.cpp
-  LIBRARIES cotan_files cotan_model cotan_scene nlohmann_json::nlohmann_json fmt::fmt)
+  LIBRARIES cotan_app cotan_files cotan_model cotan_scene nlohmann_json::nlohmann_json fmt::fmt)
 add_library(module_versions MODULE module_versions.cpp)
 # Not beside the tests, where it would be found whatever folder is asked for.
 set_target_properties(module_versions PROPERTIES LIBRARY_OUTPUT_DIRECTORY ${CMAKE_CURRENT_BINARY_DIR}/modules)

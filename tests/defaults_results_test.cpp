@@ -14,7 +14,6 @@
 #include "cotan/maps.hpp"
 #include "cotan/tangents.hpp"
 #include "gltf/json/views.hpp"
-#include "inspect/probe.hpp"
 #include "map_files/convert.hpp"
 #include "map_files/height.hpp"
 #include "scene/environment_map.hpp"
@@ -177,11 +176,6 @@ TEST(EmptyResults, ofPicturesAndPlacesHaveNoSize)
     EXPECT_EQ(h.share, 0);
     EXPECT_EQ(h.severity, 0);
     EXPECT_FALSE(h.storedTangents);
-    Probed p;
-    EXPECT_EQ(p.normal, glm::vec3(0));
-    EXPECT_EQ(p.w, 0);
-    EXPECT_FALSE(p.hasUv);
-    EXPECT_EQ(p.texel, glm::ivec2(-1));
 }
 
 TEST(EmptyResults, ofJobsHaveTakenNothing)

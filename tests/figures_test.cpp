@@ -12,7 +12,7 @@
 
 #include "cotan/image.hpp"
 #include "figures/page.hpp"
-#include "files/report/html.hpp"
+#include "html.hpp"
 #include "run_tool.hpp"
 
 namespace cotan {

@@ -12,6 +12,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "common.hpp"
 #include "cotan/image.hpp"
 #include "files/file_registry.hpp"
 #include "files/output.hpp"
@@ -218,6 +219,9 @@ TEST(OutputFiles, partsOfProcessesThatAreGoneAreFoundAndOthersAreNot)
     std::ofstream(folder / ".cotan-x-0.part") << "mine";
     std::ofstream(folder / "a.part.png") << "mine";
     EXPECT_EQ(leftParts(folder.path()), std::vector<fs::path>{left});
+    removeParts(folder.path(), 0); // no process has a part
+    EXPECT_TRUE(fs::exists(left));
+    EXPECT_TRUE(fs::exists(folder / "a.part.png"));
     removeParts(folder.path(), child);
     EXPECT_FALSE(fs::exists(left));
     EXPECT_TRUE(fs::exists(folder / elsewhere));
@@ -309,6 +313,7 @@ TEST(OutputFiles, whatALibrarySaysOfAPartIsSaidOfTheFile)
 TEST(OutputPlan, foldersAreMadeOnlyWhereThatWasSaidAndOptionsAreNamed)
 {
     TemporaryFolder folder;
+    using app::plannedIn, app::planOutputs;
     const fs::path deep = folder / "new";
     EXPECT_TRUE(planOutputs(plannedIn("-o", deep, {"a.png", "b.png"})));
     const auto missing = planOutputs({{"--json", deep / "c.json"}});

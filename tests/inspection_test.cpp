@@ -15,7 +15,7 @@
 #include "cotan/model.hpp"
 #include "cotan/render.hpp"
 #include "cotan/scene.hpp"
-#include "inspect/probe.hpp"
+#include "probe.hpp"
 
 namespace cotan {
 namespace {
@@ -132,13 +132,22 @@ TEST(Inspection, densityIsToldAgainstTheMedian)
     expectColor(middleOf(scene, Inspection::density), {220, 30, 20});
 }
 
+TEST(Probe, untilSomethingIsFoundItHasNothing)
+{
+    const viewer::Probed p;
+    EXPECT_EQ(p.normal, glm::vec3(0));
+    EXPECT_EQ(p.w, 0);
+    EXPECT_FALSE(p.hasUv);
+    EXPECT_EQ(p.texel, glm::ivec2(-1));
+}
+
 TEST(Probe, theFrameAtAPointIsThatOfTheGradients)
 {
     const Scene scene = square(2, 0, false); // u runs half as fast as v
     const auto hit = pick(scene, straightOn().camera, {16, 16}, {8, 8});
     ASSERT_TRUE(hit);
-    Prober prober;
-    const Probed p = prober.at(scene, 1, *hit, Frame::orthonormal, TangentOrigin::stored);
+    viewer::Prober prober;
+    const viewer::Probed p = prober.at(scene, 1, *hit, Frame::orthonormal, TangentOrigin::stored);
     EXPECT_LT(glm::length(p.normal - glm::vec3(0, 0, 1)), 1e-6f);
     EXPECT_LT(glm::length(glm::normalize(p.t) - glm::vec3(1, 0, 0)), 1e-6f);
     EXPECT_LT(glm::length(glm::normalize(p.b) - glm::vec3(0, -1, 0)), 1e-6f); // v runs down
@@ -159,7 +168,7 @@ TEST(Probe, theTexelIsInsideTheMapWhereverUvAre)
         uv = uv + glm::vec2(-3, 5);
     const auto hit = pick(scene, straightOn().camera, {16, 16}, {8.5f, 4.5f}); // right of the middle, a quarter down
     ASSERT_TRUE(hit);
-    const Probed p = Prober().at(scene, 1, *hit, Frame::cotangent, TangentOrigin::stored);
+    const viewer::Probed p = viewer::Prober().at(scene, 1, *hit, Frame::cotangent, TangentOrigin::stored);
     EXPECT_EQ(p.texel, glm::ivec2(4, 1));
 }
 

@@ -2,6 +2,7 @@
 // say; what is under the pointer has every number right.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -11,7 +12,7 @@
 #include "cotan/inspect.hpp"
 #include "cotan/render.hpp"
 #include "cotan/scene.hpp"
-#include "inspect/probe.hpp"
+#include "probe.hpp"
 
 namespace cotan {
 namespace {
@@ -269,12 +270,12 @@ TEST(ProbeValues, areThoseOfThePointInItsInstance)
     camera.eye = {0, 0, 9};
     camera.orthographic = true;
     camera.verticalExtent = 2;
-    Prober prober;
+    viewer::Prober prober;
     const auto hit = pick(scene, camera, {100, 100}, {75, 40}); // (0.5, 0.2) in the turned one: its own (0.2, -0.5)
     ASSERT_TRUE(hit);
     EXPECT_EQ(hit->instance, 1);
     EXPECT_NEAR(hit->depth, 6, 1e-5);
-    const Probed p = prober.at(scene, 1, *hit, Frame::cotangent, TangentOrigin::stored);
+    const viewer::Probed p = prober.at(scene, 1, *hit, Frame::cotangent, TangentOrigin::stored);
     EXPECT_NEAR(p.uv.x, 0.6f, 1e-5);
     EXPECT_NEAR(p.uv.y, 0.75f, 1e-5);
     EXPECT_EQ(p.texel, glm::ivec2(4, 3)); // 4.8 and 3
@@ -286,12 +287,12 @@ TEST(ProbeValues, areThoseOfThePointInItsInstance)
     const auto other = pick(scene, camera, {100, 100}, {75, 40});
     ASSERT_TRUE(other);
     EXPECT_EQ(other->instance, 0);
-    const Probed q = prober.at(scene, 1, *other, Frame::cotangent, TangentOrigin::stored);
+    const viewer::Probed q = prober.at(scene, 1, *other, Frame::cotangent, TangentOrigin::stored);
     EXPECT_NEAR(q.uv.x, 0.75f, 1e-5);
     EXPECT_NEAR(q.uv.y, 0.4f, 1e-5);
     EXPECT_NEAR(glm::length(glm::normalize(q.t) - glm::vec3(1, 0, 0)), 0, 1e-5);
     scene.meshes[0].texcoords[0].clear(); // another scene by its number
-    const Probed none = prober.at(scene, 2, *other, Frame::cotangent, TangentOrigin::stored);
+    const viewer::Probed none = prober.at(scene, 2, *other, Frame::cotangent, TangentOrigin::stored);
     EXPECT_FALSE(none.hasUv);
     EXPECT_EQ(none.w, 0);
     EXPECT_EQ(none.t, glm::vec3(0));

@@ -190,11 +190,11 @@ const std::map<std::string, void (*)(const ReaderRequest&)> kActs = {
      [](const ReaderRequest&) {
          WireOut out(sendAll);
          out.choice(ReaderFrame::value, ReaderFrame::error);
-         out.text("scene");
+         out.array(std::string("scene"));
          out.number(std::uint64_t(0));
          out.number(std::uint64_t(0));
          out.number(std::uint64_t(1)); // one mesh of 3 GB of positions, in no bytes
-         out.text("mesh");
+         out.array(std::string("mesh"));
          out.number(int(0));
          out.number(std::uint64_t(1) << 28);
          out.flush();

@@ -254,12 +254,12 @@ TEST(Wire, countsThatLieTakeNoMemory)
         EXPECT_LE(values.capacity() * sizeof(glm::vec3), std::size_t(17) << 20);
         at = 0;
         WireIn word = arriving(bytes, at, 100);
-        word.text(text);
+        word.array(text);
         EXPECT_FALSE(word.good());
         EXPECT_LE(text.capacity(), std::size_t(17) << 20);
         at = 0;
         WireIn items = arriving(bytes, at, 100);
-        items.list(list, [](WireIn& in, std::string& s) { in.text(s); });
+        items.list(list, [](WireIn& in, std::string& s) { in.array(s); });
         EXPECT_FALSE(items.good());
         EXPECT_LE(list.size(), 1u);
     }

@@ -4,12 +4,14 @@
 #include <cmath>
 
 #include "cotan/inspect.hpp"
-#include "inspect/verify/verify_bake.hpp"
+#include "verify_bake.hpp"
 
 namespace cotan {
 namespace {
 
 using namespace cotan::testing;
+
+using app::kBakeViews, app::verifyBake;
 
 constexpr int kPixels = 96; // a side of the pictures
 

@@ -12,7 +12,7 @@
 #include "cotan/image.hpp"
 #include "gltf_open.hpp"
 #include "image/format_table.hpp"
-#include "image/pending.hpp"
+#include "map_files/placed_images.hpp"
 #include "parse.hpp"
 #include "verify.hpp"
 
@@ -300,7 +300,7 @@ Result<Json> bakeEach(const BakeCommandOptions& o)
         for (PlannedOutput& file : filesOf(one))
             files.push_back(std::move(file));
     }
-    if (const auto planned = cotan::planOutputs(std::move(files)); !planned)
+    if (const auto planned = planOutputs(std::move(files)); !planned)
         return planned.error();
     Json objects = Json::array();
     for (const BakeCommandOptions& one : all) {

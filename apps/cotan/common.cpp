@@ -2,11 +2,13 @@
 
 #include <cerrno>
 #include <cstdio>
+#include <set>
 #include <sstream>
 #include <utility>
 
 #include <fmt/format.h>
 
+#include "files/bytes.hpp"
 #include "files/file_registry.hpp"
 #include "files/output.hpp"
 #include "image/format_table.hpp"
@@ -48,12 +50,46 @@ void addOlderName(Arguments& command, const std::string& older, const std::strin
 
 void addExamples(Arguments& command, const std::vector<std::string>& lines) { command.examples(lines, kExitCodes); }
 
+std::vector<PlannedOutput> plannedIn(const std::string& option, const std::filesystem::path& folder,
+                                     const std::vector<std::string>& names)
+{
+    std::vector<PlannedOutput> files;
+    for (const std::string& name : names)
+        files.push_back({option, folder / name, /*makesFolder*/ true});
+    return files;
+}
+
+Result<std::vector<std::string>> planOutputs(std::vector<PlannedOutput> files)
+{
+    std::erase_if(files, [](const PlannedOutput& output) { return output.file.empty(); });
+    for (const PlannedOutput& output : files)
+        if (Status planned = planOutput(output.option, output.file); !planned)
+            return planned.error();
+    std::set<std::filesystem::path> folders, made;
+    for (const PlannedOutput& output : files) {
+        const std::filesystem::path folder = folderOf(output.file).lexically_normal();
+        folders.insert(folder);
+        if (output.makesFolder)
+            made.insert(folder);
+        if (Status writable = checkWritable(output.file, made.contains(folder)); !writable)
+            return writable.error();
+    }
+    std::vector<std::string> left;
+    for (const std::filesystem::path& folder : folders)
+        if (const auto parts = leftParts(folder); !parts.empty())
+            left.push_back(
+                fmt::format("{}: {} unfinished file{} of a run that was killed, {}{}; delete what is not needed",
+                            folder.string(), parts.size(), parts.size() > 1 ? "s" : "",
+                            parts.front().filename().string(), parts.size() > 1 ? " and others" : ""));
+    return left;
+}
+
 Status beginOutputs(const CommonOptions& options, std::vector<PlannedOutput> files)
 {
     guardInputs(options.overwrite);
     if (options.json != "-")
         files.push_back({"--json", options.json});
-    const auto left = cotan::planOutputs(std::move(files));
+    const auto left = planOutputs(std::move(files));
     if (!left)
         return left.error();
     for (const std::string& line : *left)

@@ -75,6 +75,21 @@ private:
     std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
 };
 
+// A file that will be written.
+struct PlannedOutput {
+    std::string option; // that asked for it, for messages
+    std::filesystem::path file;
+    bool makesFolder = false; // its folder will be made
+};
+
+// The files of these names in a folder that an option names.
+std::vector<PlannedOutput> plannedIn(const std::string& option, const std::filesystem::path& folder,
+                                     const std::vector<std::string>& names);
+
+// Plans each (see planOutput) and looks whether it can come to be there (see checkWritable); empty names are left out.
+// Returns a sentence about each folder in which a killed run left unfinished files. Errors: those of the two.
+Result<std::vector<std::string>> planOutputs(std::vector<PlannedOutput> files);
+
 // What every command calls before it reads anything: says what it will write, --json included; empty names are left
 // out. From here on no output may be a file that is read or another output, unless --overwrite was given. Warns of
 // what a killed run left in the folders. Errors: ErrorKind::usage for two outputs in one place; ErrorKind::output

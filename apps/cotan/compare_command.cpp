@@ -7,8 +7,8 @@
 
 #include "cotan/image.hpp"
 #include "cotan/inspect.hpp"
-#include "image/pending.hpp"
-#include "inspect/statistics.hpp"
+#include "inspect/angles.hpp"
+#include "map_files/placed_images.hpp"
 #include "parse.hpp"
 #include "picture.hpp"
 #include "scene/normal_maps.hpp"

@@ -10,7 +10,7 @@
 #include "cotan/inspect.hpp"
 #include "cotan/picture.hpp"
 #include "image/format_table.hpp"
-#include "inspect/statistics.hpp"
+#include "inspect/angles.hpp"
 #include "parse.hpp"
 #include "picture.hpp"
 #include "scene/geometry.hpp"

@@ -4,7 +4,7 @@
 #include <cstddef>
 
 #include "cotan/tangents.hpp"
-#include "inspect/statistics.hpp"
+#include "inspect/angles.hpp"
 
 namespace cotan {
 

@@ -2,7 +2,7 @@
 
 #include <array>
 
-#include "inspect/statistics.hpp"
+#include "inspect/angles.hpp"
 #include <fmt/format.h>
 
 namespace cotan {

@@ -7,7 +7,7 @@
 #include "cotan/image.hpp"
 #include "cotan/inspect.hpp"
 #include "cotan/model.hpp"
-#include "inspect/statistics.hpp"
+#include "inspect/angles.hpp"
 #include "loading.hpp"
 
 namespace cotan::app {
@@ -134,7 +134,7 @@ Result<Json> verifyBake(const BakeToVerify& bake, const std::string& device, con
         return renderer.error();
     const auto compared = withProgress(common, kBakeViews, "drawing and comparing", [&](Progress progress) {
         (*renderer)->progress = std::move(progress);
-        return cotan::verifyBake(**renderer, bake);
+        return verifyBake(**renderer, bake);
     });
     if (!compared)
         return compared.error();

@@ -7,7 +7,7 @@
 
 #include "common.hpp"
 #include "cotan/frame.hpp"
-#include "inspect/verify/verify_bake.hpp"
+#include "verify_bake.hpp"
 
 namespace cotan::app {
 

@@ -62,7 +62,7 @@ std::string neighbourOf(const fs::path& file, int step)
         return {};
     std::error_code error;
     std::vector<fs::path> models;
-    const fs::path folder = file.has_parent_path() ? file.parent_path() : fs::path(".");
+    const fs::path folder = folderOf(file);
     for (fs::directory_iterator it(folder, fs::directory_options::skip_permission_denied, error), end;
          !error && it != end; it.increment(error))
         if (isModel(it->path()) && it->is_regular_file(error))

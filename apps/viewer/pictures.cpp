@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 
 #include "cotan/inspect.hpp"
-#include "inspect/statistics.hpp"
+#include "inspect/angles.hpp"
 
 namespace cotan::viewer {
 

@@ -14,9 +14,9 @@
 
 #include "cotan/inspect.hpp"
 #include "cotan/scene.hpp"
-#include "inspect/probe.hpp"
-#include "inspect/statistics.hpp"
+#include "inspect/angles.hpp"
 #include "picture.hpp"
+#include "probe.hpp"
 
 namespace cotan::viewer {
 

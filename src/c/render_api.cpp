@@ -2,7 +2,7 @@
 #include "bake/reports.hpp"
 #include "core/loops.hpp"
 #include "cotan/picture.hpp"
-#include "inspect/statistics.hpp"
+#include "inspect/angles.hpp"
 #include "model_files.hpp"
 #include "picture/option_words.hpp"
 #include "scene/normal_maps.hpp"

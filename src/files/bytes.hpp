@@ -16,6 +16,12 @@ namespace cotan {
 // ".png" of "A.PNG".
 inline std::string lowerExtension(const std::filesystem::path& file) { return lowerCase(file.extension().string()); }
 
+// The folder that a file is in; "." of a bare name.
+inline std::filesystem::path folderOf(const std::filesystem::path& file)
+{
+    return file.has_parent_path() ? file.parent_path() : std::filesystem::path(".");
+}
+
 // The size in bytes of a regular file that may be read.
 // Errors (ErrorKind::input): missing, not a regular file, empty, over `limit` bytes; those of noteInput.
 Result<std::size_t> usableFileSize(const std::filesystem::path& file, std::size_t limit);

@@ -6,7 +6,6 @@
 #include <charconv>
 #include <csignal>
 #include <cstdint>
-#include <set>
 #include <string>
 #include <string_view>
 #include <system_error>
@@ -17,6 +16,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "files/bytes.hpp"
 #include "files/file_registry.hpp"
 
 namespace cotan {
@@ -26,8 +26,6 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr std::string_view kPartStart = ".cotan-", kPartMark = ".part";
-
-fs::path folderOf(const fs::path& file) { return file.has_parent_path() ? file.parent_path() : fs::path("."); }
 
 // Eight digits for what numbers its processes by itself: a machine, or a container. Several may share a folder.
 const std::string& machine()
@@ -65,6 +63,17 @@ pid_t processOf(const std::string& name)
     pid_t process = 0;
     const auto [end, error] = std::from_chars(name.data() + kPartStart.size(), name.data() + name.size(), process);
     return error == std::errc() && *end == '-' && process > 0 ? process : 0;
+}
+
+// The parts in a folder, each with its process of this machine.
+std::vector<std::pair<fs::path, pid_t>> partsIn(const fs::path& folder)
+{
+    std::vector<std::pair<fs::path, pid_t>> parts;
+    std::error_code error;
+    for (fs::directory_iterator at(folder, error), end; !error && at != end; at.increment(error))
+        if (const pid_t process = processOf(at->path().filename().string()); process != 0)
+            parts.emplace_back(at->path(), process);
+    return parts;
 }
 
 // /dev/stdout and others of its kind stand for something open, whatever that is.
@@ -261,56 +270,19 @@ Status checkWritable(const fs::path& file, bool makesFolder)
 
 void removeParts(const fs::path& folder, pid_t process)
 {
-    std::error_code error, ignored;
-    for (fs::directory_iterator at(folder, error), end; !error && at != end; at.increment(error))
-        if (processOf(at->path().filename().string()) == process)
-            fs::remove(at->path(), ignored);
+    std::error_code ignored;
+    for (const auto& [part, owner] : partsIn(folder))
+        if (owner == process)
+            fs::remove(part, ignored);
 }
 
 std::vector<fs::path> leftParts(const fs::path& folder)
 {
     std::vector<fs::path> parts;
-    std::error_code error;
-    for (fs::directory_iterator at(folder, error), end; !error && at != end; at.increment(error)) {
-        const pid_t process = processOf(at->path().filename().string());
-        if (process != 0 && ::kill(process, 0) != 0 && errno == ESRCH)
-            parts.push_back(at->path());
-    }
+    for (const auto& [part, owner] : partsIn(folder))
+        if (::kill(owner, 0) != 0 && errno == ESRCH)
+            parts.push_back(part);
     return parts;
-}
-
-std::vector<PlannedOutput> plannedIn(const std::string& option, const fs::path& folder,
-                                     const std::vector<std::string>& names)
-{
-    std::vector<PlannedOutput> files;
-    for (const std::string& name : names)
-        files.push_back({option, folder / name, /*makesFolder*/ true});
-    return files;
-}
-
-Result<std::vector<std::string>> planOutputs(std::vector<PlannedOutput> files)
-{
-    std::erase_if(files, [](const PlannedOutput& output) { return output.file.empty(); });
-    for (const PlannedOutput& output : files)
-        if (Status planned = planOutput(output.option, output.file); !planned)
-            return planned.error();
-    std::set<fs::path> folders, made;
-    for (const PlannedOutput& output : files) {
-        const fs::path folder = folderOf(output.file).lexically_normal();
-        folders.insert(folder);
-        if (output.makesFolder)
-            made.insert(folder);
-        if (Status writable = checkWritable(output.file, made.contains(folder)); !writable)
-            return writable.error();
-    }
-    std::vector<std::string> left;
-    for (const fs::path& folder : folders)
-        if (const auto parts = leftParts(folder); !parts.empty())
-            left.push_back(
-                fmt::format("{}: {} unfinished file{} of a run that was killed, {}{}; delete what is not needed",
-                            folder.string(), parts.size(), parts.size() > 1 ? "s" : "",
-                            parts.front().filename().string(), parts.size() > 1 ? " and others" : ""));
-    return left;
 }
 
 Status makeFolder(const fs::path& folder)

@@ -49,7 +49,7 @@ Result<std::vector<DracoGeometry>> decodeDracoHere(const std::vector<DracoJob>& 
 template<class W, class T> void exchangeDracoJobs(W& w, T& jobs)
 {
     w.list(jobs, [](auto& wire, auto& job) {
-        wire.text(job.field);
+        wire.array(job.field);
         wire.array(job.bytes);
         wire.number(job.vertices);
         wire.number(job.indices);

@@ -145,8 +145,6 @@ std::string encodePercent(const std::string& name)
     return uri;
 }
 
-fs::path folderOf(const fs::path& file) { return file.has_parent_path() ? file.parent_path() : fs::path("."); }
-
 // NAME.bin, unless that is a buffer of the file that was read and is not about to be replaced.
 fs::path binaryBeside(const GltfSource& source, const fs::path& file)
 {

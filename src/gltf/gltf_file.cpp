@@ -180,7 +180,7 @@ GltfFile openGltf(const fs::path& path, const LoadLimits& limits, GltfWarnings& 
     file.bytes = valueOrFail(readGltfResource(file, path, limits));
     file.modelBytes = file.size = file.bytes.size();
     if (!file.readFile)
-        file.folder = fs::canonical(path.has_parent_path() ? path.parent_path() : fs::path("."));
+        file.folder = fs::canonical(folderOf(path));
     file.isBinary = file.bytes.size() >= 4 && readWord(file.bytes, 0) == kGlbMagic;
     if (!file.isBinary && lowerExtension(path) == ".glb")
         failGltf("GLB header: expected the file to begin with \"glTF\"");

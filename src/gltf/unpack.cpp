@@ -245,14 +245,10 @@ Result<std::vector<DracoGeometry>> decodeDraco(const std::vector<DracoJob>& jobs
     std::size_t bytes = 0;
     for (const DracoJob& job : jobs)
         bytes += job.bytes.size();
-    auto process =
-        ReaderProcess::start({.kind = ReaderKind::draco, .name = name, .fileBytes = bytes, .limits = limits});
+    auto process = ReaderProcess::start({.kind = ReaderKind::draco, .name = name, .fileBytes = bytes, .limits = limits},
+                                        [&](WireOut& question) { exchangeDracoJobs(question, jobs); });
     if (!process)
         return process.error();
-    exchangeDracoJobs((*process)->question(), jobs);
-    (*process)->question().flush(); // a failure shows in the answer
-    if (Status found = (*process)->await(); !found)
-        return found.error();
     std::vector<DracoGeometry> meshes;
     exchangeDracoGeometry((*process)->answer(), meshes);
     if ((*process)->answer().good() && !fits(meshes, jobs))

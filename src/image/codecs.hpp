@@ -1,5 +1,5 @@
-// The formats that are read and written here by their own libraries, and the same readers in a child process. What a
-// build lacks the library for says so (no_png.cpp and its like).
+// The formats that are read and written here by their own libraries. What a build lacks the library for says so
+// (no_png.cpp and its like).
 #pragma once
 
 #include <cstddef>
@@ -15,7 +15,6 @@
 #include "cotan/image.hpp"
 #include "cotan/result.hpp"
 #include "cotan/scene.hpp"
-#include "files/output.hpp"
 
 namespace cotan {
 
@@ -40,8 +39,9 @@ using File = std::unique_ptr<std::FILE, Close>;
 std::optional<Result<std::unique_ptr<RowReader>>> openPngRows(const std::filesystem::path& file, File stream,
                                                               const LoadLimits& limits);
 
-// As createRows, for components of 8 or 16 bits. name: for messages.
-Result<std::unique_ptr<RowWriter>> createPngRows(OutputFile output, const RowFormat& format, const std::string& name);
+// As createRows, for components of 8 or 16 bits; `file` is where to write and appears at once. name: for messages.
+Result<std::unique_ptr<RowWriter>> createPngRows(const std::filesystem::path& file, const RowFormat& format,
+                                                 const std::string& name);
 
 // ---- JPEG by libjpeg ------------------------------------------------------------------------
 
@@ -66,9 +66,10 @@ bool readsWebp();
 // As decodeImage. Animations are refused.
 Result<Image> readWebp(std::span<const std::byte> bytes, const std::string& name, const LoadLimits& limits);
 
-// As createAnimation, for WebP and pictures of unorm8.
+// As createAnimation, for WebP and pictures of unorm8; `file` is where to write and appears at once. name: for
+// messages.
 Result<std::unique_ptr<AnimationWriter>> createWebpAnimation(const std::filesystem::path& file,
-                                                             const AnimationFormat& format);
+                                                             const AnimationFormat& format, const std::string& name);
 
 // As encodeLike, of a picture of unorm8; quality: 0 without losses. Nothing where this build has no libwebp.
 std::optional<Result<std::vector<std::byte>>> writeWebpLike(const Image& image, std::span<const std::byte> old,
@@ -88,11 +89,5 @@ Result<Image> readKtx2(std::span<const std::byte> bytes, const std::string& name
 // ErrorKind::unavailable where this build lacks the library.
 Status unpackZstd(std::span<const std::byte> packed, std::span<std::byte> out);
 Status unpackZlib(std::span<const std::byte> packed, std::span<std::byte> out);
-
-// ---- in a child process: limits.sandbox.program ---------------------------------------------
-
-// As decodeImage and openRows.
-Result<Image> decodeSandboxed(std::span<const std::byte> bytes, const std::string& name, const LoadLimits& limits);
-Result<std::unique_ptr<RowReader>> openRowsSandboxed(const std::filesystem::path& file, const LoadLimits& limits);
 
 } // namespace cotan

@@ -15,30 +15,21 @@ std::uint8_t quantise(float value)
     return value >= 1 ? 255 : static_cast<std::uint8_t>(value * 255.0f + 0.5f);
 }
 
-// half: from the middle to the end of the range.
-template<class T> void completeBlue(T* texels, std::size_t count, T middle, T half, T one)
-{
-    for (std::size_t i = 0; i < count; ++i)
-        if (texels[4 * i + 2] != middle || texels[4 * i + 3] != one)
-            return;
-    const double scale = half;
-    for (T* t = texels; t < texels + 4 * count; t += 4) {
-        const double x = (double(t[0]) - double(middle)) / scale, y = (double(t[1]) - double(middle)) / scale;
-        const double z = std::sqrt(std::max(0.0, 1 - x * x - y * y)) * scale;
-        t[2] = T(double(middle) + (std::is_integral_v<T> ? std::round(z) : z));
-    }
-}
-
 } // namespace
 
 void completeNormals(Image& image)
 {
-    const std::size_t count = image.pixelCount();
-    switch (image.type) {
-    case PixelType::unorm8: return completeBlue<std::uint8_t>(image.bytes8(), count, 128, 127, 255);
-    case PixelType::unorm16: return completeBlue<std::uint16_t>(image.words(), count, 32768, 32767, 65535);
-    case PixelType::float32: return completeBlue(image.floats(), count, 0.5f, 0.5f, 1.0f);
-    }
+    withComponents(image, [count = image.pixelCount()]<class T>(T* texels, T middle, T one) {
+        for (std::size_t i = 0; i < count; ++i)
+            if (texels[4 * i + 2] != middle || texels[4 * i + 3] != one)
+                return;
+        const double scale = T(one - middle);
+        for (T* t = texels; t < texels + 4 * count; t += 4) {
+            const double x = (double(t[0]) - double(middle)) / scale, y = (double(t[1]) - double(middle)) / scale;
+            const double z = std::sqrt(std::max(0.0, 1 - x * x - y * y)) * scale;
+            t[2] = T(double(middle) + (std::is_integral_v<T> ? std::round(z) : z));
+        }
+    });
 }
 
 Image toUnorm8(const Image& image)

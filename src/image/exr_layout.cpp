@@ -1,7 +1,6 @@
 // Whether an OpenEXR file holds the attributes and blocks that its header promises.
 #include <algorithm>
 #include <array>
-#include <cstring>
 #include <string_view>
 
 #include <fmt/format.h>

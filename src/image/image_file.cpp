@@ -8,7 +8,10 @@
 #include "codecs.hpp"
 #include "files/bytes.hpp"
 #include "files/output.hpp"
+#include "files/sandbox/process.hpp"
+#include "files/sandbox/scene_wire.hpp"
 #include "formats.hpp"
+#include "image/checks.hpp"
 #include "image/component_types.hpp"
 #include "image/format_table.hpp"
 #include "image/pending.hpp"
@@ -53,6 +56,38 @@ bool knownImage(std::span<const std::byte> bytes, const std::string& name)
     return named && named->openImageIo == kNoStart && !bytes.empty();
 }
 
+Status checkPicture(const Image& image, const std::string& file, const LoadLimits& limits)
+{
+    if (auto error = checkImageSize(image.width, image.height, image.type, file, limits))
+        return *error;
+    if (image.channels < 1 || image.channels > 4)
+        return inputError(fmt::format("{}: expected 1 to 4 channels, found {}", file, image.channels));
+    if (image.data.size() != image.pixelCount() * image.bytesPerPixel())
+        return inputError(fmt::format("{}: expected the bytes of {} x {} pixels, found {}", file, image.width,
+                                      image.height, image.data.size()));
+    return Done{};
+}
+
+// In a child process: limits.sandbox.program.
+Result<Image> decodeSandboxed(std::span<const std::byte> bytes, const std::string& name, const LoadLimits& limits)
+{
+    auto process = ReaderProcess::start({.kind = ReaderKind::picture,
+                                         .name = name,
+                                         .bytes = {bytes.begin(), bytes.end()},
+                                         .fileBytes = bytes.size(),
+                                         .limits = limits});
+    if (!process)
+        return process.error();
+    Image image;
+    exchangeImage((*process)->answer(), image);
+    image.frame = std::string(frameText(image.frame));
+    if (!(*process)->answer().good())
+        return (*process)->failure();
+    if (Status sound = checkPicture(image, name, limits); !sound)
+        return sound.error();
+    return image;
+}
+
 Result<Image> decode(std::span<const std::byte> bytes, const std::string& name, const LoadLimits& limits)
 {
     const std::string format = pictureFormat(bytes);
@@ -79,6 +114,22 @@ Result<Image> decode(std::span<const std::byte> bytes, const std::string& name, 
     if (format == "KTX2")
         return readKtx2(bytes, name, limits, readOther);
     return readOther(bytes, name, limits);
+}
+
+Status write(const std::filesystem::path& file, const Image& image, const std::string& name)
+{
+    if (writesItself(file))
+        return image.type == PixelType::float32 ? writePng(file, toUnorm8(image), name) : writePng(file, image, name);
+    const auto formats = imageFormats(name);
+    return formats ? (*formats)->write(file, image, name) : formats.error();
+}
+
+Result<EncodedLike> asPng(const Image& image, std::string whyNot)
+{
+    auto png = encodePng(image);
+    if (!png)
+        return png.error();
+    return EncodedLike{*std::move(png), "PNG", "image/png", 0, std::move(whyNot)};
 }
 
 } // namespace
@@ -108,18 +159,6 @@ Result<Image> readImage(const std::filesystem::path& file, const LoadLimits& lim
     }
 }
 
-namespace {
-
-Status write(const std::filesystem::path& file, const Image& image, const std::string& name)
-{
-    if (writesItself(file))
-        return image.type == PixelType::float32 ? writePng(file, toUnorm8(image), name) : writePng(file, image, name);
-    const auto formats = imageFormats(name);
-    return formats ? (*formats)->write(file, image, name) : formats.error();
-}
-
-} // namespace
-
 Result<OutputFile> writePending(const std::filesystem::path& file, const Image& image)
 {
     const std::string name = file.string();
@@ -140,36 +179,6 @@ Status writeImage(const std::filesystem::path& file, const Image& image)
     auto output = writePending(file, image);
     return output ? output->commit() : output.error();
 }
-
-Result<std::vector<OutputFile>> writePending(std::span<const PlacedImage> images)
-{
-    std::vector<OutputFile> pending;
-    for (const auto& [file, image] : images) {
-        auto output = writePending(file, *image);
-        if (!output)
-            return output.error();
-        pending.push_back(std::move(*output));
-    }
-    return pending;
-}
-
-Status writeTogether(std::span<const PlacedImage> images)
-{
-    auto pending = writePending(images);
-    return pending ? commitTogether(*pending) : pending.error();
-}
-
-namespace {
-
-Result<EncodedLike> asPng(const Image& image, std::string whyNot)
-{
-    auto png = encodePng(image);
-    if (!png)
-        return png.error();
-    return EncodedLike{*std::move(png), "PNG", "image/png", 0, std::move(whyNot)};
-}
-
-} // namespace
 
 Result<EncodedLike> encodeLike(const Image& image, std::span<const std::byte> old)
 {

@@ -10,6 +10,7 @@
 #include <glm/detail/type_half.hpp>
 
 #include "image/checks.hpp"
+#include "image/component_types.hpp"
 #include "image/dds.hpp"
 #include "numbers.hpp"
 
@@ -198,28 +199,15 @@ void spread(const Ktx2Format& format, std::span<const std::byte> from, std::size
     }
 }
 
-template<class T> void applySwizzle(const std::string& swizzle, std::size_t pixels, T one, T* to)
-{
-    for (std::size_t i = 0; i < pixels; ++i, to += 4) {
-        const std::array<T, 6> from{to[0], to[1], to[2], to[3], T(0), one};
-        for (std::size_t c = 0; c < 4; ++c)
-            to[c] = from[std::string_view("rgba01").find(swizzle[c])];
-    }
-}
-
 Image plainPixels(const Ktx2Picture& picture, PixelType type, std::span<const std::byte> bytes, const std::string& name)
 {
-    const Ktx2Format& f = picture.format;
     Image image = makeImage(picture.width, picture.height, type, name);
-    const std::size_t pixels = image.pixelCount();
-    if (type == PixelType::unorm8)
-        spread<std::uint8_t, std::uint8_t>(f, bytes, pixels, 128, 0xff, image.bytes8());
-    else if (type == PixelType::unorm16)
-        spread<std::uint16_t, std::uint16_t>(f, bytes, pixels, 0x8000, 0xffff, image.words());
-    else if (f.bytes == 2)
-        spread<float, std::uint16_t>(f, bytes, pixels, 0.5f, 1.0f, image.floats());
-    else
-        spread<float, float>(f, bytes, pixels, 0.5f, 1.0f, image.floats());
+    withComponents(image, [&, pixels = image.pixelCount()]<class T>(T* to, T middle, T one) {
+        if (std::is_same_v<T, float> && picture.format.bytes == 2)
+            spread<T, std::uint16_t>(picture.format, bytes, pixels, middle, one, to);
+        else
+            spread<T, T>(picture.format, bytes, pixels, middle, one, to);
+    });
     return image;
 }
 
@@ -228,13 +216,14 @@ void arrange(const Ktx2Picture& picture, Image& image)
 {
     const bool asRead = picture.swizzle.empty() || picture.swizzle == "rgba"
         || (picture.format.channels == 2 && picture.swizzle.starts_with("rg"));
-    const std::size_t pixels = image.pixelCount();
-    if (!asRead && image.type == PixelType::unorm8)
-        applySwizzle<std::uint8_t>(picture.swizzle, pixels, 0xff, image.bytes8());
-    else if (!asRead && image.type == PixelType::unorm16)
-        applySwizzle<std::uint16_t>(picture.swizzle, pixels, 0xffff, image.words());
-    else if (!asRead)
-        applySwizzle(picture.swizzle, pixels, 1.0f, image.floats());
+    if (!asRead)
+        withComponents(image, [&, pixels = image.pixelCount()]<class T>(T* to, T, T one) {
+            for (std::size_t i = 0; i < pixels; ++i, to += 4) {
+                const std::array<T, 6> from{to[0], to[1], to[2], to[3], T(0), one};
+                for (std::size_t c = 0; c < 4; ++c)
+                    to[c] = from[std::string_view("rgba01").find(picture.swizzle[c])];
+            }
+        });
     const auto row = std::ptrdiff_t(std::size_t(image.width) * image.bytesPerPixel());
     for (int y = 0; picture.bottomUp && y < image.height / 2; ++y)
         std::swap_ranges(image.data.begin() + y * row, image.data.begin() + (y + 1) * row,

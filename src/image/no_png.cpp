@@ -25,9 +25,10 @@ std::optional<Result<std::unique_ptr<RowReader>>> openPngRows(const std::filesys
     return noPng(file.string());
 }
 
-Result<std::unique_ptr<RowWriter>> createPngRows(OutputFile output, const RowFormat&, const std::string& name)
+Result<std::unique_ptr<RowWriter>> createPngRows(const std::filesystem::path&, const RowFormat&,
+                                                 const std::string& name)
 {
-    return output.failed(noPng(name));
+    return noPng(name);
 }
 
 } // namespace cotan

@@ -1,11 +1,9 @@
 // The module of image formats: OpenImageIO behind the functions of formats.hpp.
 #include "oiio.hpp"
-#include "oiio_file.hpp"
 
 #include <algorithm>
 #include <cctype>
 #include <cstdint>
-#include <cstring>
 #include <exception>
 #include <string_view>
 
@@ -22,16 +20,9 @@ namespace oiio {
 
 namespace {
 
-template<class T> void complete(T* pixel, std::size_t count, int channels, T one)
+Error broken(const std::string& name, const std::string& format, const std::string& why)
 {
-    for (std::size_t i = 0; i < count; ++i, pixel += 4) {
-        if (channels == 2)
-            pixel[3] = pixel[1];
-        if (channels <= 2)
-            pixel[1] = pixel[2] = pixel[0];
-        if (channels == 1 || channels == 3)
-            pixel[3] = one;
-    }
+    return inputError(fmt::format("{}: broken {} image: {}", name, format, oneLine(why)));
 }
 
 } // namespace
@@ -66,11 +57,16 @@ OIIO::TypeDesc typeDesc(PixelType type)
 
 void completeChannels(Image& image, int channels)
 {
-    switch (image.type) {
-    case PixelType::unorm8: return complete<std::uint8_t>(image.bytes8(), image.pixelCount(), channels, 0xff);
-    case PixelType::unorm16: return complete<std::uint16_t>(image.words(), image.pixelCount(), channels, 0xffff);
-    case PixelType::float32: return complete<float>(image.floats(), image.pixelCount(), channels, 1.0f);
-    }
+    withComponents(image, [count = image.pixelCount(), channels]<class T>(T* pixel, T, T one) {
+        for (std::size_t i = 0; i < count; ++i, pixel += 4) {
+            if (channels == 2)
+                pixel[3] = pixel[1];
+            if (channels <= 2)
+                pixel[1] = pixel[2] = pixel[0];
+            if (channels == 1 || channels == 3)
+                pixel[3] = one;
+        }
+    });
 }
 
 std::optional<Error> checkLayers(const OIIO::ImageSpec& spec, const std::string& name)
@@ -120,15 +116,6 @@ std::string frameOf(const OIIO::ImageSpec& spec, const std::string& format)
     const std::string value = spec.get_string_attribute(std::string(kFrameKey));
     return std::string(frameText(value));
 }
-
-namespace {
-
-Error broken(const std::string& name, const std::string& format, const std::string& why)
-{
-    return inputError(fmt::format("{}: broken {} image: {}", name, format, oneLine(why)));
-}
-
-} // namespace
 
 Error brokenToOiio(const std::string& name, const std::string& format, const std::string& words)
 {

@@ -1,11 +1,12 @@
-// Differences between two pictures of directions, in degrees.
+// Angles: how far two pictures of directions are apart, and numbers about a set of them.
 #pragma once
 
+#include <cstddef>
 #include <vector>
 
-#include "cotan/scene.hpp"
-#include "cotan/view.hpp"
-#include "inspect/statistics.hpp"
+#include "core/value_statistics.hpp"
+#include "cotan/inspect.hpp"
+#include "files/report/json.hpp"
 
 namespace cotan {
 
@@ -32,5 +33,21 @@ Image heatMap(const std::vector<float>& degrees, int width, int height);
 // elsewhere; of uv the fractional parts are red and green; of depths near is white, far is dark, over the range that
 // occurs.
 Image asColor(Output output, const Image& image);
+
+// Counts angles one by one. Percentiles are those of core/value_statistics.hpp: exact up to 65,536 angles.
+class AngleCounter {
+public:
+    void add(float degrees); // left out where it is negative or not finite
+    AngleStatistics statistics();
+
+private:
+    ValueStatistics values_;
+    std::size_t over1_ = 0, over5_ = 0;
+};
+
+AngleStatistics angleStatistics(const std::vector<float>& degrees);
+
+// "pixels" is the count; the figures of an empty set are null when it is written.
+Json toJson(const AngleStatistics& s);
 
 } // namespace cotan

@@ -46,8 +46,6 @@ try {
         {.kind = ReaderKind::model, .name = file.string(), .fileBytes = fileBytes, .limits = limits});
     if (!process)
         return process.error();
-    if (Status found = (*process)->await(); !found)
-        return found.error();
     Scene scene;
     exchangeScene((*process)->answer(), scene);
     if (!(*process)->answer().good())

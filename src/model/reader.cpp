@@ -90,7 +90,7 @@ private:
     {
         const std::lock_guard lock(mutex_);
         answer_.choice(ReaderFrame::input, ReaderFrame::error);
-        answer_.text(file.string());
+        answer_.array(file.string());
         answer_.flush();
     }
 

@@ -111,8 +111,11 @@ int runJobProcess(int argc, const char* const* argv, const std::function<int(con
     request.words = {argv + kFixedWords + 1, argv + argc};
     dieWith(request.parent, SIGTERM); // at which unfinished files are removed
     leaveNoCore();
-    if (request.megabytes > 0)
-        limitMemory(double(request.megabytes), double(request.megabytes));
+    if (rlimit limit{}; !kSanitized && request.megabytes > 0 && ::getrlimit(RLIMIT_DATA, &limit) == 0) {
+        limit.rlim_max = std::min<rlim_t>(request.megabytes << 20, limit.rlim_max);
+        limit.rlim_cur = limit.rlim_max;
+        ::setrlimit(RLIMIT_DATA, &limit);
+    }
     if (rlimit limit{}; request.processorSeconds > 0 && ::getrlimit(RLIMIT_CPU, &limit) == 0) {
         limit.rlim_cur = std::min<rlim_t>(request.processorSeconds, limit.rlim_max);
         ::setrlimit(RLIMIT_CPU, &limit);

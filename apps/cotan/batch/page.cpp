@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "files/report/html.hpp"
+#include "html.hpp"
 #include "words.hpp"
 
 namespace cotan {

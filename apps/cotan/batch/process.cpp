@@ -13,8 +13,6 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "files/sandbox/spawn.hpp"
-
 namespace cotan {
 
 namespace {

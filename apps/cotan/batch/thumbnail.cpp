@@ -12,7 +12,7 @@
 
 #include "cotan/image.hpp"
 #include "files/bytes.hpp"
-#include "files/report/html.hpp"
+#include "html.hpp"
 
 namespace cotan {
 

@@ -6,7 +6,7 @@
 
 #include "cotan/maps.hpp"
 #include "files/report/json.hpp"
-#include "inspect/statistics.hpp"
+#include "inspect/angles.hpp"
 #include "map_files/map_file.hpp"
 
 namespace cotan::maps {

@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include "image/pending.hpp"
+#include "placed_images.hpp"
 #include "texture_file.hpp"
 
 namespace cotan::maps {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "cotan/scene.hpp"
-#include "inspect/statistics.hpp"
+#include "inspect/angles.hpp"
 
 namespace cotan::figures {
 

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "files/report/html.hpp"
+#include "html.hpp"
 
 namespace cotan {
 

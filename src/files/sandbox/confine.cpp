@@ -156,16 +156,11 @@ void confine()
         forbidCalls();
 }
 
-void limitMemory(double megabytes, double most)
-{
-    if (!kSanitized)
-        setLimit(RLIMIT_DATA, rlim_t(megabytes) << 20, rlim_t(most) << 20);
-}
-
 void limitTo(const ReaderBudget& budget, const ReaderBudget& most)
 {
     const auto seconds = [](const ReaderBudget& b) { return rlim_t(std::ceil(b.seconds * (kSanitized ? 20 : 1))); };
-    limitMemory(budget.megabytes, most.megabytes);
+    if (!kSanitized)
+        setLimit(RLIMIT_DATA, rlim_t(budget.megabytes) << 20, rlim_t(most.megabytes) << 20);
     setLimit(RLIMIT_CPU, seconds(budget), seconds(most) + 5); // at the lower one a signal says why
 }
 

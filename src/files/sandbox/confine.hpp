@@ -27,10 +27,6 @@ void dieWith(std::int64_t parent, int signal = SIGKILL);
 // No core file, whoever would write it; other processes cannot look into this one.
 void leaveNoCore();
 
-// Sets the limit on memory of this process and of those that it starts, in MiB; it can be raised up to `most`. None
-// with sanitizers.
-void limitMemory(double megabytes, double most);
-
 // Stack, core files, files written: fixed for good. Where the kernel can, also: no change to any file, no new process,
 // no program, no signal to others, no socket.
 void confine();

@@ -11,7 +11,7 @@ Result<const void*> loadModule(const ModulePlaces& places, const char*, const st
     return unavailableError(std::string(what) + " needs the module " + places.name + ", which is not loaded here");
 }
 
-Result<std::unique_ptr<ReaderProcess>> ReaderProcess::start(ReaderRequest request)
+Result<std::unique_ptr<ReaderProcess>> ReaderProcess::start(ReaderRequest request, const std::function<void(WireOut&)>&)
 {
     return unavailableError(request.name + ": there are no processes here that could read it");
 }
@@ -24,8 +24,6 @@ Error ReaderProcess::failure() { return unavailableError("there are no processes
 void Descriptor::close() {}
 
 void dieWith(std::int64_t, int) {}
-void leaveNoCore() {}
-void limitMemory(double, double) {}
 void confine() {}
 void limitTo(const ReaderBudget&, const ReaderBudget&) {}
 

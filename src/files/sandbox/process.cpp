@@ -9,13 +9,13 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <poll.h>
+#include <spawn.h>
 #include <sys/socket.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include "files/bytes.hpp"
 #include "files/file_registry.hpp"
-#include "files/sandbox/spawn.hpp"
 
 namespace cotan {
 
@@ -77,6 +77,53 @@ std::string printable(std::string text, std::size_t most)
     return text;
 }
 
+int spawn(const SpawnRequest& request, pid_t& process)
+{
+    posix_spawn_file_actions_t files;
+    posix_spawnattr_t attributes;
+    ::posix_spawn_file_actions_init(&files);
+    ::posix_spawnattr_init(&attributes);
+    if (request.input >= 0)
+        ::posix_spawn_file_actions_adddup2(&files, request.input, 0);
+    else
+        ::posix_spawn_file_actions_addopen(&files, 0, "/dev/null", O_RDONLY, 0);
+    ::posix_spawn_file_actions_adddup2(&files, request.output, 1);
+    ::posix_spawn_file_actions_adddup2(&files, request.output, 2);
+    ::posix_spawn_file_actions_addclosefrom_np(&files, 3);
+    if (!request.folder.empty())
+        ::posix_spawn_file_actions_addchdir_np(&files, request.folder.c_str());
+    sigset_t none, all;
+    ::sigemptyset(&none);
+    ::sigfillset(&all);
+    ::posix_spawnattr_setsigmask(&attributes, &none);
+    ::posix_spawnattr_setsigdefault(&attributes, &all);
+    ::posix_spawnattr_setpgroup(&attributes, 0);
+    ::posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF | POSIX_SPAWN_SETPGROUP);
+    std::vector<std::string> texts{request.program};
+    texts.insert(texts.end(), request.words.begin(), request.words.end());
+    std::vector<char*> words;
+    for (std::string& text : texts)
+        words.push_back(text.data());
+    words.push_back(nullptr);
+    std::vector<std::string> variables;
+    for (char** variable = environ; *variable; ++variable) {
+        const std::string text = *variable;
+        if (!request.environment.contains(text.substr(0, text.find('='))))
+            variables.push_back(text);
+    }
+    for (const auto& [name, value] : request.environment)
+        variables.push_back(name + "=" + value);
+    std::vector<char*> environment;
+    for (std::string& variable : variables)
+        environment.push_back(variable.data());
+    environment.push_back(nullptr);
+    const int problem =
+        ::posix_spawn(&process, request.program.c_str(), &files, &attributes, words.data(), environment.data());
+    ::posix_spawnattr_destroy(&attributes);
+    ::posix_spawn_file_actions_destroy(&files);
+    return problem;
+}
+
 ReaderProcess::ReaderProcess(const ReaderRequest& request)
     : limits_(request.limits), name_(request.name), reader_(readerName(request)), fileBytes_(request.fileBytes),
       answer_([this](std::span<std::byte> bytes) { return receive(bytes); },
@@ -88,7 +135,8 @@ ReaderProcess::ReaderProcess(const ReaderRequest& request)
 
 ReaderProcess::~ReaderProcess() { kill(); }
 
-Result<std::unique_ptr<ReaderProcess>> ReaderProcess::start(ReaderRequest request)
+Result<std::unique_ptr<ReaderProcess>> ReaderProcess::start(ReaderRequest request,
+                                                            const std::function<void(WireOut&)>& more)
 {
     std::unique_ptr<ReaderProcess> started(new ReaderProcess(request));
     const auto failed = [&](int problem) {
@@ -109,12 +157,17 @@ Result<std::unique_ptr<ReaderProcess>> ReaderProcess::start(ReaderRequest reques
     started->messages_ = std::move(messages[0]);
     request.parent = ::getpid();
     exchangeRequest(started->question_, request);
-    started->question_.flush(); // where nobody listens, nobody answers, and await() says why
+    request.bytes = {}; // not held while the child has them
+    if (more)
+        more(started->question_);
+    if (Status found = started->await(); !found)
+        return found.error();
     return started;
 }
 
 Status ReaderProcess::await()
 {
+    question_.flush(); // where nobody listens, nobody answers
     for (;;) {
         ReaderFrame frame = ReaderFrame::error;
         answer_.choice(frame, ReaderFrame::error);
@@ -126,7 +179,7 @@ Status ReaderProcess::await()
         }
         std::string input;
         if (frame == ReaderFrame::input)
-            answer_.text(input);
+            answer_.array(input);
         if (!answer_.good())
             return failure();
         if (Status free = noteInput(input); !input.empty() && !free)

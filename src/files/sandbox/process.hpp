@@ -1,12 +1,17 @@
-// The parent's side of a sandboxed reader: a child process that is started, asked, timed and ended.
+// Child processes: any program's, and the parent's side of a sandboxed reader, which is started, asked, timed and
+// ended.
 #pragma once
 
 #include <chrono>
 #include <cstddef>
+#include <filesystem>
+#include <functional>
+#include <map>
 #include <memory>
 #include <span>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include <sys/types.h>
 
@@ -33,20 +38,36 @@ private:
     int number_ = -1;
 };
 
+// A program to be started as a child process.
+struct SpawnRequest {
+    std::string program;
+    std::vector<std::string> words;                   // behind the program's name
+    int input = -1;                                   // standard input; -1: nothing is there
+    int output = -1;                                  // standard output and error
+    std::filesystem::path folder{};                   // it runs in; empty: ours
+    std::map<std::string, std::string> environment{}; // variables besides ours, or in their place
+};
+
+// Starts it with these descriptors and no others, in a process group of its own, with no signal blocked or ignored:
+// Ctrl-C is for us. Returns 0 or the errno.
+int spawn(const SpawnRequest& request, pid_t& process);
+
 class ReaderProcess {
 public:
-    // Starts limits.sandbox.program and sends it the request. Errors: ErrorKind::unavailable where it cannot be
-    // started.
-    static Result<std::unique_ptr<ReaderProcess>> start(ReaderRequest request);
+    // Starts limits.sandbox.program, sends it the request and what `more` says, and awaits the first result.
+    // Errors: ErrorKind::unavailable where it cannot be started; those of await().
+    static Result<std::unique_ptr<ReaderProcess>> start(ReaderRequest request,
+                                                        const std::function<void(WireOut&)>& more = {});
 
     ~ReaderProcess(); // kills it
     ReaderProcess(const ReaderProcess&) = delete;
     ReaderProcess& operator=(const ReaderProcess&) = delete;
 
     WireIn& answer() { return answer_; }
-    WireOut& question() { return question_; }
+    WireOut& question() { return question_; } // where nobody listens, await() says why
 
-    // Waits for a result. Done: what follows in answer() is the value. Errors: the reader's own; failure().
+    // Sends what is still held of the question, and waits for a result. Done: what follows in answer() is the value.
+    // Errors: the reader's own; failure().
     Status await();
 
     // Gives it as much time again, from now.

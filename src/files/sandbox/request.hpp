@@ -50,20 +50,14 @@ struct ReaderRequest {
     std::int64_t parent = 0; // the process that asks
 };
 
-template<class W, class T> void exchangeLimits(W& w, T& limits)
-{
-    exchangeAll(w, limits.fileBytes, limits.vertices, limits.triangles, limits.nodes, limits.imageSide,
-                limits.imageBytes, limits.allImageBytes, limits.imageBytesBeyond, limits.sandbox.megabytes,
-                limits.sandbox.seconds);
-}
-
 template<class W, class T> void exchangeRequest(W& w, T& request)
 {
+    auto& limits = request.limits;
     w.number(request.version);
     w.choice(request.kind, ReaderKind::draco);
-    exchangeAll(w, request.name, request.bytes, request.fileBytes);
-    exchangeLimits(w, request.limits);
-    w.number(request.parent);
+    exchangeAll(w, request.name, request.bytes, request.fileBytes, limits.fileBytes, limits.vertices, limits.triangles,
+                limits.nodes, limits.imageSide, limits.imageBytes, limits.allImageBytes, limits.imageBytesBeyond,
+                limits.sandbox.megabytes, limits.sandbox.seconds, request.parent);
 }
 
 // How a frame begins.

@@ -75,7 +75,7 @@ template<class W, class T> void exchangeMaterial(W& w, T& m)
     w.choice(m.alphaMode, AlphaMode::blend);
     exchangeAll(w, m.alphaCutoff, m.doubleSided, m.unlit);
     exchangeLayers(w, m);
-    w.text(m.tangentsFor);
+    w.array(m.tangentsFor);
 }
 
 template<class W, class T> void exchangeMesh(W& w, T& mesh)
@@ -104,14 +104,14 @@ template<class W, class T> void exchangeInstance(W& w, T& instance)
 
 template<class W, class T> void exchangeScene(W& w, T& scene)
 {
-    w.text(scene.name);
+    w.array(scene.name);
     w.list(scene.images, [](W& to, auto& x) { exchangeImage(to, x); });
     w.list(scene.materials, [](W& to, auto& x) { exchangeMaterial(to, x); });
     w.list(scene.meshes, [](W& to, auto& x) { exchangeMesh(to, x); });
     w.list(scene.instances, [](W& to, auto& x) { exchangeInstance(to, x); });
     w.list(scene.lights, [](W& to, auto& x) { exchangeLight(to, x); });
     w.list(scene.cameras, [](W& to, auto& x) { exchangeCamera(to, x); });
-    w.list(scene.warnings, [](W& to, auto& x) { to.text(x); });
+    w.list(scene.warnings, [](W& to, auto& x) { to.array(x); });
 }
 
 } // namespace cotan

@@ -10,7 +10,6 @@
 #include <cstring>
 #include <functional>
 #include <span>
-#include <string>
 #include <type_traits>
 #include <vector>
 
@@ -29,16 +28,11 @@ public:
     }
     void flag(const bool& value) { number(std::uint8_t(value)); }
     template<class E> void choice(const E& value, E) { number(std::uint8_t(value)); }
-    template<class T> void array(const std::vector<T>& values)
+    template<class Values> void array(const Values& values) // of plain values, or a text
     {
-        static_assert(std::is_trivially_copyable_v<T>);
+        static_assert(std::is_trivially_copyable_v<typename Values::value_type>);
         number(std::uint64_t(values.size()));
         bytes(std::as_bytes(std::span(values)));
-    }
-    void text(const std::string& value)
-    {
-        number(std::uint64_t(value.size()));
-        bytes(std::as_bytes(std::span(value)));
     }
     template<class T, class F> void list(const std::vector<T>& values, F each)
     {
@@ -106,27 +100,10 @@ public:
         else
             value = E(byte);
     }
-    template<class T> void array(std::vector<T>& values)
+    template<class Values> void array(Values& values)
     {
-        static_assert(std::is_trivially_copyable_v<T>);
-        grow(values, sizeof(T));
-    }
-    void text(std::string& value) { grow(value, 1); }
-    template<class T, class F> void list(std::vector<T>& values, F each)
-    {
-        std::uint64_t count = 0;
-        number(count);
-        values.clear();
-        for (std::uint64_t i = 0; i < count && good(); ++i)
-            each(*this, values.emplace_back());
-    }
-
-private:
-    static constexpr std::size_t kHold = 1 << 16;
-    static constexpr std::size_t kStep = 16 << 20; // bytes taken before any has arrived
-
-    template<class T> void grow(T& values, std::size_t each)
-    {
+        static_assert(std::is_trivially_copyable_v<typename Values::value_type>);
+        constexpr std::size_t each = sizeof(typename Values::value_type);
         std::uint64_t count = 0;
         number(count);
         if (count > left_ / each)
@@ -139,6 +116,18 @@ private:
             bytes(std::as_writable_bytes(std::span(values).subspan(have)));
         }
     }
+    template<class T, class F> void list(std::vector<T>& values, F each)
+    {
+        std::uint64_t count = 0;
+        number(count);
+        values.clear();
+        for (std::uint64_t i = 0; i < count && good(); ++i)
+            each(*this, values.emplace_back());
+    }
+
+private:
+    static constexpr std::size_t kHold = 1 << 16;
+    static constexpr std::size_t kStep = 16 << 20; // bytes taken before any has arrived
 
     void bytes(std::span<std::byte> data)
     {
@@ -179,8 +168,6 @@ template<class Wire, class... T> void exchangeAll(Wire& wire, T&... values)
         static_assert(!std::is_enum_v<V>);
         if constexpr (std::is_same_v<std::remove_const_t<V>, bool>)
             wire.flag(value);
-        else if constexpr (std::is_same_v<std::remove_const_t<V>, std::string>)
-            wire.text(value);
         else if constexpr (std::is_trivially_copyable_v<V>)
             wire.number(value);
         else

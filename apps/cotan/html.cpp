@@ -1,4 +1,4 @@
-#include "files/report/html.hpp"
+#include "html.hpp"
 
 namespace cotan {
 

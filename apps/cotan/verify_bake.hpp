@@ -7,7 +7,7 @@
 #include "cotan/render.hpp"
 #include "cotan/view.hpp"
 
-namespace cotan {
+namespace cotan::app {
 
 inline constexpr int kBakeViews = 4;  // from the front, and turned by quarters
 inline constexpr int kBakeSide = 640; // pixels
@@ -36,4 +36,4 @@ bool showsHighSurface(const ComparedViews& compared);
 // scene does not have.
 Result<ComparedViews> verifyBake(Renderer& renderer, const BakeToVerify& bake, int side = kBakeSide);
 
-} // namespace cotan
+} // namespace cotan::app

@@ -7,7 +7,7 @@
 #include "bake/surface/mapped_surface.hpp"
 #include "cotan/inspect.hpp"
 
-namespace cotan {
+namespace cotan::viewer {
 
 struct Probed {
     glm::vec3 normal{0};        // world, as interpolated, unit
@@ -32,4 +32,4 @@ private:
     MappedSurface surface_;
 };
 
-} // namespace cotan
+} // namespace cotan::viewer

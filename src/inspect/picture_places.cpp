@@ -1,12 +1,16 @@
+// Where edges are on a picture, and what is at a place of it.
 #include "cotan/inspect.hpp"
 
 #include <algorithm>
 #include <array>
 #include <bit>
 #include <cmath>
+#include <functional>
+#include <limits>
 #include <unordered_map>
 
 #include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
 
 #include "scene/texture_sample.hpp"
 
@@ -16,15 +20,37 @@ namespace {
 
 using glm::dvec3;
 
+struct Eye {
+    dvec3 at, right, up, forward;
+    double high;  // of the picture, at depth 1 or orthographic
+    double scale; // pixels per unit there
+    bool orthographic;
+    double width, height;
+};
+
+Eye eyeOf(const Camera& camera, int width, int height)
+{
+    Eye e;
+    e.at = camera.eye;
+    e.forward = glm::normalize(dvec3(camera.target) - e.at);
+    e.right = glm::normalize(glm::cross(e.forward, dvec3(camera.up)));
+    e.up = glm::cross(e.right, e.forward);
+    e.orthographic = camera.orthographic;
+    e.high = camera.orthographic ? double(camera.verticalExtent) : 2 * std::tan(double(camera.verticalFieldOfView) / 2);
+    e.scale = height / e.high;
+    e.width = width;
+    e.height = height;
+    return e;
+}
+
+// ---- edges ---------------------------------------------------------------------------------
+
 using Key = std::array<std::uint32_t, 6>; // the bits of both ends, the smaller first
 
 struct KeyHash {
     std::size_t operator()(const Key& key) const
     {
-        std::uint64_t h = 1469598103934665603u; // FNV-1a by words
-        for (const std::uint32_t bits : key)
-            h = (h ^ bits) * 1099511628211u;
-        return std::size_t(h ^ (h >> 29));
+        return std::hash<std::string_view>()({reinterpret_cast<const char*>(key.data()), sizeof key});
     }
 };
 
@@ -72,28 +98,6 @@ void addEdgesOf(const Mesh& mesh, const Texture& map, const glm::mat4& toWorld, 
             ++half.triangles;
         }
     }
-}
-
-struct Eye {
-    dvec3 at, right, up, forward;
-    double scale; // pixels per unit, at depth 1 or orthographic
-    bool orthographic;
-    double width, height;
-};
-
-Eye eyeOf(const Camera& camera, int width, int height)
-{
-    Eye e;
-    e.at = camera.eye;
-    e.forward = glm::normalize(dvec3(camera.target) - e.at);
-    e.right = glm::normalize(glm::cross(e.forward, dvec3(camera.up)));
-    e.up = glm::cross(e.right, e.forward);
-    e.orthographic = camera.orthographic;
-    e.scale = height
-        / (camera.orthographic ? double(camera.verticalExtent) : 2 * std::tan(double(camera.verticalFieldOfView) / 2));
-    e.width = width;
-    e.height = height;
-    return e;
 }
 
 // In pixels; z: 1 over the depth, or the depth of an orthographic camera: what is even along a line of the picture.
@@ -184,6 +188,75 @@ void drawEdges(Image& picture, const Image& depth, const Camera& camera, std::sp
         for (const SurfaceEdge& edge : edges)
             if (edge.kind != EdgeKind::inner)
                 drawEdge(picture, depth, eye, edge, kColors[std::size_t(edge.kind)], 1);
+}
+
+// ---- what is at a pixel --------------------------------------------------------------------
+
+namespace {
+
+struct Ray {
+    dvec3 from, along; // along has length 1 in depth, not as a vector
+};
+
+// Through a place of the picture; along . forward is 1, so that its parameter is the depth.
+Ray rayAt(const Camera& camera, glm::ivec2 size, glm::vec2 place)
+{
+    const Eye e = eyeOf(camera, size.x, size.y);
+    const double x = (double(place.x) - size.x * 0.5) * e.high / size.y,
+                 y = (size.y * 0.5 - double(place.y)) * e.high / size.y;
+    const dvec3 aside = e.right * x + e.up * y;
+    return camera.orthographic ? Ray{e.at + aside, e.forward} : Ray{e.at, e.forward + aside};
+}
+
+// Moeller and Trumbore. positive determinants: the front is seen.
+bool meets(const Ray& ray, const dvec3& a, const dvec3& b, const dvec3& c, bool bothSides, double& t,
+           glm::dvec2& weights)
+{
+    const dvec3 e1 = b - a, e2 = c - a, p = glm::cross(ray.along, e2);
+    const double determinant = glm::dot(e1, p);
+    if (!(std::abs(determinant) > 0) || (determinant < 0 && !bothSides))
+        return false;
+    const dvec3 s = ray.from - a;
+    const double u = glm::dot(s, p) / determinant;
+    const dvec3 q = glm::cross(s, e1);
+    const double v = glm::dot(ray.along, q) / determinant;
+    t = glm::dot(e2, q) / determinant;
+    weights = {u, v};
+    return u >= 0 && v >= 0 && u + v <= 1;
+}
+
+} // namespace
+
+std::optional<PickedPoint> pick(const Scene& scene, const Camera& camera, glm::ivec2 size, glm::vec2 place)
+{
+    std::optional<PickedPoint> nearest;
+    if (size.x < 1 || size.y < 1)
+        return nearest;
+    const Ray ray = rayAt(camera, size, place);
+    double best = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i < scene.instances.size(); ++i) {
+        const Instance& instance = scene.instances[i];
+        const Mesh& mesh = scene.meshes[std::size_t(instance.mesh)];
+        const glm::dmat4 toWorld(instance.toWorld);
+        const glm::dmat4 toMesh = glm::inverse(toWorld);
+        const Ray local{dvec3(toMesh * glm::dvec4(ray.from, 1)), dvec3(toMesh * glm::dvec4(ray.along, 0))};
+        const bool bothSides = scene.materials[std::size_t(mesh.material)].doubleSided;
+        for (std::size_t triangle = 0; triangle < mesh.triangleCount(); ++triangle) {
+            const auto corner = [&](std::size_t k) { return dvec3(mesh.positions[mesh.indices[3 * triangle + k]]); };
+            double t = 0;
+            glm::dvec2 weights{0};
+            if (!meets(local, corner(0), corner(1), corner(2), bothSides, t, weights) || !(t > 0) || !(t < best))
+                continue;
+            best = t;
+            nearest = PickedPoint{int(i),
+                                  instance.mesh,
+                                  triangle,
+                                  {1 - weights.x - weights.y, weights.x, weights.y},
+                                  glm::vec3(ray.from + ray.along * t),
+                                  float(t)};
+        }
+    }
+    return nearest;
 }
 
 } // namespace cotan

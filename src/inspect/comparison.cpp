@@ -1,49 +1,19 @@
 #include "cotan/inspect.hpp"
 
-#include <algorithm>
 #include <cmath>
-#include <cstdint>
+#include <memory>
 #include <numbers>
 
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
 
 #include "inspect/angles.hpp"
-#include "inspect/verify/verify_bake.hpp"
 #include "scene/geometry.hpp"
 #include "scene/normal_maps.hpp"
 
 namespace cotan {
 
-// ---- what all comparisons share ------------------------------------------------------------
-
 namespace {
-
-// Lets the renderer look at a scene while it lives.
-class ShownScene {
-public:
-    ShownScene(Renderer& renderer, const Scene& scene) : renderer_(renderer), status_(renderer.load(scene)) {}
-    ~ShownScene() { renderer_.forget(); }
-    ShownScene(const ShownScene&) = delete;
-    ShownScene& operator=(const ShownScene&) = delete;
-
-    const Status& status() const { return status_; }
-
-private:
-    Renderer& renderer_;
-    Status status_;
-};
-
-// A square picture of normals.
-View normalView(const Camera& camera, Frame frame, int side)
-{
-    View view;
-    view.width = view.height = side;
-    view.camera = camera;
-    view.frame = frame;
-    view.output = Output::normal;
-    return view;
-}
 
 // The angles as they are where a normal map is drawn; otherwise none, as no frame has a part in the normals.
 std::vector<float> mappedAngles(std::vector<float> degrees, bool mapped)
@@ -52,48 +22,6 @@ std::vector<float> mappedAngles(std::vector<float> degrees, bool mapped)
         degrees.assign(degrees.size(), -1.0f);
     return degrees;
 }
-
-// Collects views and, in the end, the statistics of all. mapped: see ComparedViews.
-class ViewComparison {
-public:
-    explicit ViewComparison(bool mapped) { result_.mapped = mapped; }
-
-    // Two pictures of directions of the same size.
-    void add(const Image& expected, const Image& drawn)
-    {
-        const std::vector<float> degrees = mappedAngles(interiorAngles(expected, drawn), result_.mapped);
-        result_.views.push_back({angleStatistics(degrees), asColor(Output::normal, expected),
-                                 asColor(Output::normal, drawn), heatMap(degrees, drawn.width, drawn.height)});
-        for (const float d : degrees)
-            all_.add(d);
-    }
-
-    // The same for a bake: the high surface itself is shown, and pixels with another surface are magenta.
-    void add(const Image& expected, const Image& drawn, const SeenHigh& seen)
-    {
-        constexpr std::uint8_t kOtherColor[4] = {255, 0, 255, 255};
-        add(expected, drawn);
-        ComparedView& view = result_.views.back();
-        view.expected = asColor(Output::normal, seen.normals);
-        view.others = seen.others;
-        view.pixels = seen.compared;
-        for (std::size_t i = 0; i < seen.other.size(); ++i)
-            if (seen.other[i])
-                std::copy_n(kOtherColor, 4, view.difference.bytes8() + 4 * i);
-        result_.others += seen.others;
-        result_.pixels += seen.compared;
-    }
-
-    ComparedViews finish()
-    {
-        result_.all = all_.statistics();
-        return std::move(result_);
-    }
-
-private:
-    ComparedViews result_;
-    AngleCounter all_;
-};
 
 // kConversionViews of them.
 std::vector<Camera> camerasAround(const Scene& scene, int side)
@@ -119,11 +47,17 @@ Result<DrawnSides> drawSides(Renderer& renderer, ModelInFrame model, std::vector
     sides.mapped = drawsNormalMaps(model.scene);
     sides.cameras = cameras.empty() ? camerasAround(model.scene, side) : std::move(cameras);
     deriveVertexFrames(model.scene, model.frame, model.tangents);
-    const ShownScene shown(renderer, model.scene);
-    if (!shown.status())
-        return shown.status().error();
+    const auto forget = [](Renderer* drawing) { drawing->forget(); }; // the scene ends here
+    const std::unique_ptr<Renderer, decltype(forget)> shown(&renderer, forget);
+    if (Status loaded = renderer.load(model.scene); !loaded)
+        return loaded.error();
+    View view;
+    view.width = view.height = side;
+    view.frame = model.frame;
+    view.output = Output::normal;
     for (const Camera& camera : sides.cameras) {
-        auto image = renderer.draw(normalView(camera, model.frame, side));
+        view.camera = camera;
+        auto image = renderer.draw(view);
         if (!image)
             return image.error();
         sides.normals.push_back(std::move(*image));
@@ -136,15 +70,22 @@ Result<ComparedViews> compareSides(const DrawnSides& before, const DrawnSides& a
     if (before.normals.size() != after.normals.size())
         return usageError(fmt::format("verify: expected as many pictures after as before, {}; found {}",
                                       before.normals.size(), after.normals.size()));
-    ViewComparison comparison(before.mapped || after.mapped);
+    ComparedViews compared;
+    compared.mapped = before.mapped || after.mapped;
+    AngleCounter all;
     for (std::size_t k = 0; k < before.normals.size(); ++k) {
         const Image &a = before.normals[k], &b = after.normals[k];
         if (a.width != b.width || a.height != b.height)
             return usageError(fmt::format("verify: expected pictures of one size, {} x {}; found {} x {}", a.width,
                                           a.height, b.width, b.height));
-        comparison.add(a, b);
+        const std::vector<float> degrees = mappedAngles(interiorAngles(a, b), compared.mapped);
+        compared.views.push_back({angleStatistics(degrees), asColor(Output::normal, a), asColor(Output::normal, b),
+                                  heatMap(degrees, b.width, b.height)});
+        for (const float d : degrees)
+            all.add(d);
     }
-    return comparison.finish();
+    compared.all = all.statistics();
+    return compared;
 }
 
 Result<ComparedViews> verifyConversion(Renderer& renderer, ModelInFrame before, ModelInFrame after, int side)
@@ -156,43 +97,6 @@ Result<ComparedViews> verifyConversion(Renderer& renderer, ModelInFrame before, 
     if (!second)
         return second.error();
     return compareSides(*first, *second);
-}
-
-// ---- a bake against what it was made from ---------------------------------------------------
-
-bool showsHighSurface(const ComparedViews& compared)
-{
-    constexpr double kMaxOthers = 0.01; // of a view's pixels
-    return std::none_of(compared.views.begin(), compared.views.end(), [](const ComparedView& view) {
-        return double(view.others) > kMaxOthers * double(view.pixels);
-    });
-}
-
-Result<ComparedViews> verifyBake(Renderer& renderer, const BakeToVerify& bake, int side)
-{
-    if (bake.material < -1 || bake.material >= int(bake.scene.materials.size()))
-        return usageError(fmt::format("verify: expected a material from -1 to {}; found {}",
-                                      int(bake.scene.materials.size()) - 1, bake.material));
-    constexpr double kQuarter = 1.5707963; // radians
-    Scene scene = bake.scene;
-    putNormalMap(scene, bake.map, bake.format, bake.material);
-    deriveVertexFrames(scene, bake.options.frame, bake.tangents);
-    const ShownScene shown(renderer, scene);
-    if (!shown.status())
-        return shown.status().error();
-    const Camera front = fitCamera(bounds(scene), side, side);
-    ViewComparison comparison(/*mapped*/ true);
-    for (int k = 0; k < kBakeViews; ++k) {
-        const View view = normalView(turnedAbout(front, k * kQuarter), bake.options.frame, side);
-        const auto drawn = renderer.draw(view);
-        if (!drawn)
-            return drawn.error();
-        const auto seen = seeHigh(bake.low, bake.high, bake.options, view);
-        if (!seen)
-            return seen.error();
-        comparison.add(seen->expected, *drawn, *seen);
-    }
-    return comparison.finish();
 }
 
 // ---- one frame against another -------------------------------------------------------------

@@ -1,0 +1,27 @@
+#include "placed_images.hpp"
+
+#include <utility>
+
+#include "image/pending.hpp"
+
+namespace cotan {
+
+Result<std::vector<OutputFile>> writePending(std::span<const PlacedImage> images)
+{
+    std::vector<OutputFile> pending;
+    for (const auto& [file, image] : images) {
+        auto output = writePending(file, *image);
+        if (!output)
+            return output.error();
+        pending.push_back(std::move(*output));
+    }
+    return pending;
+}
+
+Status writeTogether(std::span<const PlacedImage> images)
+{
+    auto pending = writePending(images);
+    return pending ? commitTogether(*pending) : pending.error();
+}
+
+} // namespace cotan

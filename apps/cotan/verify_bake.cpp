@@ -1,0 +1,88 @@
+#include "verify_bake.hpp"
+
+#include <algorithm>
+#include <cstdint>
+
+#include <fmt/format.h>
+
+#include "inspect/angles.hpp"
+#include "scene/geometry.hpp"
+#include "scene/normal_maps.hpp"
+
+namespace cotan::app {
+
+namespace {
+
+// The view, with the high surface itself, and pixels that show another surface in magenta.
+ComparedView compareView(const SeenHigh& seen, const Image& drawn, const std::vector<float>& degrees)
+{
+    constexpr std::uint8_t kOtherColor[4] = {255, 0, 255, 255};
+    ComparedView view{angleStatistics(degrees),
+                      asColor(Output::normal, seen.normals),
+                      asColor(Output::normal, drawn),
+                      heatMap(degrees, drawn.width, drawn.height),
+                      seen.others,
+                      seen.compared};
+    for (std::size_t i = 0; i < seen.other.size(); ++i)
+        if (seen.other[i])
+            std::copy_n(kOtherColor, 4, view.difference.bytes8() + 4 * i);
+    return view;
+}
+
+// scene: as it is loaded.
+Result<ComparedViews> compareAround(Renderer& renderer, const Scene& scene, const BakeToVerify& bake, int side)
+{
+    constexpr double kQuarter = 1.5707963; // radians
+    const Camera front = fitCamera(bounds(scene), side, side);
+    ComparedViews compared;
+    compared.mapped = true;
+    AngleCounter all;
+    for (int k = 0; k < kBakeViews; ++k) {
+        View view;
+        view.width = view.height = side;
+        view.camera = turnedAbout(front, k * kQuarter);
+        view.frame = bake.options.frame;
+        view.output = Output::normal;
+        const auto drawn = renderer.draw(view);
+        if (!drawn)
+            return drawn.error();
+        const auto seen = seeHigh(bake.low, bake.high, bake.options, view);
+        if (!seen)
+            return seen.error();
+        const std::vector<float> degrees = interiorAngles(seen->expected, *drawn);
+        compared.views.push_back(compareView(*seen, *drawn, degrees));
+        compared.others += seen->others;
+        compared.pixels += seen->compared;
+        for (const float d : degrees)
+            all.add(d);
+    }
+    compared.all = all.statistics();
+    return compared;
+}
+
+} // namespace
+
+bool showsHighSurface(const ComparedViews& compared)
+{
+    constexpr double kMaxOthers = 0.01; // of a view's pixels
+    return std::none_of(compared.views.begin(), compared.views.end(), [](const ComparedView& view) {
+        return double(view.others) > kMaxOthers * double(view.pixels);
+    });
+}
+
+Result<ComparedViews> verifyBake(Renderer& renderer, const BakeToVerify& bake, int side)
+{
+    if (bake.material < -1 || bake.material >= int(bake.scene.materials.size()))
+        return usageError(fmt::format("verify: expected a material from -1 to {}; found {}",
+                                      int(bake.scene.materials.size()) - 1, bake.material));
+    Scene scene = bake.scene;
+    putNormalMap(scene, bake.map, bake.format, bake.material);
+    deriveVertexFrames(scene, bake.options.frame, bake.tangents);
+    if (Status loaded = renderer.load(scene); !loaded)
+        return loaded.error();
+    auto compared = compareAround(renderer, scene, bake, side);
+    renderer.forget();
+    return compared;
+}
+
+} // namespace cotan::app

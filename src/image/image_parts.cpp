@@ -1,0 +1,292 @@
+// Pictures a part at a time: rows, and the pictures of animations.
+#include "cotan/image.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <cstring>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "codecs.hpp"
+#include "files/bytes.hpp"
+#include "files/output.hpp"
+#include "files/sandbox/process.hpp"
+#include "files/sandbox/scene_wire.hpp"
+#include "formats.hpp"
+#include "image/checks.hpp"
+#include "image/component_types.hpp"
+#include "image/format_table.hpp"
+
+namespace cotan {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+// Floats, too, which isOpaque does not look at.
+bool usesAlpha(const Image& image)
+{
+    if (image.type != PixelType::float32)
+        return !isOpaque(image);
+    for (std::size_t i = 3; i < 4 * image.pixelCount(); i += 4)
+        if (image.floats()[i] != 1.0f)
+            return true;
+    return false;
+}
+
+class WholeRows : public RowReader {
+public:
+    explicit WholeRows(Image image) : image_(std::move(image))
+    {
+        name = image_.name;
+        width = image_.width;
+        height = image_.height;
+        type = image_.type;
+        alpha = usesAlpha(image_);
+        whole = true;
+        frame = image_.frame;
+        channels = image_.channels;
+    }
+
+    Status read(Image& strip) override
+    {
+        std::memcpy(strip.data.data(), image_.data.data() + next_, strip.data.size());
+        next_ += strip.data.size();
+        return Done{};
+    }
+
+private:
+    Image image_;
+    std::size_t next_ = 0;
+};
+
+Result<std::unique_ptr<RowReader>> openWhole(const fs::path& file, const LoadLimits& limits)
+{
+    auto image = readImage(file, limits);
+    if (!image)
+        return image.error();
+    return std::unique_ptr<RowReader>(std::make_unique<WholeRows>(*std::move(image)));
+}
+
+class SandboxedRows : public RowReader {
+public:
+    explicit SandboxedRows(std::unique_ptr<ReaderProcess> process) : process_(std::move(process)) {}
+
+    Status readFacts(const std::string& file, const LoadLimits& limits)
+    {
+        name = file;
+        exchangeRowFacts(process_->answer(), *this);
+        frame = std::string(frameText(frame));
+        if (channels < 1 || channels > 4 || width <= 0 || height <= 0 || width > limits.imageSide
+            || height > limits.imageSide)
+            process_->answer().refuse();
+        return process_->answer().good() ? Status(Done{}) : process_->failure();
+    }
+
+    Status read(Image& strip) override
+    {
+        process_->restartClock();
+        process_->question().number(std::int32_t(strip.height));
+        if (Status found = process_->await(); !found)
+            return found;
+        const std::size_t expected = strip.data.size();
+        process_->answer().array(strip.data);
+        if (strip.data.size() != expected)
+            process_->answer().refuse();
+        strip.data.resize(expected);
+        return process_->answer().good() ? Status(Done{}) : process_->failure();
+    }
+
+private:
+    std::unique_ptr<ReaderProcess> process_;
+};
+
+// In a child process: limits.sandbox.program.
+Result<std::unique_ptr<RowReader>> openRowsSandboxed(const std::filesystem::path& file, const LoadLimits& limits)
+{
+    auto process = ReaderProcess::start({.kind = ReaderKind::rows, .name = file.string(), .limits = limits});
+    if (!process)
+        return process.error();
+    auto rows = std::make_unique<SandboxedRows>(*std::move(process));
+    if (Status sound = rows->readFacts(file.string(), limits); !sound)
+        return sound.error();
+    return std::unique_ptr<RowReader>(std::move(rows));
+}
+
+// Rows that come to their place when they are complete.
+class PlacedRows : public RowWriter {
+public:
+    PlacedRows(OutputFile output, std::unique_ptr<RowWriter> writer)
+        : output_(std::move(output)), writer_(std::move(writer))
+    {
+    }
+
+    Status write(const Image& strip) override { return told(writer_->write(strip)); }
+    Status finish() override
+    {
+        if (Status finished = told(writer_->finish()); !finished)
+            return finished;
+        return output_.commit();
+    }
+
+private:
+    Status told(Status written) const { return written ? written : Status(output_.failed(written.error())); }
+
+    OutputFile output_; // removed last
+    std::unique_ptr<RowWriter> writer_;
+};
+
+// What may be read row by row of a file of so many bytes, in bytes of pixels: each takes its time.
+Status checkRows(const RowReader& rows, std::size_t fileBytes, const LoadLimits& limits)
+{
+    const double most = double(limits.imageBytes) + 128 * double(fileBytes);
+    const double bytes = 4.0 * double(bytesPerComponent(rows.type)) * rows.width * rows.height;
+    if (bytes > most)
+        return memoryError(
+            fmt::format("{}: {} x {} pixels take {:.0f} bytes, the limit is {:.0f} for a file of {} bytes", rows.name,
+                        rows.width, rows.height, bytes, most, fileBytes));
+    return Done{};
+}
+
+Result<std::unique_ptr<RowReader>> openAnyRows(const fs::path& file, const LoadLimits& limits)
+{
+    File stream(std::fopen(file.c_str(), "rb"));
+    if (!stream)
+        return inputError(fmt::format("{}: cannot be opened for reading", file.string()));
+    std::array<std::byte, 16> bytes{};
+    const std::span head(bytes.data(), std::fread(bytes.data(), 1, bytes.size(), stream.get()));
+    if (isPng(head)) {
+        if (auto rows = openPngRows(file, std::move(stream), limits))
+            return *std::move(rows);
+    } else if (const ImageFormat* const known = imageFormatOf(head); known && known->readsRows) {
+        if (!limits.sandbox.program.empty())
+            return openRowsSandboxed(file, limits);
+        const auto formats = imageFormats(file.string());
+        return formats ? (*formats)->openRows(file, head, limits) : formats.error();
+    }
+    return openWhole(file, limits);
+}
+
+} // namespace
+
+Result<std::unique_ptr<RowReader>> openRows(const fs::path& file, const LoadLimits& limits)
+{
+    const auto size = usableFileSize(file, SIZE_MAX); // no more than a strip is held
+    if (!size)
+        return size.error();
+    auto rows = openAnyRows(file, limits);
+    if (rows)
+        if (Status fits = checkRows(**rows, *size, limits); !fits)
+            return fits.error();
+    return rows;
+}
+
+Result<std::unique_ptr<RowWriter>> createRows(const fs::path& file, const RowFormat& format, int threads)
+{
+    const std::string name = file.string();
+    if (Status writable = checkImageName(file); !writable)
+        return writable.error();
+    auto output = OutputFile::begin(file);
+    if (!output)
+        return output.error();
+    const auto create = [&]() -> Result<std::unique_ptr<RowWriter>> {
+        if (writesItself(file) && format.type == PixelType::float32)
+            return usageError(fmt::format("{}: PNG files cannot hold floats", name));
+        if (writesItself(file))
+            return createPngRows(output->path(), format, name);
+        const auto formats = imageFormats(name);
+        return formats ? (*formats)->createRows(output->path(), format, threads, name) : formats.error();
+    };
+    auto writer = create();
+    if (!writer)
+        return output->failed(writer.error());
+    return std::unique_ptr<RowWriter>(std::make_unique<PlacedRows>(*std::move(output), *std::move(writer)));
+}
+
+// ---- animations ----------------------------------------------------------------------------
+
+namespace {
+
+bool isGif(const fs::path& file)
+{
+    const ImageFormat* const format = imageFormatOf(file);
+    return format && format->name == "GIF";
+}
+
+// Of 8 bits, whatever comes; writer: writes to the output's path.
+class EightBits : public AnimationWriter {
+public:
+    EightBits(OutputFile output, std::unique_ptr<AnimationWriter> writer, AnimationFormat format, std::string name)
+        : output_(std::move(output)), writer_(std::move(writer)), format_(format), name_(std::move(name))
+    {
+    }
+
+    Status add(const Image& picture) override
+    {
+        if (picture.width != format_.width || picture.height != format_.height)
+            return outputError(fmt::format("{}: expected pictures of {} x {}; found {} x {}", name_, format_.width,
+                                           format_.height, picture.width, picture.height));
+        return told(picture.type == PixelType::unorm8 ? writer_->add(picture) : writer_->add(toUnorm8(picture)));
+    }
+
+    Status finish() override
+    {
+        Status done = told(writer_->finish());
+        return done ? output_.commit() : done;
+    }
+
+private:
+    Status told(Status status) const { return status ? status : Status(output_.failed(status.error())); }
+
+    OutputFile output_; // removed last
+    std::unique_ptr<AnimationWriter> writer_;
+    AnimationFormat format_;
+    std::string name_;
+};
+
+Status checkFormat(const fs::path& file, const AnimationFormat& format)
+{
+    const int most = isGif(file) ? 65535 : 16383;
+    if (format.width < 1 || format.height < 1 || format.width > most || format.height > most)
+        return usageError(fmt::format("{}: expected a picture of 1 to {} pixels a side; found {} x {}", file.string(),
+                                      most, format.width, format.height));
+    const double fastest = isGif(file) ? 50 : 1000;
+    if (!(format.rate > 0) || format.rate > fastest)
+        return usageError(fmt::format("{}: expected at most {:.0f} pictures a second in such a file; found {:g}",
+                                      file.string(), fastest, format.rate));
+    return Done{};
+}
+
+} // namespace
+
+bool isAnimation(const fs::path& file) { return imageFormatHas(file, &ImageFormat::animation); }
+
+double animationRate(const fs::path& file, double rate)
+{
+    return isGif(file) ? 100 / std::max(std::round(100 / rate), 1.0) : rate;
+}
+
+Result<std::unique_ptr<AnimationWriter>> createAnimation(const fs::path& file, const AnimationFormat& format)
+{
+    if (Status fits = checkFormat(file, format); !fits)
+        return fits.error();
+    const std::string name = file.string();
+    const auto formats = isGif(file) ? imageFormats(name) : nullptr;
+    if (!formats)
+        return formats.error();
+    auto output = OutputFile::begin(file);
+    if (!output)
+        return output.error();
+    AnimationFormat rounded = format;
+    rounded.rate = animationRate(file, format.rate);
+    auto writer = isGif(file) ? (*formats)->createGif(output->path(), rounded, name)
+                              : createWebpAnimation(output->path(), rounded, name);
+    if (!writer)
+        return output->failed(writer.error());
+    return std::unique_ptr<AnimationWriter>(new EightBits(std::move(*output), std::move(*writer), format, name));
+}
+
+} // namespace cotan
