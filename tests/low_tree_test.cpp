@@ -15,7 +15,7 @@ struct Triangles {
     std::vector<std::int64_t> shown;
 };
 
-// Triangles of one size, needles, and some whose corners lie on one line; what they show is -1, 0 or 1.
+// Triangles of one size and needles a tenth as wide; what they show is -1, 0 or 1.
 Triangles randomTriangles(std::mt19937& random, std::size_t count)
 {
     std::uniform_real_distribution<float> unit(-1, 1);
