@@ -7,7 +7,7 @@ import sys
 
 ROOT = pathlib.Path(sys.argv[1])
 SRC = ROOT / "src"
-MOST_FOLDERS, MOST_ARROWS, MOST_HEADERS, MOST_LINES = 13, 80, 30, 58_000
+MOST_FOLDERS, MOST_ARROWS, MOST_HEADERS, MOST_LINES = 13, 80, 30, 52_000
 WITHOUT_HEADER = {"c"}  # it has cotan.h
 INCLUDE = re.compile(r'^\s*#\s*include\s+[<"]([^">]+)[">]', re.M)
 
