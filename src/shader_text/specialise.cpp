@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <iterator>
-#include <ranges>
 #include <set>
 #include <span>
 
@@ -146,7 +145,8 @@ Module neededBy(const Module& module, const std::vector<std::string>& roots)
 {
     std::set<std::string> wanted(roots.begin(), roots.end());
     // Uses come after definitions, so one walk backwards finds all.
-    for (const Function& f : std::views::reverse(module.functions)) {
+    for (auto function = module.functions.rbegin(); function != module.functions.rend(); ++function) {
+        const Function& f = *function;
         if (!wanted.contains(f.name))
             continue;
         wanted.insert(f.type);

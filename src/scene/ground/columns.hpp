@@ -25,7 +25,7 @@ struct Columns {
             from = std::min(from, height);
             to = std::max(to, height);
         }
-        bool meets(float low, float high) const { return from <= high && to > low; }
+        bool meets(float lowest, float highest) const { return from <= highest && to > lowest; }
     };
 
     // What is translucent in a column, which counts as full in the same way.
