@@ -4,7 +4,6 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
-#include <ranges>
 #include <type_traits>
 
 #include "problem.hpp"
@@ -49,9 +48,15 @@ std::uint32_t Elements::sparseIndex(std::size_t i) const
 
 std::size_t Elements::sparsePlace(std::uint32_t element, std::size_t first) const
 {
-    const auto places = std::views::iota(first, sparseIndices.count);
-    const auto found = std::ranges::lower_bound(places, element, {}, [&](std::size_t i) { return sparseIndex(i); });
-    return first + std::size_t(found - places.begin());
+    std::size_t last = sparseIndices.count;
+    while (first < last) {
+        const std::size_t middle = first + (last - first) / 2;
+        if (sparseIndex(middle) < element)
+            first = middle + 1;
+        else
+            last = middle;
+    }
+    return first;
 }
 
 Elements findElements(const Accessor& a, const ViewBytesOf& viewBytes, const std::string& field)
