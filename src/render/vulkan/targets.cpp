@@ -32,20 +32,21 @@ vk::DeviceSize Targets::bytes(const Kind& kind)
 
 Targets::Targets(const Device& device, const Kind& kind) : memory_(device), kind_(kind)
 {
-    using Usage = vk::ImageUsageFlagBits;
+    using ImageUsage = vk::ImageUsageFlagBits;
     const vk::Extent2D extent(kind.width, kind.height);
-    color_ = makeTexture(device, memory_,
-                         {.format = kind.format,
-                          .extent = extent,
-                          .samples = kind.samples,
-                          .usage = Usage::eColorAttachment | (resolves() ? Usage::eSampled : Usage::eTransferSrc)});
+    color_ = makeTexture(
+        device, memory_,
+        {.format = kind.format,
+         .extent = extent,
+         .samples = kind.samples,
+         .usage = ImageUsage::eColorAttachment | (resolves() ? ImageUsage::eSampled : ImageUsage::eTransferSrc)});
     if (resolves())
         resolved_ = makeTexture(
             device, memory_,
-            {.format = kind.shown, .extent = extent, .usage = Usage::eColorAttachment | Usage::eTransferSrc});
-    vk::ImageUsageFlags depthUsage = Usage::eDepthStencilAttachment;
+            {.format = kind.shown, .extent = extent, .usage = ImageUsage::eColorAttachment | ImageUsage::eTransferSrc});
+    vk::ImageUsageFlags depthUsage = ImageUsage::eDepthStencilAttachment;
     if (multisampled()) // then the hidden samples of translucent layers are found by it
-        depthUsage |= Usage::eSampled;
+        depthUsage |= ImageUsage::eSampled;
     depth_ = makeTexture(device, memory_,
                          {.format = vk::Format::eD32Sfloat,
                           .extent = extent,
