@@ -78,29 +78,43 @@ constexpr auto find(Range&& range, const Value& value, Projection projection = {
     return std::find_if(std::begin(range), std::end(range),
                         [&](auto&& item) { return std::invoke(projection, item) == value; });
 }
-template<class Range, class Test> constexpr bool all_of(Range&& range, Test test)
+template<class Range, class Test, class Projection = std::identity>
+constexpr bool all_of(Range&& range, Test test, Projection projection = {})
 {
-    return std::all_of(std::begin(range), std::end(range), std::ref(test));
+    return std::all_of(std::begin(range), std::end(range), seenBy(test, projection));
 }
-template<class Range, class Test> constexpr bool any_of(Range&& range, Test test)
+template<class Range, class Test, class Projection = std::identity>
+constexpr bool any_of(Range&& range, Test test, Projection projection = {})
 {
-    return std::any_of(std::begin(range), std::end(range), std::ref(test));
+    return std::any_of(std::begin(range), std::end(range), seenBy(test, projection));
 }
-template<class Range, class Test> constexpr bool none_of(Range&& range, Test test)
+template<class Range, class Test, class Projection = std::identity>
+constexpr bool none_of(Range&& range, Test test, Projection projection = {})
 {
-    return std::none_of(std::begin(range), std::end(range), std::ref(test));
+    return std::none_of(std::begin(range), std::end(range), seenBy(test, projection));
 }
-template<class Range, class Test> constexpr auto count_if(Range&& range, Test test)
+template<class Range, class Test, class Projection = std::identity>
+constexpr auto count_if(Range&& range, Test test, Projection projection = {})
 {
-    return std::count_if(std::begin(range), std::end(range), std::ref(test));
+    return std::count_if(std::begin(range), std::end(range), seenBy(test, projection));
 }
 template<class One, class Other, class Test> constexpr bool equal(One&& one, Other&& other, Test test)
 {
     return std::equal(std::begin(one), std::end(one), std::begin(other), std::end(other), std::ref(test));
 }
-template<class Range, class Value> constexpr auto lower_bound(Range&& range, const Value& value)
+template<class Range, class Value, class Less = std::less<>, class Projection = std::identity>
+constexpr auto lower_bound(Range&& range, const Value& value, Less less = {}, Projection projection = {})
 {
-    return std::lower_bound(std::begin(range), std::end(range), value);
+    return std::lower_bound(std::begin(range), std::end(range), value, [&](auto&& item, const Value& v) -> bool {
+        return std::invoke(less, std::invoke(projection, item), v);
+    });
+}
+template<class Range, class Value, class Less = std::less<>, class Projection = std::identity>
+constexpr auto upper_bound(Range&& range, const Value& value, Less less = {}, Projection projection = {})
+{
+    return std::upper_bound(std::begin(range), std::end(range), value, [&](const Value& v, auto&& item) -> bool {
+        return std::invoke(less, v, std::invoke(projection, item));
+    });
 }
 template<class Range, class Less = std::less<>, class Projection = std::identity>
 constexpr auto max_element(Range&& range, Less less = {}, Projection projection = {})

@@ -31,7 +31,13 @@ std::vector<Cluster> clusters(std::vector<Range> ranges)
     return out;
 }
 
-std::size_t endOf(const Cluster& cluster) { return std::ranges::max(cluster, {}, &Range::end).end; }
+std::size_t endOf(const Cluster& cluster)
+{
+    std::size_t end = 0;
+    for (const Range& r : cluster)
+        end = std::max(end, r.end);
+    return end;
+}
 
 // Which words of four bytes of a row the cluster uses; empty if it is not a block of rows.
 std::vector<bool> usedWords(const Cluster& cluster, std::size_t stride)

@@ -1,7 +1,7 @@
 // glTF 2.0 and GLB files to Scene.
 #include <algorithm>
-#include <compare>
 #include <map>
+#include <tuple>
 #include <utility>
 
 #include "gltf_model.hpp"
@@ -16,7 +16,10 @@ struct MeshUse {
     int mesh = -1;
     int skin = -1;
     std::vector<double> weights;
-    auto operator<=>(const MeshUse&) const = default;
+    bool operator<(const MeshUse& other) const // libc++ 14 has no <=> of vectors
+    {
+        return std::tie(mesh, skin, weights) < std::tie(other.mesh, other.skin, other.weights);
+    }
 };
 
 // The first `count` float matrices; there may be more.

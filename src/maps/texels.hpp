@@ -80,7 +80,8 @@ template<class Change> void changeTexels(Image& image, const Change& change)
         std::vector<glm::vec4> row(std::size_t(image.width));
         for (int y = first; y < last; ++y) {
             loadRow(image, y, row);
-            std::ranges::for_each(row, change);
+            for (glm::vec4& texel : row)
+                change(texel);
             storeRow(image, y, row);
         }
     });

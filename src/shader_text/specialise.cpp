@@ -161,8 +161,8 @@ Module neededBy(const Module& module, const std::vector<std::string>& roots)
     }
     Module needed;
     const auto isWanted = [&](const auto& one) { return wanted.contains(one.name); };
-    std::ranges::copy_if(module.structs, std::back_inserter(needed.structs), isWanted);
-    std::ranges::copy_if(module.functions, std::back_inserter(needed.functions), isWanted);
+    std::copy_if(module.structs.begin(), module.structs.end(), std::back_inserter(needed.structs), isWanted);
+    std::copy_if(module.functions.begin(), module.functions.end(), std::back_inserter(needed.functions), isWanted);
     return needed;
 }
 
