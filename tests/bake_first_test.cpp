@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <memory>
 
 #include "bake/bake_surfaces.hpp"
 #include "bake/surface/uv_raster.hpp"
@@ -335,6 +336,25 @@ TEST(BakeFirst, bytesDoNotDependOnThreads)
         EXPECT_TRUE(one.values == three.values);
         EXPECT_TRUE(one.states == three.states);
     }
+}
+
+TEST(BakeFirst, whatIsMadeForAnotherLowSurfaceIsRefused)
+{
+    const Pair setup = setupOf(plate(), BakeKind::normal, 16);
+    const auto refused = [&](const BakeOptions& options, const std::string& text) {
+        const auto baked = bake(setup.low, setup.high, options);
+        ASSERT_FALSE(baked) << text;
+        EXPECT_NE(baked.error().message.find(text), std::string::npos) << baked.error().message;
+    };
+    BakeOptions cage = setup.options;
+    cage.cage.resize(setup.low.positions.size() - 1);
+    refused(cage, "cage: expected");
+    BakeOptions frame = setup.options;
+    frame.frame = Frame::mikktspace;
+    refused(frame, "which the low surface was made for");
+    BakeOptions starts = setup.options;
+    starts.starts = std::make_shared<const RayStarts>();
+    refused(starts, "made for another low surface");
 }
 
 } // namespace

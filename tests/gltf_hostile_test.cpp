@@ -36,6 +36,19 @@ TEST(GltfHostile, aGlbIsReadWhole)
     EXPECT_TRUE(scene.warnings.empty()) << scene.warnings.front();
 }
 
+// The address sanitizer looks at this one: URIs of images are views of the JSON, of which only a part is kept.
+TEST(GltfHostile, anImageOfAFileWithoutMaterialsIsLookedAtByItsUri)
+{
+    const auto scene = loadText(R"({"asset":{"version":"2.0"},"images":[{"uri":"../a-name-that-is-not-short.png"}]})");
+    if (scene) {
+        ASSERT_EQ(scene->warnings.size(), 1u);
+        EXPECT_NE(scene->warnings[0].find("../a-name-that-is-not-short.png"), std::string::npos) << scene->warnings[0];
+    } else {
+        EXPECT_NE(scene.error().message.find("../a-name-that-is-not-short.png"), std::string::npos)
+            << scene.error().message;
+    }
+}
+
 // Cut anywhere, with the header's length corrected or not, it is an error, never a crash.
 TEST(GltfHostile, aGlbCutAnywhereIsRefused)
 {

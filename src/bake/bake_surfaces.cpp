@@ -234,6 +234,15 @@ Result<Baked> bake(const LowSurface& low, const HighSurface& high, const BakeOpt
     BakeOptions options = given;
     if (Status ready = measureRayStarts(low, high, options); !ready)
         return ready.error();
+    if (!options.cage.empty() && options.cage.size() != low.positions.size())
+        return inputError(fmt::format("cage: expected {} vertices, as many as the low mesh has; found {}",
+                                      low.positions.size(), options.cage.size()));
+    if (options.frame != low.frame)
+        return about("options.frame",
+                     usageError(fmt::format("expected {}, which the low surface was made for; found {}",
+                                            name(low.frame), name(options.frame))));
+    if (options.starts && options.starts->directions.size() != low.positions.size())
+        return about("options.starts", usageError("made for another low surface"));
     const auto start = std::chrono::steady_clock::now();
     Baked out;
     out.width = options.width;

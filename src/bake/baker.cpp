@@ -166,9 +166,10 @@ std::size_t Baker::findFromFurtherOut(std::span<const UvSample> places, const Pr
 
 std::size_t Baker::somethingNearer(const Probes& probes, const Hits& hits, Lanes<int>& nearer) const
 {
-    nearer.fill(0);
-    if (!measured())
+    if (!measured()) {
+        nearer.fill(0);
         return 0;
+    }
     // What was found behind the low surface has had nothing before it on the ray, which came from further out.
     return anyAround(high_, probes, nearer, [&](std::size_t i) {
         const float off = hits.distance[i], skip = std::max(4 * lift_, 1e-3f * off);

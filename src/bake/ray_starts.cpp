@@ -97,7 +97,7 @@ void findDirections(const LowSurface& low, const Groups& groups, RayStarts& star
 
 // The low surface and the rest as one tree, and how large they are.
 struct Body {
-    std::shared_ptr<const LowTree> tree;
+    std::optional<LowTree> tree;
     std::vector<glm::vec3> outsides; // of its triangles: unit, to the side of the vertices' normals
     std::vector<std::int64_t> shown; // of the same: the instance of the high surface, -1 for all; empty for all
     float diagonal = 0, edge = 0;    // of the box; about that of a triangle
@@ -135,7 +135,7 @@ Result<Body> bodyOf(const LowSurface& low, const LowRest& rest, const BakeOption
     auto tree = LowTree::make(std::move(positions), std::move(indices), body.shown, options.threads);
     if (!tree)
         return tree.error();
-    body.tree = std::make_shared<const LowTree>(std::move(*tree));
+    body.tree = std::move(*tree);
     return body;
 }
 

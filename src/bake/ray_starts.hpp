@@ -2,7 +2,7 @@
 #pragma once
 
 #include <cstdint>
-#include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -24,10 +24,10 @@ struct RayStarts {
     bool bent = false;                 // some differ from the normals
     std::vector<float> distances;      // one a vertex, model units; equal at equal positions
     std::vector<std::uint8_t> crossed; // one a triangle: other triangles may stand before where its rays start
-    std::shared_ptr<const LowTree> tree; // of the low surface and LowRest; null: rays start wherever they are told
-    float farthest = 0;                  // the largest distance
-    float skip = 0;                      // parts of the low surface nearer than this to a point are the point itself
-    float limit = 0;                     // surfaces further than this off, in front or behind, do not count
+    std::optional<LowTree> tree;       // of the low surface and LowRest; none: rays start wherever they are told
+    float farthest = 0;                // the largest distance
+    float skip = 0;                    // parts of the low surface nearer than this to a point are the point itself
+    float limit = 0;                   // surfaces further than this off, in front or behind, do not count
 };
 
 // Triangles that no map is baked for now, but that detail may belong to: the model's other materials.

@@ -118,13 +118,13 @@ Result<SeenHigh> seeHigh(const LowSurface& low, const HighSurface& high, const B
     BakeOptions options = given;
     if (Status ready = measureRayStarts(low, high, options); !ready)
         return ready.error();
-    std::shared_ptr<const LowTree> tree = options.starts ? options.starts->tree : nullptr;
+    std::optional<LowTree> tree = options.starts ? options.starts->tree : std::nullopt;
     if (!tree) {
         auto made =
             LowTree::make(low.positions, low.indices, shownBy(low.triangleInstance, options.matched), options.threads);
         if (!made)
             return made.error();
-        tree = std::make_shared<const LowTree>(std::move(*made));
+        tree = std::move(*made);
     }
     SeenHigh seen{.normals = makeImage(view.width, view.height, PixelType::float32, "high surface"),
                   .expected = makeImage(view.width, view.height, PixelType::float32, "expected normals"),

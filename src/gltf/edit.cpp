@@ -52,13 +52,6 @@ std::size_t addView(GltfDocument& document, std::vector<std::byte> bytes, std::s
     return addItem(document, "bufferViews", std::move(view));
 }
 
-std::size_t addItem(GltfDocument& document, const char* collection, Json item)
-{
-    Json& items = rootOf(document)[collection];
-    items.push_back(std::move(item));
-    return items.size() - 1;
-}
-
 } // namespace gltf_edit
 
 using namespace gltf_edit;
@@ -132,9 +125,8 @@ std::vector<Vector> readAttribute(const GltfDocument& document, const gltf::Prim
     const int accessor = gltf::accessorOf(primitive.attributes, name);
     if (accessor < 0)
         return {};
-    return gltf::readVectors<Vector>(
-        gltf_edit::elementsOf(document, rootOf(document)["accessors"][std::size_t(accessor)]), choice,
-        {accessor, field + "." + name});
+    return gltf::readVectors<Vector>(elementsOf(document, rootOf(document)["accessors"][std::size_t(accessor)]), choice,
+                                     {accessor, field + "." + name});
 }
 
 // The uv as a map reads them.
@@ -165,7 +157,7 @@ GltfGeometry readGeometry(const GltfDocument& document, const Json& source, cons
     GltfGeometry out;
     if (positions < 0) // what it may hold else has not been checked
         return out;
-    out.indices = gltf_edit::readTriangles(document, primitive);
+    out.indices = readTriangles(document, primitive);
     const auto count = rootOf(document)["accessors"][std::size_t(positions)]["count"].get<std::size_t>();
     const std::vector<std::uint32_t> vertices = takeUsedVertices(out.indices, count);
     const gltf::Choice choice(count, vertices);

@@ -65,9 +65,6 @@ std::vector<std::uint32_t> readTriangles(const GltfDocument& document, const glt
 // Adds a buffer view; stride and target 0: left out. Returns its index.
 std::size_t addView(GltfDocument& document, std::vector<std::byte> bytes, std::size_t stride = 0, int target = 0);
 
-// Adds an item to a collection of the root; returns its index.
-std::size_t addItem(GltfDocument& document, const char* collection, Json item);
-
 // Adds an accessor with a view of its own; stride 0: packed. Returns its index.
 template<class T>
 std::size_t addElements(GltfDocument& document, const std::vector<T>& elements, const char* type,

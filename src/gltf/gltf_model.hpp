@@ -50,7 +50,7 @@ Material readMaterial(const Json& source, const TextureOf& texture);
 template<class Read> auto readAll(const Json* owner, const char* collection, const Read& read)
 {
     std::vector<decltype(read(std::declval<const Json&>()))> all;
-    if (const Json* const list = owner ? member(*owner, collection) : nullptr) {
+    if (const Json* const list = member(owner, collection)) {
         all.reserve(list->size());
         for (const Json& item : *list)
             all.push_back(read(item));

@@ -114,10 +114,8 @@ private:
     {
         const gltf::Node& n = model_.structure.nodes[std::size_t(node)];
         MeshUse use{n.mesh, n.skin, n.weights.empty() ? sourceMesh(n.mesh).weights : n.weights};
-        const bool hasJoints = std::ranges::all_of(sourceMesh(use.mesh).primitives, [](const gltf::Primitive& p) {
-            return p.attributes.contains("JOINTS_0");
-        });
-        if (use.skin >= 0 && !hasJoints) {
+        const auto hasJoints = [](const gltf::Primitive& p) { return p.attributes.contains("JOINTS_0"); };
+        if (use.skin >= 0 && !std::ranges::all_of(sourceMesh(use.mesh).primitives, hasJoints)) {
             use.skin = -1;
             model_.warnings.add(fmt::format("nodes[{}]", node), "its mesh lacks JOINTS_0, so its skin is ignored");
         }
@@ -179,9 +177,12 @@ Scene load(const std::filesystem::path& path, const LoadLimits& limits)
 {
     GltfModel model;
     readGltfModel(model, path, limits);
-    gltf::Json kept; // materials and the URIs of images are all that is still read from the JSON
-    for (const char* const collection : {"materials", "images"})
-        kept[collection] = std::move(model.file.json[collection]);
+    // Materials and the URIs of images are all that is still read from the JSON. A member that is added to an object
+    // copies the others, and views of URIs would look at what is gone: none is.
+    gltf::Json kept = {{"materials", nullptr}, {"images", nullptr}};
+    for (auto& [collection, items] : kept.get_ref<gltf::Json::object_t&>())
+        if (const auto found = model.file.json.find(collection); found != model.file.json.end())
+            items = std::move(*found);
     model.file.json = std::move(kept);
     return build(model, path, nullptr);
 }

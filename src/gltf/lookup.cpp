@@ -84,6 +84,13 @@ Json& normalSlotOf(Json& root, std::size_t material, NormalSlot slot)
     return const_cast<Json&>(*slotOf(root["materials"][material], slot));
 }
 
+std::size_t addItem(GltfDocument& document, const char* collection, Json item)
+{
+    Json& items = rootOf(document)[collection];
+    items.push_back(std::move(item));
+    return items.size() - 1;
+}
+
 void setExtra(Json& material, const char* key, std::string_view text)
 {
     if (!text.empty()) {

@@ -305,7 +305,7 @@ std::optional<GltfPrimitive> readGltfPrimitive(GltfModel& model, int mesh, std::
         model.warnings.add(out.field, "no POSITION, nothing to draw");
         return std::nullopt;
     }
-    const std::size_t count = model.accessors[std::size_t(positions)].accessor.count;
+    const std::size_t count = accessorAt(model, positions).count;
     out.mesh.indices = readTriangles(model, source, count, out);
     const std::vector<std::uint32_t> used = takeUsedVertices(out.mesh.indices, count);
     const Choice choice(count, used);

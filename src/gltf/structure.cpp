@@ -147,7 +147,7 @@ Material readMaterial(const Json& source, const TextureOf& texture)
     const float strength =
         numberOf(orNone(extension(source, "KHR_materials_emissive_strength")), "emissiveStrength", 1);
     m.emissive = colorOf(source, "emissiveFactor", m.emissive, 1) * strength;
-    m.occlusionStrength = unitRange(valueOr(orNone(member(source, "occlusionTexture")), "strength", 1.0));
+    m.occlusionStrength = unitRange(readTextureUse(member(source, "occlusionTexture")).strength);
     m.normalScale = scaleOf(source, "normalTexture");
     m.normalFormat.expansion = expansionOf(source);
     const std::string alpha = valueOr(source, "alphaMode", std::string("OPAQUE"));

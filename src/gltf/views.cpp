@@ -64,7 +64,11 @@ Wrap wrapOf(const Json& sampler, std::string_view name)
     return found == std::end(kWrapCodes) ? Wrap::repeat : found->second;
 }
 
-int codeOf(Wrap wrap) { return std::ranges::find(kWrapCodes, wrap, &std::pair<int, Wrap>::second)->first; }
+int codeOf(Wrap wrap)
+{
+    const auto found = std::ranges::find(kWrapCodes, wrap, &std::pair<int, Wrap>::second);
+    return found == std::end(kWrapCodes) ? kRepeat : found->first;
+}
 
 struct MinifyCode {
     int code;

@@ -17,12 +17,6 @@ using gltf::Json;
 
 namespace {
 
-std::size_t appendTo(Json& root, const char* collection, Json item)
-{
-    root[collection].push_back(std::move(item));
-    return root[collection].size() - 1;
-}
-
 Result<std::size_t> materialNamed(const Json& root, const std::string& name)
 {
     std::vector<std::size_t> found;
@@ -37,19 +31,23 @@ Result<std::size_t> materialNamed(const Json& root, const std::string& name)
 }
 
 // The materials of all primitives; those that had none get one.
-std::set<std::size_t> allMaterials(Json& root)
+std::set<std::size_t> allMaterials(GltfDocument& document)
 {
     std::set<std::size_t> materials;
-    std::optional<std::size_t> unnamed;
-    for (Json& mesh : root["meshes"])
-        for (Json& primitive : mesh["primitives"]) {
-            if (!primitive.contains("material")) {
-                if (!unnamed)
-                    unnamed = appendTo(root, "materials", Json{{"name", "baked"}});
-                primitive["material"] = *unnamed;
-            }
-            materials.insert(primitive["material"].get<std::size_t>());
-        }
+    const auto eachPrimitive = [&](const auto& work) {
+        for (Json& mesh : rootOf(document)["meshes"])
+            for (Json& primitive : mesh["primitives"])
+                work(primitive);
+    };
+    bool lacking = false;
+    eachPrimitive([&](const Json& primitive) { lacking = lacking || !primitive.contains("material"); });
+    // Before they are walked through again: materials that are the file's first move the other collections.
+    const std::size_t added = lacking ? addItem(document, "materials", Json{{"name", "baked"}}) : 0;
+    eachPrimitive([&](Json& primitive) {
+        if (!primitive.contains("material"))
+            primitive["material"] = added;
+        materials.insert(primitive["material"].get<std::size_t>());
+    });
     return materials;
 }
 
@@ -58,7 +56,7 @@ void putMap(GltfDocument& document, const std::set<std::size_t>& materials, std:
 {
     Json& root = rootOf(document);
     const std::size_t image = addGltfImage(document, std::move(png), "image/png", "baked normals");
-    const std::size_t texture = appendTo(root, "textures", Json{{"source", image}});
+    const std::size_t texture = addItem(document, "textures", Json{{"source", image}});
     std::set<std::size_t> old;
     for (const std::size_t m : materials) {
         Json& slot = root["materials"][m]["normalTexture"];
@@ -125,7 +123,7 @@ Status putNormalMap(GltfDocument& document, std::vector<std::byte> png, const Pu
             return chosen.error();
         materials = {*chosen};
     } else {
-        materials = allMaterials(rootOf(document));
+        materials = allMaterials(document);
     }
     putMap(document, materials, std::move(png));
     for (const std::size_t material : materials) {

@@ -1,4 +1,4 @@
-// The steps of lintScene, each in a file of its own, and what pictures show of them.
+// The steps of lintScene, and what pictures show of them.
 #pragma once
 
 #include <array>
@@ -76,7 +76,7 @@ bool distrustStored(const LintReport& report);
 // Sets everything from `advice` on from primitives, maps and fits.
 void recommend(LintReport& report);
 
-double degreesBetween(glm::dvec3 a, glm::dvec3 b); // of unit vectors; stays exact near zero
+double degreesBetween(glm::dvec3 a, glm::dvec3 b); // lengths do not count; stays exact near zero
 
 } // namespace lint
 

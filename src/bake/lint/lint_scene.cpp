@@ -195,14 +195,14 @@ void addMaps(LintReport& report, const Scene& scene)
 using CoatUse = std::pair<int, MapUse>;
 
 // How each map would do as it is with the frames that may be advised.
-void addFits(LintReport& report, const Scene& scene, const std::vector<MapUse>& uses, const std::vector<CoatUse>& coats)
+void addFits(LintReport& report, const Scene& scene, std::vector<MapUse> uses, std::vector<CoatUse> coats)
 {
     std::map<int, std::vector<MapUse>> readers;
     for (std::size_t i = 0; i < uses.size(); ++i)
         if (report.primitives[i].image >= 0)
-            readers[report.primitives[i].image].push_back(uses[i]);
-    for (const auto& [image, use] : coats)
-        readers[image].push_back(use);
+            readers[report.primitives[i].image].push_back(std::move(uses[i]));
+    for (auto& [image, use] : coats)
+        readers[image].push_back(std::move(use));
     const TangentOrigin from = lint::distrustStored(report) ? TangentOrigin::generated : TangentOrigin::stored;
     std::map<int, Frame> frames; // of the images: that of the first material with each
     for (const Material& m : scene.materials)
@@ -302,7 +302,7 @@ Result<LintReport> lintScene(const Scene& scene, const LintOptions& options, con
     addMaps(report, scene);
     if (!counted.add(kOfWhole * counted.all))
         return stoppedError();
-    addFits(report, scene, uses, coats);
+    addFits(report, scene, std::move(uses), std::move(coats));
     counted.done = counted.all; // also where there are no triangles
     if (!counted.add(0))
         return stoppedError();

@@ -27,7 +27,7 @@ struct LowSurface {
     std::vector<std::uint32_t> indices;
     std::vector<glm::vec4> tangents;                 // one a corner, as tangentAlongV; empty if the frame reads none
     std::vector<glm::vec3> cotangentsU, cotangentsV; // one a vertex; empty if the frame reads none
-    std::vector<std::uint32_t> triangleInstance;     // which instance of the scene each triangle is of
+    std::vector<std::uint32_t> triangleInstance;     // which of the instances each triangle is of
 
     std::size_t triangleCount() const { return indices.size() / 3; }
 };

@@ -129,7 +129,7 @@ struct SurfaceSpot {
     glm::dvec3 interpolated{0}, normal{0}; // the same, unit; the triangle's where there is none
 };
 SurfaceSpot spotAt(const MappedSurface& surface, std::size_t triangle, glm::dvec3 barycentric);
-SurfaceSpot spotOf(const TriangleEdges& edges, glm::dvec3 interpolated); // the normal
+SurfaceSpot spotOf(const TriangleEdges& edges, glm::dvec3 interpolated); // the normal there, of any length
 f64::cotan_frame frameOf(const SurfaceSpot& spot, Frame frame);
 
 // What lies at a point of a triangle, of its three corners. normal: as interpolated, not unit.

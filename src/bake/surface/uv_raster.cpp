@@ -294,7 +294,8 @@ void UvRaster::row(int y, UvRow& result, const UvFew& few) const
         for (std::size_t i = 0; i < listed.size(); ++i) {
             if (i % 128 == 0 && !std::memchr(full.data(), 0, full.size()))
                 return;
-            order = std::uint32_t(step > 0 ? i * step % listed.size() : i);
+            order =
+                std::uint32_t(step > 0 ? std::uint64_t(i) * step % listed.size() : i); // where size_t has 32 bits, too
             if (const Shown t = shownAt(listed[order]); t.first.y <= y && y <= t.last.y)
                 scan(t);
         }

@@ -79,9 +79,6 @@ public:
     // the tile; one that has room for 4 by 4 whole copies in its inscribed circle in 16 of them, evenly chosen.
     UvRaster(const UvTriangles& triangles, int width, int height, glm::ivec2 tile = {0, 0}, bool wrap = false);
 
-    int width() const { return width_; }
-    int height() const { return height_; }
-
     // The places of the row y, 0 at the top. May be called from several threads. With few.most it takes time for each
     // triangle that is in the row, but not for each of its texels.
     void row(int y, UvRow& result, const UvFew& few = {}) const;

@@ -52,6 +52,9 @@ std::vector<std::size_t> materialsOf(const gltf::Json& root, const gltf::Json& p
 gltf::TextureUse normalMapOf(const gltf::Json& root, std::size_t material, NormalSlot slot = NormalSlot::surface);
 gltf::Json& normalSlotOf(gltf::Json& root, std::size_t material, NormalSlot slot);
 
+// Adds an item to a collection of the root; returns its index. The file's first moves the other collections in memory.
+std::size_t addItem(GltfDocument& document, const char* collection, gltf::Json item);
+
 // Says something in a material's extras; an empty text: that nothing is said. What else is in them stays, but extras
 // that are no object.
 void setExtra(gltf::Json& material, const char* key, std::string_view text);
