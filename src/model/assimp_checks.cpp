@@ -253,12 +253,13 @@ template<class F> void eachTag(std::string_view text, std::string_view name, F f
     const std::string open = fmt::format("<{}", name);
     for (std::size_t at = text.find(open); at != text.npos; at = text.find(open, at)) {
         at += open.size();
+        if (at < text.size() && text[at] != '>' && !space(text[at]))
+            continue; // a longer name
         const std::size_t end = text.find('>', at);
         if (end == text.npos)
             return;
-        const bool longerName = at < end && !space(text[at]);
-        if (!longerName)
-            f(text.substr(at, end - at), end);
+        f(text.substr(at, end - at), end);
+        at = end; // each part of the text is looked at once
     }
 }
 
@@ -266,6 +267,8 @@ Problem checkNumbers(std::string_view text, std::string_view element)
 {
     Problem problem;
     eachTag(text, element, [&](std::string_view, std::size_t close) {
+        if (problem)
+            return;
         const std::size_t end = text.find_first_not_of("0123456789+- \t\r\n", close + 1);
         if (text[close - 1] != '/' && (end == text.npos || !text.substr(end).starts_with("</")))
             problem = fmt::format("expected nothing but whole numbers in <{}>", element);

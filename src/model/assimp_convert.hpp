@@ -30,10 +30,10 @@ Result<Mesh> convertMesh(const aiMesh& source, const std::string& file, bool reg
 Status convertNodes(const aiScene& source, const std::string& file, const std::vector<int>& meshes,
                     const LoadLimits& limits, Scene& scene);
 
+// ---- checks ----------------------------------------------------------------------------------
+
 // Spaces for line breaks: for messages of one line.
 std::string withoutBreaks(std::string text);
-
-// ---- checks ----------------------------------------------------------------------------------
 
 // Checks the header of a PLY file line by line, and walks over what it counts: every row of every
 // element, and every value of every list, has to be there, as memory is taken by those counts.

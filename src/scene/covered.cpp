@@ -12,7 +12,6 @@
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 
-#include "core/tangents_mesh.hpp"
 #include "scene/geometry.hpp"
 #include "scene/parts.hpp"
 
@@ -120,12 +119,12 @@ std::size_t distinctPositions(const Scene& scene)
 {
     std::size_t count = 0;
     for (const Mesh& mesh : scene.meshes) {
-        const auto vertices = std::uint32_t(mesh.vertexCount());
-        const auto first = tangents::firstEqual(vertices, [&](std::uint32_t i) {
-            return std::bit_cast<std::array<std::uint32_t, 4>>(glm::vec4(mesh.positions[i], 0));
-        });
-        for (std::uint32_t i = 0; i < vertices; ++i)
-            count += first[i] == i ? 1 : 0;
+        // Sorted, which no choice of positions makes slow: by their bits, which have an order.
+        std::vector<std::array<std::uint32_t, 3>> own(mesh.positions.size());
+        std::ranges::transform(mesh.positions, own.begin(),
+                               [](glm::vec3 p) { return std::bit_cast<std::array<std::uint32_t, 3>>(p); });
+        std::ranges::sort(own);
+        count += std::size_t(std::unique(own.begin(), own.end()) - own.begin());
     }
     return count;
 }

@@ -4,6 +4,7 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
+#include <numeric>
 #include <span>
 #include <tuple>
 #include <unordered_map>
@@ -11,6 +12,7 @@
 
 #include <glm/geometric.hpp>
 
+#include "core/joined_groups.hpp"
 #include "core/tangents_mesh.hpp"
 #include "cotan/tangents.hpp"
 #include "cotan/vector.hpp"
@@ -34,19 +36,32 @@ template<class M, class Work> void eachAttribute(M& mesh, const Work& work)
     std::apply([&](auto&... attributes) { (call(attributes), ...); }, attributesOf(mesh));
 }
 
-// Makes vertex i what vertex sources[i] was.
-void takeVertices(Mesh& mesh, std::span<const Index> sources)
+// Makes vertex i what vertex split.sources[i] was.
+void takeVertices(Mesh& mesh, const VertexSplit& split)
 {
-    eachAttribute(mesh, [&](auto& attribute) {
-        std::remove_reference_t<decltype(attribute)> taken;
-        taken.reserve(sources.size());
-        for (const Index source : sources)
-            taken.push_back(attribute[source]);
-        attribute = std::move(taken);
-    });
+    eachAttribute(mesh, [&](auto& attribute) { attribute = gathered(std::span(std::as_const(attribute)), split); });
 }
 
 // ---- normals --------------------------------------------------------------------------------
+
+// A point of space each: vertices at equal positions get equal numbers. Sorted, which no choice of positions makes
+// slow.
+std::vector<Index> positionNumbers(const std::vector<glm::vec3>& positions)
+{
+    // By bit pattern, which orders every float; adding zero makes -0 and 0 one.
+    const auto key = [&](Index i) { return std::bit_cast<std::array<std::uint32_t, 3>>(positions[i] + 0.0f); };
+    std::vector<Index> order(positions.size());
+    std::iota(order.begin(), order.end(), Index(0));
+    std::ranges::sort(order, [&](Index a, Index b) { return key(a) < key(b); });
+    std::vector<Index> number(positions.size());
+    Index current = 0;
+    for (std::size_t i = 0; i < order.size(); ++i) {
+        if (i > 0 && key(order[i]) != key(order[i - 1]))
+            ++current;
+        number[order[i]] = current;
+    }
+    return number;
+}
 
 struct Face {
     glm::dvec3 normal{0};          // unit; zero for a degenerate triangle
@@ -204,7 +219,7 @@ std::array<std::uint32_t, 24> bitsOf(const Mesh& mesh, Index vertex)
 void deriveCotangents(Mesh& mesh, std::span<const glm::vec2> uv)
 {
     SplitCotangents made = splitSmoothCotangents({mesh.positions, mesh.normals, uv, mesh.indices});
-    takeVertices(mesh, made.split.sources);
+    takeVertices(mesh, made.split);
     mesh.indices = std::move(made.split.indices);
     mesh.cotangentsU = std::move(made.cotangents.u);
     mesh.cotangentsV = std::move(made.cotangents.v);
@@ -215,7 +230,7 @@ void deriveTangents(Mesh& mesh, std::span<const glm::vec2> uv, Frame frame)
     const auto corners = generateTangents(frame, {mesh.positions, mesh.normals, uv, mesh.indices});
     const VertexSplit split = splitVertices(mesh.vertexCount(), mesh.indices, corners);
     mesh.tangents.clear();
-    takeVertices(mesh, split.sources);
+    takeVertices(mesh, split);
     mesh.indices = split.indices;
     mesh.tangents.resize(mesh.vertexCount());
     for (std::size_t i = 0; i < corners.size(); ++i)
@@ -226,9 +241,7 @@ void deriveTangents(Mesh& mesh, std::span<const glm::vec2> uv, Frame frame)
 
 void generateNormals(Mesh& mesh, float creaseDegrees)
 {
-    const auto point = tangents::firstEqual(Index(mesh.vertexCount()), [&](Index i) { // adding zero makes -0 and 0 one
-        return std::bit_cast<std::array<std::uint32_t, 4>>(glm::vec4(mesh.positions[i] + 0.0f, 0));
-    });
+    const std::vector<Index> point = positionNumbers(mesh.positions);
     std::vector<Index> pointOfCorner(mesh.indices.size());
     std::ranges::transform(mesh.indices, pointOfCorner.begin(), [&](Index i) { return point[i]; });
     const std::vector<Face> faces = measureFaces(mesh);
@@ -248,12 +261,12 @@ void weldVertices(Mesh& mesh)
 {
     const auto first = tangents::firstEqual(Index(mesh.vertexCount()), [&](Index i) { return bitsOf(mesh, i); });
     std::vector<Index> newIndex(mesh.vertexCount(), kNone); // of the first of equal vertices
-    std::vector<Index> kept;                                // old index of every new vertex
+    VertexSplit kept;
     for (Index& index : mesh.indices) {
         Index& number = newIndex[first[index]];
         if (number == kNone) {
-            number = Index(kept.size());
-            kept.push_back(index);
+            number = Index(kept.sources.size());
+            kept.sources.push_back(index);
         }
         index = number;
     }

@@ -210,7 +210,7 @@ std::vector<std::uint8_t> repeatedTriangles(std::size_t count,
     std::size_t many = 0;
     for (std::uint32_t k = 0; k < asked; ++k)
         many += sample[k] != k ? 1 : 0;
-    if (many < kMany)
+    if (many < kMany || count >= tangents::kNone) // more have no numbers
         return {};
     const auto first = tangents::firstEqual(std::uint32_t(count), [&](std::uint32_t i) { return bitsOf(triangle(i)); });
     std::vector<std::uint8_t> repeated(count), seen(count); // seen: how often the first of equal ones was, at most 2

@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include "scene/geometry.hpp"
+#include "core/joined_groups.hpp"
 
 namespace cotan {
 
