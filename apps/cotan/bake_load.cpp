@@ -86,9 +86,9 @@ Status parseHigh(const BakeCommandOptions& o, BakeModelOptions& options)
                                                          : HighNormals::smooth;
     if (o.highFrame.empty())
         return Done{};
-    const auto frame = frameFromName(o.highFrame);
+    const auto frame = parseFrame(o.highFrame, "--high-frame");
     if (!frame)
-        return usageError(fmt::format("--high-frame: expected one of {}; found '{}'", frameNames(), o.highFrame));
+        return frame.error();
     if (dependsOnView(*frame))
         return usageError(
             fmt::format("--high-frame: the frame {} depends on the view: no map can be made for it", o.highFrame));

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <memory>
 
 #include <fmt/format.h>
 
@@ -78,11 +79,11 @@ Result<ComparedViews> verifyBake(Renderer& renderer, const BakeToVerify& bake, i
     Scene scene = bake.scene;
     putNormalMap(scene, bake.map, bake.format, bake.material);
     deriveVertexFrames(scene, bake.options.frame, bake.tangents);
+    const auto forget = [](Renderer* drawing) { drawing->forget(); }; // the scene ends here
+    const std::unique_ptr<Renderer, decltype(forget)> shown(&renderer, forget);
     if (Status loaded = renderer.load(scene); !loaded)
         return loaded.error();
-    auto compared = compareAround(renderer, scene, bake, side);
-    renderer.forget();
-    return compared;
+    return compareAround(renderer, scene, bake, side);
 }
 
 } // namespace cotan::app

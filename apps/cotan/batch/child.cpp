@@ -111,15 +111,10 @@ int runJobProcess(int argc, const char* const* argv, const std::function<int(con
     request.words = {argv + kFixedWords + 1, argv + argc};
     dieWith(request.parent, SIGTERM); // at which unfinished files are removed
     leaveNoCore();
-    if (rlimit limit{}; !kSanitized && request.megabytes > 0 && ::getrlimit(RLIMIT_DATA, &limit) == 0) {
-        limit.rlim_max = std::min<rlim_t>(request.megabytes << 20, limit.rlim_max);
-        limit.rlim_cur = limit.rlim_max;
-        ::setrlimit(RLIMIT_DATA, &limit);
-    }
-    if (rlimit limit{}; request.processorSeconds > 0 && ::getrlimit(RLIMIT_CPU, &limit) == 0) {
-        limit.rlim_cur = std::min<rlim_t>(request.processorSeconds, limit.rlim_max);
-        ::setrlimit(RLIMIT_CPU, &limit);
-    }
+    if (!kSanitized && request.megabytes > 0)
+        setLimit(RLIMIT_DATA, request.megabytes << 20, request.megabytes << 20);
+    if (request.processorSeconds > 0)
+        setLimit(RLIMIT_CPU, request.processorSeconds, RLIM_INFINITY);
     std::set_new_handler([] { ::_exit(kNoMemoryCode); });
 
     Names inputs, outputs;

@@ -1,20 +1,14 @@
 #include "devices.hpp"
 
 #include <algorithm>
-#include <cctype>
 #include <cstring>
 #include <utility>
+
+#include "core/named_values.hpp"
 
 namespace cotan::cost {
 
 namespace {
-
-std::string lower(std::string text)
-{
-    std::transform(text.begin(), text.end(), text.begin(),
-                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    return text;
-}
 
 bool hasExtension(const vk::raii::PhysicalDevice& physical, const char* name)
 {
@@ -122,7 +116,7 @@ void open(Device& d)
 bool wanted(const std::string& name, const std::vector<std::string>& names)
 {
     return names.empty() || std::any_of(names.begin(), names.end(), [&](const std::string& n) {
-               return lower(name).find(lower(n)) != std::string::npos;
+               return lowerCase(name).find(lowerCase(n)) != std::string::npos;
            });
 }
 

@@ -48,7 +48,7 @@ constexpr std::string_view kFormats[] = {
     "cotan-convert-result",  "cotan-lint-result", "cotan-render-result"};
 
 // Of each of them so far. A field may be added within a version. One that goes, is renamed, or changes its type or
-// meaning, raises that of its report alone.
+// meaning, raises that of its report alone: the first that rises gets a number beside its name.
 constexpr int kVersion = 1;
 
 } // namespace

@@ -19,15 +19,6 @@ namespace cotan {
 
 namespace {
 
-void setLimit(int what, rlim_t now, rlim_t most)
-{
-    rlimit limit{};
-    ::getrlimit(__rlimit_resource_t(what), &limit);
-    limit.rlim_max = std::min(limit.rlim_max, most);
-    limit.rlim_cur = std::min(limit.rlim_max, now);
-    ::setrlimit(__rlimit_resource_t(what), &limit);
-}
-
 // Every right to change the file system, and none granted anywhere. Kernels before 5.13 refuse.
 void forbidChanges()
 {
@@ -130,6 +121,15 @@ void forbidCalls()
 }
 
 } // namespace
+
+void setLimit(int what, std::uint64_t now, std::uint64_t most)
+{
+    rlimit limit{};
+    ::getrlimit(__rlimit_resource_t(what), &limit);
+    limit.rlim_max = std::min<rlim_t>(limit.rlim_max, most);
+    limit.rlim_cur = std::min<rlim_t>(limit.rlim_max, now);
+    ::setrlimit(__rlimit_resource_t(what), &limit);
+}
 
 void dieWith(std::int64_t parent, int signal)
 {

@@ -27,6 +27,9 @@ void dieWith(std::int64_t parent, int signal = SIGKILL);
 // No core file, whoever would write it; other processes cannot look into this one.
 void leaveNoCore();
 
+// Limits a resource of this process, such as RLIMIT_DATA, to `now`, which may be raised to `most`; no limit is raised.
+void setLimit(int what, std::uint64_t now, std::uint64_t most);
+
 // Stack, core files, files written: fixed for good. Where the kernel can, also: no change to any file, no new process,
 // no program, no signal to others, no socket.
 void confine();

@@ -157,7 +157,7 @@ Result<std::unique_ptr<ReaderProcess>> ReaderProcess::start(ReaderRequest reques
     started->messages_ = std::move(messages[0]);
     request.parent = ::getpid();
     exchangeRequest(started->question_, request);
-    request.bytes = {}; // not held while the child has them
+    request.bytes = std::vector<std::byte>(); // not held while the child has them; {} would keep the memory
     if (more)
         more(started->question_);
     if (Status found = started->await(); !found)
