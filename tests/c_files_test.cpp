@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstring>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "cotan.h"
@@ -143,6 +144,8 @@ TEST(CFiles, aFunctionThatFailsEndsTheCallAndIsDoneWithToo)
     const Case cases[] = {
         {Failing::readSaysNo, COTAN_INPUT, "square.bin: there is no such file beside the model"},
         {Failing::readGivesNull, COTAN_INPUT, "square.bin: there is no such file beside the model"},
+        {Failing::decodeSaysNo, COTAN_INPUT, "bumps.png: the caller did not decode the picture"},
+        {Failing::decodeGivesBits, COTAN_USAGE, "bumps.png.bits: expected 8, 16 or 32, found 7"},
         {Failing::encodeSaysNo, COTAN_OUTPUT, "the caller did not encode the picture"},
         {Failing::encodeGivesNull, COTAN_OUTPUT, "the caller did not encode the picture"},
     };
@@ -155,25 +158,6 @@ TEST(CFiles, aFunctionThatFailsEndsTheCallAndIsDoneWithToo)
         EXPECT_EQ(glb, nullptr);
         caller.expectEachDoneWith();
         EXPECT_FALSE(caller.calls.empty());
-    }
-}
-
-// An image that cannot be decoded does not end the conversion: its map stays.
-TEST(CFiles, anImageThatIsNotDecodedStaysAndIsDoneWithToo)
-{
-    for (const Failing failing : {Failing::decodeSaysNo, Failing::decodeGivesBits}) {
-        Caller caller;
-        caller.failing = failing;
-        cotan_bytes* glb = nullptr;
-        const cotan_status status = caller.convert(&glb);
-        EXPECT_EQ(status == COTAN_OK, glb != nullptr) << text;
-        if (status != COTAN_OK) {
-            EXPECT_NE(std::string(text).find("bumps.png"), std::string::npos) << text;
-        }
-        EXPECT_EQ(caller.count("encode 8 x 8"), 0u);
-        EXPECT_EQ(caller.count("decode model.gltf: bumps.png"), 1u);
-        caller.expectEachDoneWith();
-        cotan_bytes_free(glb);
     }
 }
 

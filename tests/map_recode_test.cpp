@@ -206,5 +206,25 @@ TEST(Diff, the_angle_between_tilted_maps_is_their_angle)
     EXPECT_NEAR(anglesBetween(a, stored, b, stored)[0], 0.01 * 180 / 3.14159265358979, 1e-5); // float rounding
 }
 
+// What callers in C++ may cast.
+TEST(Texts, ofNumbersThatAreNoEnumeratorsAreThoseOfOne)
+{
+    EXPECT_EQ(describe(Content(99)), describe(Content::other));
+    EXPECT_STREQ(name(Fault::Kind(-1)), "green_down");
+    const Convention none{.kind = MapKind(9), .expansion = Expansion(9), .channels = Channels(9)};
+    EXPECT_EQ(describe(none), "height, slopes, green up, v down, signed");
+}
+
+TEST(Heights, kernelsThatHaveNoDifferencesAreTakenAsScharr)
+{
+    const Image height = makeReliefMap(Relief::waves, 20);
+    std::size_t invalid = 0;
+    FromHeightSettings settings;
+    settings.kernel = Kernel::scharr;
+    const Image scharr = normalsFromHeight(height, settings, invalid);
+    settings.kernel = Kernel::spectral;
+    EXPECT_EQ(normalsFromHeight(height, settings, invalid).data, scharr.data);
+}
+
 } // namespace
 } // namespace cotan::maps

@@ -349,5 +349,11 @@ TEST(ChosenText, wholeNumbersBecomeRealsByName)
     EXPECT_TRUE(has(translate(Language::msl, text), "return float(i) * 3.0f + 0.5f;"));
 }
 
+TEST(Stages, aNumberThatIsNoneIsCalledAll)
+{
+    EXPECT_EQ(name(Stage(9)), "all");
+    EXPECT_EQ(name(Stage::compute), "compute");
+}
+
 } // namespace
 } // namespace cotan::shader_text

@@ -20,6 +20,7 @@ template<class T> std::vector<T> copied(std::span<const T> values) { return {val
 
 template<class Value, class Out> void put(const std::vector<Value>& values, Out* out, const char* name)
 {
+    static_assert(sizeof(Value) % sizeof(Out) == 0); // a value is one of the caller's elements, or several
     if (!out && !values.empty())
         fail(ErrorKind::usage, name, ": expected an array, found null");
     if (!values.empty())

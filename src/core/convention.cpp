@@ -153,10 +153,10 @@ Convention onCard(const ConventionPreset& preset)
 
 std::string describe(const Convention& c)
 {
-    std::string text(kKindTexts[int(c.kind)]);
+    std::string text(textAt(kKindTexts, c.kind));
     for (std::string_view part :
-         {kChannelTexts[int(c.channels)], std::string_view(c.greenUp ? "green up" : "green down"),
-          std::string_view(c.v == VDirection::up ? "v up" : "v down"), kExpansionTexts[int(c.expansion)]})
+         {textAt(kChannelTexts, c.channels), std::string_view(c.greenUp ? "green up" : "green down"),
+          std::string_view(c.v == VDirection::up ? "v up" : "v down"), textAt(kExpansionTexts, c.expansion, 2)})
         text.append(", ").append(part);
     return text;
 }

@@ -43,6 +43,13 @@ std::optional<Value> valueOf(const Named<Value> (&all)[count], std::string_view 
     return std::nullopt;
 }
 
+// The text of an enumerator; of a number that is none, the one at `otherwise`.
+template<class Text, std::size_t count>
+constexpr Text textAt(const Text (&texts)[count], auto enumerator, std::size_t otherwise = count - 1)
+{
+    return texts[std::size_t(enumerator) < count ? std::size_t(enumerator) : otherwise];
+}
+
 // Letters beyond ASCII stay as they are.
 inline std::string lowerCase(std::string text)
 {

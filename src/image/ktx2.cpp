@@ -203,10 +203,10 @@ Image plainPixels(const Ktx2Picture& picture, PixelType type, std::span<const st
 {
     Image image = makeImage(picture.width, picture.height, type, name);
     withComponents(image, [&, pixels = image.pixelCount()]<class T>(T* to, T middle, T one) {
-        if (std::is_same_v<T, float> && picture.format.bytes == 2)
-            spread<T, std::uint16_t>(picture.format, bytes, pixels, middle, one, to);
-        else
-            spread<T, T>(picture.format, bytes, pixels, middle, one, to);
+        if constexpr (std::is_same_v<T, float>)
+            if (picture.format.bytes == 2)
+                return spread<T, std::uint16_t>(picture.format, bytes, pixels, middle, one, to);
+        spread<T, T>(picture.format, bytes, pixels, middle, one, to);
     });
     return image;
 }

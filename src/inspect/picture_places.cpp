@@ -5,8 +5,10 @@
 #include <array>
 #include <bit>
 #include <cmath>
+#include <cstdint>
 #include <functional>
 #include <limits>
+#include <string_view>
 #include <unordered_map>
 
 #include <glm/geometric.hpp>

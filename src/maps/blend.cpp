@@ -1,5 +1,4 @@
 #include "cotan/maps.hpp"
-#include "cotan/vector.hpp"
 
 #include <algorithm>
 #include <atomic>
@@ -7,6 +6,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "cotan/vector.hpp"
 #include "maps/texels.hpp"
 
 namespace cotan::maps {

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <string>
 
+#include "core/named_values.hpp"
+
 namespace cotan::maps {
 
 namespace {
@@ -30,7 +32,7 @@ const char* name(Fault::Kind kind)
 {
     constexpr const char* kNames[] = {"srgb",       "linearised", "bgr",     "grb",
                                       "washed_out", "too_strong", "8_in_16", "green_down"};
-    return kNames[int(kind)];
+    return textAt(kNames, kind);
 }
 
 std::vector<Fault> faultsOf(const NormalStatistics& s, const GreenVerdict* green)

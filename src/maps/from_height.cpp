@@ -49,7 +49,7 @@ glm::vec2 difference(const std::vector<float>& above, const std::vector<float>& 
         return {here[x + 1] - here[x], above[x] - here[x]};
     if (kernel == Kernel::central) // not with weights of 0: a corner that is not a number would count
         return 0.5f * glm::vec2(here[x + 1] - here[x - 1], above[x] - below[x]);
-    const std::array<float, 3> shares = sharesAcross(kernel);
+    const std::array<float, 3> shares = sharesAcross(kernel == Kernel::sobel ? kernel : Kernel::scharr);
     const float side = shares[0], middle = shares[1];
     const float right = side * (above[x + 1] + below[x + 1]) + middle * here[x + 1];
     const float left = side * (above[x - 1] + below[x - 1]) + middle * here[x - 1];

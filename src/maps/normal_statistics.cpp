@@ -10,6 +10,7 @@
 
 #include <glm/geometric.hpp>
 
+#include "core/named_values.hpp"
 #include "maps/texels.hpp"
 
 namespace cotan::maps {
@@ -400,7 +401,7 @@ std::string describe(Content content)
                                       "one value everywhere",
                                       "grey: a height map, not a normal map",
                                       "not a normal map: lengths far from 1"};
-    return kTexts[int(content)];
+    return textAt(kTexts, content);
 }
 
 } // namespace cotan::maps

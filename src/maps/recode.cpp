@@ -103,7 +103,7 @@ float ditherNoise(std::uint32_t x, std::uint32_t y, std::uint32_t component)
 
 void ditherRow(std::span<glm::vec4> texels, PixelType type, int y)
 {
-    if (type == PixelType::float32)
+    if (type != PixelType::unorm8 && type != PixelType::unorm16)
         return;
     const float steps = type == PixelType::unorm8 ? 255.0f : 65535.0f; // per unit of a stored component
     for (std::size_t x = 0; x < texels.size(); ++x)

@@ -4,7 +4,6 @@
 // map of any convention decodes into it; which way v runs does not matter here.
 #pragma once
 
-#include <algorithm>
 #include <array>
 #include <functional>
 #include <span>

@@ -1,3 +1,4 @@
+#include "core/named_values.hpp"
 #include "entry.hpp"
 #include "languages.hpp"
 
@@ -11,7 +12,7 @@ constexpr std::string_view kChannelTexts[] = {"three channels", "two channels, z
 constexpr std::string_view kExpansionTexts[] = {"(255c - 128)/127", "2c - 1", "signed values as sampled",
                                                 "(65535c - 32768)/32767"};
 constexpr std::string_view kFormTexts[] = {"fused", "total form", "fused, normal on the side that is seen",
-                                           "fused, for square texels"};
+                                           "fused, for square texels", ""};
 
 std::string call(const Choice& choice, Form form)
 {
@@ -199,9 +200,9 @@ std::string introduction(const Choice& choice, Form form)
                 "//\n"
                 "// Normal map: {}, {}, green {} increasing v.\n"
                 "//\n{}//\n// Call:\n//   {}\n// It returns {}.\n//\n{}//\n{}{}\n",
-                name(choice.frame), kFormTexts[int(form)], halfs ? language.titleWithHalfs : language.title,
-                kChannelTexts[int(c.channels)], kExpansionTexts[int(c.expansion)], greenAlongV(c) ? "along" : "against",
-                needs(choice), call(choice, form),
+                name(choice.frame), textAt(kFormTexts, form), halfs ? language.titleWithHalfs : language.title,
+                textAt(kChannelTexts, c.channels), textAt(kExpansionTexts, c.expansion, 2),
+                greenAlongV(c) ? "along" : "against", needs(choice), call(choice, form),
                 choice.stage == Stage::vertex || choice.stage == Stage::mesh
                     ? "three words, the same for the whole triangle"
                     : "the perturbed normal, unit, in the space of the arguments",

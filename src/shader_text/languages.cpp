@@ -248,7 +248,7 @@ std::optional<Language> languageFromName(std::string_view text)
 std::string_view name(Stage stage)
 {
     constexpr std::string_view kStageNames[] = {"all", "fragment", "vertex", "mesh", "compute"};
-    return kStageNames[int(stage)];
+    return textAt(kStageNames, stage, 0);
 }
 
 std::optional<Stage> stageFromName(std::string_view text)

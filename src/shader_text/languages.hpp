@@ -1,5 +1,5 @@
-// What is peculiar to a language, and a tree as its text. The table in languages.cpp is the only place that a further
-// one needs, beside its name in Language.
+// What is peculiar to a language, and a tree as its text. A further one needs its name in Language, a row in
+// languages.cpp, and where its words are its own a column of Word.
 #pragma once
 
 #include <string>

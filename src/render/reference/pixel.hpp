@@ -65,7 +65,7 @@ struct PixelInputs {
 };
 
 // Lighting in tangent space, as tutorials do it: vectors come to the map's normal, not it to them. Vectors along t, b,
-// n n of a pixel.
+// n of a pixel.
 struct TangentSpace {
     f32::cotan_surface surface; // n: the texel; v: carried to tangent space
     f32::cotan_frame pixel{};   // in the pixel

@@ -1,6 +1,5 @@
 #include "pipeline.hpp"
 
-#include <algorithm>
 #include <array>
 #include <bit>
 #include <memory>
