@@ -118,7 +118,7 @@ TEST(MapFaults, eightBitsInAFileOf16AreNamed)
 }
 
 // The command is run as it is printed; the picture is compared with the one before it was broken.
-TEST(MapFaults, theCommandThatInfoAndDetectPrintMendsTheFile)
+TEST(MapFaults, theCommandThatInfoAndDetectPrintFixesTheFile)
 {
     TemporaryFolder folder;
     const Image sound = someRelief(7);

@@ -3,8 +3,6 @@
 
 #include <gtest/gtest.h>
 
-#include "scene/normal_maps.hpp"
-
 namespace cotan {
 namespace {
 

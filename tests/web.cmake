@@ -20,7 +20,7 @@ endfunction()
 set(data ${PROJECT_SOURCE_DIR}/../shared/data)
 cotan_web_test(package_test ARGUMENTS $<TARGET_FILE:cotan_c> ${data}
   CASES bothWaysOfLoadingWork tangentsAreTheNativeOnesToTheBit lintAndConvertAreTheNativeOnes droppingTangentsNeverMakesAFileLarger
-    greenThatTangentsMeanIsNotMended modesOfConversionAreChosenAndRefused pngFilesLoseNothing
+    greenThatTangentsMeanIsNotFixed modesOfConversionAreChosenAndRefused pngFilesLoseNothing
     mapsConvertAndTellTheirGreen errorsSayWhatAndWhere encodePngLooksAtThePictureBeforeItBegins
     everyFunctionAnswersNonsenseWithACotanError whatNpmLacksIsSaidForUsersOfNpm badInputLeaksNothing badFilesAreRefusedOrRead itIsSmall)
 cotan_web_test(gltf_transform_test ARGUMENTS ${PROJECT_BINARY_DIR}/npm/node_modules ${data}

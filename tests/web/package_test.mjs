@@ -132,7 +132,7 @@ const cases = {
   },
 
   // By themselves its maps' green is wrong, with its tangents right: nothing is to be turned twice.
-  async greenThatTangentsMeanIsNotMended() {
+  async greenThatTangentsMeanIsNotFixed() {
     needsData();
     const place = path.join(data, 'models/SketchfabCat'), model = fs.readFileSync(path.join(place, 'scene.gltf')), files = {};
     for (const { uri } of [...JSON.parse(model).buffers, ...JSON.parse(model).images]) files[decodeURIComponent(uri)] = fs.readFileSync(path.join(place, decodeURIComponent(uri)));
