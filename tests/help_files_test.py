@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """The manual's pages and the completion of shells against --help and the tool itself, each shell asked for real.
-help_files_test.py TOOL SHARE man|bash|zsh|fish|words; exit code 77 and a reason where the program asked is missing."""
+help_files_test.py TOOL SHARE man|bash|zsh|fish|words; exit code 77 and a reason where the program asked is missing.
+SHARE: the folder that the tool wrote by --help-files, or `-`: it writes one now."""
 import os
 import pathlib
 import pty
@@ -12,7 +13,11 @@ import sys
 import tempfile
 import time
 
-tool, share, part = os.path.abspath(sys.argv[1]), pathlib.Path(sys.argv[2]).resolve(), sys.argv[3]
+tool, part = os.path.abspath(sys.argv[1]), sys.argv[3]
+written = tempfile.TemporaryDirectory()
+share = pathlib.Path(written.name if sys.argv[2] == "-" else sys.argv[2]).resolve()
+if sys.argv[2] == "-":
+    subprocess.run([tool, "--help-files", share], check=True)
 FRAMES = "cotangent cotangent-2013 nonperspective paper-full paper-nodet paper-transpose paper-orthogonal unit orthonormal " \
     "gradient exact smooth vertex mikktspace triangle".split()
 # Words that are taken and that nobody needs: what is always there.

@@ -17,7 +17,7 @@ from plant import HOME, WORK
 
 # Which tests could notice a mistake in a folder, the nearest first; `python:` and `c_api` run over the C library.
 TESTS = {
-    "apps/cotan": "words_test help_test cli_test command_line output_bytes:maps output_bytes:meshes output_bytes:pictures map_command_test bake_command_test tangents_command_test judgement_command_test files_test batch_test batch_command_test",
+    "apps/cotan": "words_test help_test cli_test command_line help_files:man help_files:words help_files:bash help_files:zsh help_files:fish output_bytes:maps output_bytes:meshes output_bytes:pictures map_command_test bake_command_test tangents_command_test judgement_command_test files_test batch_test batch_command_test",
     "apps/viewer": "viewer_test view_window_test",
     "bindings/js": "web",
     "bindings/python": "python:arrays python:bake python:maps python:models python:geometry python:render python:work python:json python:options",
@@ -147,9 +147,23 @@ def those_that_do_not_compile(output, changed):
             if "error" in what:
                 errors |= here
         bad |= errors or mentioned
-        if not mentioned:  # an error in a header of fmt names the file only where it says what included it
+        for name in set(re.findall(r"in function `.*?(\w+)\(", block)):  # what uses a template of types that has no instance
+            errors |= within_function(name, changed)
+        bad |= errors
+        if not mentioned and not errors:  # an error in a header of fmt names the file only where it says what included it
             files |= named or {name for name in changed if f"/source/{name}" in block}
     return bad | {n for file in files for n in changed[file][1]}
+
+
+def within_function(name, changed):
+    """The mistakes in the functions of that name, which begin and end at the left border."""
+    bad = set()
+    for text, spans in changed.values():
+        inside = False
+        for at, line in enumerate(text.split("\n"), 1):
+            inside = bool(re.match(rf"\w.*\b{name}\(", line)) or (inside and not re.match(r"\w|}", line))
+            bad |= {n for n, span in spans.items() if inside and at in span}
+    return bad
 
 
 def check_headers(changed, jobs):

@@ -103,6 +103,8 @@ def command_of(program):
     if name == "json_fields":
         return ["/usr/bin/python3", HOME / "tests/json_fields_test.py", BUILD / "bin/cotan",
                 HOME / "docs/reference/json.md"]
+    if name == "help_files":
+        return ["/usr/bin/python3", HOME / "tests/help_files_test.py", BUILD / "bin/cotan", "-", chosen]
     if name == "command_line":
         return [HOME / "docs/reference/make-command-line", BUILD / "bin/cotan", BUILD / "share", "--check"]
     return [BUILD / "tests" / name, "--gtest_brief=1", "--gtest_fail_fast"] + ([f"--gtest_filter={chosen}"] if chosen else [])
@@ -113,7 +115,7 @@ def library():
 
 
 SCRIPTS = {"python": {"cotan_c", "cotan"}, "c_api": {"cotan_c"}, "output_bytes": {"cotan", "cotan_lab"}, "option_effects": {"cotan", "cotan_lab"}, "two_renderers": {"cotan"}, "file_fields": {"cotan"}, "json_fields": {"cotan"},
-           "command_line": {"cotan"}}
+           "command_line": {"cotan"}, "help_files": {"cotan"}}
 
 
 def targets_of(program):
