@@ -12,9 +12,9 @@
 #include <glm/geometric.hpp>
 
 #include "bake/bake_surfaces.hpp"
+#include "bake/packets.hpp"
 #include "bake/surface/uv_raster.hpp"
 #include "cotan/model.hpp"
-#include "embree.hpp"
 
 using namespace cotan;
 

@@ -10,6 +10,7 @@
 #include <glm/mat3x3.hpp>
 
 #include "bake/bake_surfaces.hpp"
+#include "seen_high.hpp"
 #include "truth/quad.hpp"
 
 namespace cotan {
@@ -306,7 +307,7 @@ TEST(BakeHighMap, raysFromTheEyeFindTheMapToo)
     view.width = view.height = 16;
     view.camera.eye = {0.5f, 0.5f, 3};
     view.camera.target = {0.5f, 0.5f, 0};
-    const auto both = seeHigh(*low, *surface, options, view);
+    const auto both = app::seeHigh(*low, *surface, options, view);
     ASSERT_TRUE(both);
     const Image& seen = both->expected;
     EXPECT_EQ(both->others, 0u);

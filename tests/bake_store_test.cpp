@@ -9,6 +9,7 @@
 
 #include "bake/bake_surfaces.hpp"
 #include "bake_scene.hpp"
+#include "seen_high.hpp"
 
 namespace cotan {
 namespace {
@@ -372,7 +373,7 @@ TEST(SeenByHand, everyPixelShowsTheNormalOfThePlaceBehindIt)
     const auto low = makeLowSurface(sceneOfMeshes({unitSquare(0)}), -1, options.frame, TangentOrigin::generated);
     const auto surface = HighSurface::make({sceneOfMeshes({high})}, 1);
     ASSERT_TRUE(low && surface);
-    const auto seen = seeHigh(*low, *surface, options, view);
+    const auto seen = app::seeHigh(*low, *surface, options, view);
     ASSERT_TRUE(seen);
     const Image& image = seen->expected;
     ASSERT_EQ(image.data.size(), image.pixelCount() * image.bytesPerPixel());

@@ -17,6 +17,7 @@
 #include "map_files/convert.hpp"
 #include "map_files/height.hpp"
 #include "scene/environment_map.hpp"
+#include "seen_high.hpp"
 #include "smooth_report.hpp"
 
 namespace cotan {
@@ -37,7 +38,7 @@ TEST(EmptyResults, ofBakingCountNothing)
     EXPECT_FALSE(starts.bent);
     for (const float x : {starts.farthest, starts.skip, starts.limit})
         EXPECT_EQ(x, 0);
-    SeenHigh seen;
+    app::SeenHigh seen;
     EXPECT_EQ(seen.others, 0u);
     EXPECT_EQ(seen.compared, 0u);
 }

@@ -88,13 +88,13 @@ def add_language():
     names, table = copy / "src/shader_text/include/cotan/shader_text.hpp", copy / "src/shader_text/languages.cpp"
     replace(names, "};\ninline constexpr Language kLanguages[] = {", "    slang,\n};\ninline constexpr Language kLanguages[] = {")
     replace(names, "Language::cpp,  Language::godot};", "Language::cpp,  Language::godot, Language::slang};")
-    replace(table, "    return std::array{glsl, essl, hlsl, wgsl, msl, cpp, godot};", """
-    LanguageInfo slang = hlsl;
-    slang.name = "slang";
-    slang.title = "Slang";
-    slang.sample = "normal_map.Sample(uv).xyz";
-
-    return std::array{glsl, essl, hlsl, wgsl, msl, cpp, godot, slang};""")
+    replace(table, "};\nstatic_assert(std::size(kInfos)", """
+    {.name = "slang",
+     .title = "Slang",
+     .sample = "normal_map.Sample(uv).xyz",
+     .halfs = kHlslHalfs,
+     .grammar = {.words = &Word::hlsl}},
+};\nstatic_assert(std::size(kInfos)""")
     return [names, table]
 
 

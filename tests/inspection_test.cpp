@@ -90,6 +90,29 @@ TEST(Inspection, mirroredPartsAndStoredTangentsTellTheirSide)
     EXPECT_EQ(middleOf(scene, Inspection::w), mirrored);
 }
 
+TEST(Inspection, uvWithoutAreaAreNeitherMirroredNorNot)
+{
+    Scene scene = square(1, 0, true);
+    const glm::ivec3 without = middleOf(square(1, 0, true), Inspection::w); // grey: it has no tangents
+    scene.meshes[0].texcoords[0].assign(scene.meshes[0].vertexCount(), {0.25f, 0.5f});
+    EXPECT_EQ(middleOf(scene, Inspection::mirrored), without);
+    scene.meshes[0].texcoords[0].clear();
+    EXPECT_EQ(middleOf(scene, Inspection::mirrored), without);
+}
+
+// An `up` along the line of sight says nothing: y takes its place, as it does where the picture is drawn.
+TEST(Inspection, aCameraWithoutUpPicksWhatItDraws)
+{
+    Scene scene = square(1, 0, false);
+    View view = straightOn();
+    const auto upright = pick(scene, view.camera, {16, 16}, {3, 4});
+    view.camera.up = {0, 0, 1};
+    const auto without = pick(scene, view.camera, {16, 16}, {3, 4});
+    ASSERT_TRUE(upright && without);
+    EXPECT_EQ(upright->triangle, without->triangle);
+    EXPECT_EQ(upright->barycentric, without->barycentric);
+}
+
 TEST(Inspection, theInsideOfASurfaceIsSeenInAnotherColour)
 {
     const Scene scene = square(1, 0, false);

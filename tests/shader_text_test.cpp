@@ -9,8 +9,7 @@
 
 #include "cotan/shader_text.hpp"
 #include "languages.hpp"
-#include "parse.hpp"
-#include "specialise.hpp"
+#include "syntax.hpp"
 
 namespace cotan::shader_text {
 namespace {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "bake/bake_model.hpp"
+#include "bake/bake_surfaces.hpp"
 #include "common.hpp"
 #include "loading.hpp"
 

@@ -9,6 +9,7 @@
 #include "inspect/angles.hpp"
 #include "scene/geometry.hpp"
 #include "scene/normal_maps.hpp"
+#include "seen_high.hpp"
 
 namespace cotan::app {
 

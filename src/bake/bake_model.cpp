@@ -1,5 +1,3 @@
-#include "bake/bake_model.hpp"
-
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -7,6 +5,7 @@
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
 
+#include "bake/bake_surfaces.hpp"
 #include "core/named_values.hpp"
 #include "cotan/covector.hpp"
 #include "scene/geometry.hpp"
@@ -76,12 +75,14 @@ Status checkScenes(const Scene& low, const HighModel& high, const BakeModelOptio
     return sound;
 }
 
-// The cage's corner positions, brought to the vertices of the low surface.
-Result<std::vector<glm::vec3>> cagePositions(const Scene& cage, const LowSurface& low)
+// The cage's corner positions, brought to the vertices of the low surface; none without a cage.
+Result<std::vector<glm::vec3>> cagePositions(const Scene* cage, const LowSurface& low)
 {
-    std::vector<glm::vec3> corners;
-    for (const Instance& instance : cage.instances) {
-        const Mesh& mesh = cage.meshes[std::size_t(instance.mesh)];
+    std::vector<glm::vec3> corners, positions;
+    if (!cage)
+        return positions;
+    for (const Instance& instance : cage->instances) {
+        const Mesh& mesh = cage->meshes[std::size_t(instance.mesh)];
         for (std::uint32_t i : mesh.indices)
             corners.push_back(glm::vec3(instance.toWorld * glm::vec4(mesh.positions[i], 1)));
     }
@@ -89,7 +90,7 @@ Result<std::vector<glm::vec3>> cagePositions(const Scene& cage, const LowSurface
         return about("options.cage",
                      inputError(fmt::format("expected a cage of {} triangles, as the low mesh has; found {}",
                                             low.triangleCount(), corners.size() / 3)));
-    std::vector<glm::vec3> positions(low.positions.size());
+    positions.resize(low.positions.size());
     for (std::size_t i = 0; i < corners.size(); ++i)
         positions[low.indices[i]] = corners[i];
     return positions;
@@ -226,16 +227,8 @@ Result<std::vector<std::int64_t>> matches(const Scene& low, const HighSurface& h
     return result;
 }
 
-constexpr int kFirstUdim = 1001; // 1001 + u + 10 v, v upwards
+constexpr int kFirstUdim = 1001; // 1001 + u + 10 v, v upwards from the bottom of the first tile
 constexpr int kUdimColumns = 10;
-
-// The unit square of uv of a UDIM tile. The numbers count v upwards from the bottom of the first
-// tile, our v runs down from its top.
-glm::ivec2 squareOf(int udim)
-{
-    const int n = udim - kFirstUdim;
-    return {n % kUdimColumns, -(n / kUdimColumns)};
-}
 
 } // namespace
 
@@ -248,13 +241,9 @@ Result<BakeSetup> prepareBake(const Scene& low, HighModel high, const BakeModelO
     auto lowSurface = makeLowSurface(low, options.material, options.bake.frame, options.tangents);
     if (!lowSurface)
         return lowSurface.error();
-    std::vector<glm::vec3> cage;
-    if (options.cage) {
-        auto positions = cagePositions(*options.cage, *lowSurface);
-        if (!positions)
-            return positions.error();
-        cage = std::move(*positions);
-    }
+    auto cage = cagePositions(options.cage, *lowSurface);
+    if (!cage)
+        return cage.error();
     for (Scene& scene : high.scenes)
         if (!options.matchByName) // nobody asks for a part of it
             joinParts(scene);
@@ -262,7 +251,7 @@ Result<BakeSetup> prepareBake(const Scene& low, HighModel high, const BakeModelO
     if (!highSurface)
         return highSurface.error();
     for (const Status& placed :
-         {checkPlaces(lowSurface->positions, "low"), checkArea(*lowSurface), checkPlaces(cage, "options.cage"),
+         {checkPlaces(lowSurface->positions, "low"), checkArea(*lowSurface), checkPlaces(*cage, "options.cage"),
           checkPlaces({highSurface->box().low, highSurface->box().high}, "high")})
         if (!placed)
             return placed.error();
@@ -271,7 +260,7 @@ Result<BakeSetup> prepareBake(const Scene& low, HighModel high, const BakeModelO
     BakeSetup setup{std::move(*lowSurface), std::move(*highSurface), options, {}};
     BakeOptions& bake = setup.options.bake;
     setup.options.cage = setup.options.others = nullptr;
-    bake.cage = std::move(cage);
+    bake.cage = std::move(*cage);
     bake.highMaps = nullptr;
     bake.matched.clear();
     if (bake.highNormals == HighNormals::curved)
@@ -296,7 +285,8 @@ Result<BakedMap> bakeTile(const BakeSetup& setup, int tile, const Progress& prog
     if (tile < kFirstUdim)
         return wrong("options.tiles", "expected numbers from {} on; found {}", kFirstUdim, tile);
     BakeOptions options = setup.options.bake;
-    options.tile = squareOf(tile);
+    const int n = tile - kFirstUdim;
+    options.tile = {n % kUdimColumns, -(n / kUdimColumns)}; // our v runs down from the top of the first tile
     auto baked = bake(setup.low, setup.high, options, progress);
     if (!baked)
         return baked.error();
@@ -307,15 +297,13 @@ Result<BakedMap> bakeTile(const BakeSetup& setup, int tile, const Progress& prog
     if (setup.options.padding >= 0)
         padCharts(*baked, setup.options.padding);
     baked->statistics.padSeconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    BakedMap map;
-    map.tile = tile;
-    map.image = storeBaked(*baked, options.kind, setup.options.stored);
+    BakedMap map{.tile = tile,
+                 .image = storeBaked(*baked, options.kind, setup.options.stored),
+                 .format = storedFormat(options.kind, setup.options.stored.format),
+                 .mask = setup.options.mask ? maskOf(*baked) : Image(),
+                 .statistics = baked->statistics};
     if (options.kind == BakeKind::normal)
         map.image.frame = name(options.frame);
-    map.format = storedFormat(options.kind, setup.options.stored.format);
-    if (setup.options.mask)
-        map.mask = maskOf(*baked);
-    map.statistics = baked->statistics;
     return map;
 }
 

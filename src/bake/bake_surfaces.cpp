@@ -4,6 +4,7 @@
 #include <array>
 #include <chrono>
 #include <cmath>
+#include <limits>
 #include <mutex>
 #include <span>
 
@@ -11,23 +12,18 @@
 
 #include <glm/geometric.hpp>
 
+#include "bake/surface/nearest_texels.hpp"
 #include "bake/surface/uv_raster.hpp"
 #include "baker.hpp"
 #include "core/loops.hpp"
 #include "scene/parts.hpp"
+#include "scene/texture_sample.hpp"
 
 namespace cotan {
 
 namespace {
 
 constexpr double kMaxRows = 4e7; // of texels under all triangles, and two a texel
-
-using StateCounts = std::array<std::size_t, 256>; // how many texels are in each combination of TexelState
-
-struct Counts {
-    std::size_t rays = 0;
-    StateCounts states{};
-};
 
 // Bakes the texels of blocks of rows. One for each thread: keeps its memory.
 class BlockBaker {
@@ -40,7 +36,7 @@ public:
 
     // Bakes rows from `first` to before `last`, whose samples are a block of the raster, and counts its texels and
     // rays.
-    void bake(int block, int first, int last, Counts& counts)
+    void bake(int block, int first, int last)
     {
         raster_.firsts(block, samples_);
         base_ = std::size_t(first) * std::size_t(out_.width);
@@ -51,14 +47,31 @@ public:
         suspicious_ = false;
         for (std::size_t i = 0; i < samples_.places.size(); i += kLanes) {
             const std::size_t count = std::min(kLanes, samples_.places.size() - i);
-            counts.rays += bakePacket({&samples_.texels[i], count}, {&samples_.places[i], count});
+            bakePacket({&samples_.texels[i], count}, {&samples_.places[i], count});
         }
         for (const glm::ivec2& sample : samples_.again)
             mark(texelOf(sample), texelTwice);
         for (std::size_t i = 0; i < texels; ++i) {
             if (found_[i] > 0)
                 out_.values[base_ + i] = finished(sums_[i], found_[i]);
-            ++counts.states[out_.states[base_ + i]];
+            ++states_[out_.states[base_ + i]];
+        }
+    }
+
+    // Adds the counts of all its blocks.
+    void addTo(BakeStatistics& s) const
+    {
+        s.rays += rays_;
+        for (std::size_t state = 0; state < states_.size(); ++state) {
+            const std::size_t texels = states_[state];
+            s.texels += texels;
+            s.covered += (state & texelCovered) != 0 ? texels : 0;
+            s.touched += (state & texelTouched) != 0 && (state & texelCovered) == 0 ? texels : 0;
+            s.missed += (state & texelMissed) != 0 && (state & texelCovered) != 0 ? texels : 0;
+            s.further += (state & texelFurther) != 0 && (state & texelCovered) != 0 ? texels : 0;
+            s.nearer += (state & texelNearer) != 0 && (state & texelCovered) != 0 ? texels : 0;
+            s.negative += (state & texelNegative) != 0 ? texels : 0;
+            s.twice += (state & texelTwice) != 0 ? texels : 0;
         }
     }
 
@@ -77,8 +90,7 @@ private:
     }
     void mark(std::size_t texel, int flag) { out_.states[texel] = std::uint8_t(out_.states[texel] | flag); }
 
-    // Returns how many rays were traced.
-    std::size_t bakePacket(std::span<const glm::ivec2> samples, std::span<const UvSample> places)
+    void bakePacket(std::span<const glm::ivec2> samples, std::span<const UvSample> places)
     {
         Traced& traced = traced_[packet_ % traced_.size()];
         Probes& probes = traced.probes;
@@ -86,11 +98,11 @@ private:
         traced.samples = samples;
         pointsOf(low_, places, points_);
         baker_.aim(points_, places, probes);
-        std::size_t rays = baker_.find(places, probes, hits);
-        rays += baker_.valuesOf(points_, probes, hits, samples, values_);
+        rays_ += baker_.find(places, probes, hits);
+        rays_ += baker_.valuesOf(points_, probes, hits, samples, values_);
         Lanes<int> further{};
-        rays += baker_.somethingFurther(probes, hits, further);
-        rays += askForNearer();
+        rays_ += baker_.somethingFurther(probes, hits, further);
+        askForNearer();
         for (std::size_t i = 0; i < samples.size(); ++i) {
             const std::size_t texel = texelOf(samples[i]);
             int flags = places[i].covers ? texelCovered : texelTouched;
@@ -105,28 +117,24 @@ private:
             }
             mark(texel, flags);
         }
-        return rays;
     }
 
     // Marks texels on which another surface lies nearer. That costs a ray: asked are packets that found something far
-    // off; of the others every fourth, the three before one that says yes, and all after it until one says no. Returns
-    // how many rays were traced.
-    std::size_t askForNearer()
+    // off; of the others every fourth, the three before one that says yes, and all after it until one says no.
+    void askForNearer()
     {
         const std::size_t every = traced_.size(), now = packet_++;
         if (!suspicious_ && now % every != 0 && !baker_.standsOff(traced_[now % every].hits))
-            return 0;
+            return;
         const bool before = suspicious_;
-        std::size_t rays = 0;
-        suspicious_ = markNearer(traced_[now % every], rays);
+        suspicious_ = markNearer(traced_[now % every]);
         for (std::size_t back = 1; suspicious_ && !before && back < every && back <= now; ++back)
-            markNearer(traced_[(now - back) % every], rays);
-        return rays;
+            markNearer(traced_[(now - back) % every]);
     }
-    bool markNearer(const Traced& traced, std::size_t& rays)
+    bool markNearer(const Traced& traced)
     {
         Lanes<int> nearer{};
-        rays += baker_.somethingNearer(traced.probes, traced.hits, nearer);
+        rays_ += baker_.somethingNearer(traced.probes, traced.hits, nearer);
         bool any = false;
         for (std::size_t i = 0; i < traced.samples.size(); ++i)
             if (nearer[i]) {
@@ -162,6 +170,8 @@ private:
     std::size_t packet_ = 0;       // how many of the block came before
     bool suspicious_ = false;      // the last one that was asked has something nearer
     Lanes3 values_;
+    std::size_t rays_ = 0;
+    std::array<std::size_t, 256> states_{}; // how many texels are in each combination of TexelState
 };
 
 // The low surface's triangles without those that have the same uv as two earlier ones: the first of them is baked, the
@@ -203,21 +213,6 @@ Status checkRows(const UvTriangles& triangles, glm::dvec2 size)
     return Done{};
 }
 
-void countTexels(const StateCounts& states, BakeStatistics& s)
-{
-    for (std::size_t state = 0; state < states.size(); ++state) {
-        const std::size_t texels = states[state];
-        s.texels += texels;
-        s.covered += (state & texelCovered) != 0 ? texels : 0;
-        s.touched += (state & texelTouched) != 0 && (state & texelCovered) == 0 ? texels : 0;
-        s.missed += (state & texelMissed) != 0 && (state & texelCovered) != 0 ? texels : 0;
-        s.further += (state & texelFurther) != 0 && (state & texelCovered) != 0 ? texels : 0;
-        s.nearer += (state & texelNearer) != 0 && (state & texelCovered) != 0 ? texels : 0;
-        s.negative += (state & texelNegative) != 0 ? texels : 0;
-        s.twice += (state & texelTwice) != 0 ? texels : 0;
-    }
-}
-
 void countTriangles(const LowSurface& low, BakeStatistics& statistics)
 {
     for (std::size_t f = 0; f < low.triangleCount(); ++f) {
@@ -244,11 +239,8 @@ Result<Baked> bake(const LowSurface& low, const HighSurface& high, const BakeOpt
     if (options.starts && options.starts->directions.size() != low.positions.size())
         return about("options.starts", usageError("made for another low surface"));
     const auto start = std::chrono::steady_clock::now();
-    Baked out;
-    out.width = options.width;
-    out.height = options.height;
-    out.values.assign(std::size_t(options.width) * std::size_t(options.height), glm::vec3(0));
-    out.states.assign(out.values.size(), 0);
+    const std::size_t texels = std::size_t(options.width) * std::size_t(options.height);
+    Baked out{options.width, options.height, std::vector(texels, glm::vec3(0)), std::vector<std::uint8_t>(texels), {}};
     const std::vector<std::uint32_t> indices = indicesToBake(low);
     const UvTriangles triangles{low.texcoords, indices};
     const glm::ivec2 size(options.width * options.samples, options.height * options.samples);
@@ -262,16 +254,14 @@ Result<Baked> bake(const LowSurface& low, const HighSurface& high, const BakeOpt
         const int rows = UvRaster::kBlockRows / options.samples; // of texels in a block of samples
         parallelRanges(0, raster.blocks(), 1, [&](int begin, int end) {
             BlockBaker baking(low, baker, raster, options, out);
-            Counts counts;
             for (int block = begin; block != end && !done.stopped(); ++block) {
                 const int first = block * rows, last = std::min(first + rows, options.height);
-                baking.bake(block, first, last, counts);
+                baking.bake(block, first, last);
                 for (int y = first; y < last; ++y)
                     done.step();
             }
             const std::lock_guard lock(counting);
-            out.statistics.rays += counts.rays;
-            countTexels(counts.states, out.statistics);
+            baking.addTo(out.statistics);
         });
     });
     if (done.stopped())
@@ -282,6 +272,116 @@ Result<Baked> bake(const LowSurface& low, const HighSurface& high, const BakeOpt
     s.rayStart = options.starts ? options.starts->farthest : 0;
     s.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     return out;
+}
+
+// ---- how it is stored -------------------------------------------------------------------------
+
+namespace {
+
+// An 8x8 ordered pattern (B. Bayer 1973) in [0,1): the same for the same place.
+float bayer(int x, int y)
+{
+    unsigned v = 0;
+    for (int bit = 0; bit < 3; ++bit) {
+        const unsigned a = unsigned(x >> bit) & 1u, b = unsigned(y >> bit) & 1u;
+        v = (v << 2) | ((a ^ b) << 1) | b;
+    }
+    return (float(v) + 0.5f) / 64;
+}
+
+struct Writer {
+    Image image;
+    bool dither;
+
+    void put(std::size_t i, glm::vec3 c)
+    {
+        const float channels[4] = {c.x, c.y, c.z, 1};
+        const int x = int(i % std::size_t(image.width)), y = int(i / std::size_t(image.width));
+        const float offset = dither && image.type == PixelType::unorm8 ? bayer(x, y) : 0.5f;
+        for (std::size_t k = 0; k < 4; ++k) {
+            const float v = std::clamp(channels[k], 0.0f, 1.0f);
+            if (image.type == PixelType::float32)
+                image.floats()[4 * i + k] = channels[k];
+            else if (image.type == PixelType::unorm16)
+                image.words()[4 * i + k] = std::uint16_t(v * 65535 + 0.5f);
+            else
+                image.bytes8()[4 * i + k] =
+                    std::uint8_t(std::min(std::floor(v * 255 + (k < 3 ? offset : 0.5f)), 255.0f));
+        }
+    }
+};
+
+} // namespace
+
+void padCharts(Baked& baked, int radius)
+{
+    std::vector<std::uint32_t> owner(baked.values.size(), kNoTexel);
+    for (std::size_t i = 0; i < owner.size(); ++i)
+        if ((baked.states[i] & (texelCovered | texelTouched)) != 0 && baked.values[i] != glm::vec3(0))
+            owner[i] = std::uint32_t(i);
+    spreadNearest(owner, baked.width, baked.height, AskFirst::above);
+    const std::int64_t limit = radius > 0 ? std::int64_t(radius) * radius : std::numeric_limits<std::int64_t>::max();
+    for (std::size_t i = 0; i < owner.size(); ++i) {
+        if (owner[i] == kNoTexel || owner[i] == i || distance2(owner[i], std::uint32_t(i), baked.width) > limit)
+            continue;
+        baked.values[i] = baked.values[owner[i]];
+        baked.states[i] = std::uint8_t(baked.states[i] | texelPadded);
+    }
+}
+
+Convention storedFormat(BakeKind kind, Convention format)
+{
+    if (kind == BakeKind::objectNormal) // three axes of a mesh, as they are
+        format = {MapKind::objectSpace, format.expansion, Channels::xyz, true, VDirection::up};
+    return format;
+}
+
+Image storeBaked(const Baked& baked, BakeKind kind, const StoredAs& as)
+{
+    Writer writer{makeImage(baked.width, baked.height, as.type), as.dither};
+    const bool direction = showsNormals(kind);
+    float low = 0, scale = 1;
+    if (kind == BakeKind::height && as.type != PixelType::float32) {
+        float least = 1e30f, most = -1e30f;
+        for (std::size_t i = 0; i < baked.values.size(); ++i)
+            if (baked.values[i].z != 0) {
+                least = std::min(least, baked.values[i].x);
+                most = std::max(most, baked.values[i].x);
+            }
+        low = least;
+        scale = most > least ? 1 / (most - least) : 0;
+    }
+    const f32::cotan_normal_format portableFormat =
+        toFormat<f32::cotan_normal_format>(storedFormat(kind, as.format), as.type);
+    const glm::vec3 empty = !direction   ? glm::vec3(0)
+        : kind == BakeKind::objectNormal ? glm::vec3(f32::cotan_compress(0, portableFormat.expansion))
+                                         : f32::cotan_encode_texel(glm::vec3(0, 0, 1), portableFormat);
+    const auto stored = [&](glm::vec3 v) {
+        if (direction)
+            return v == glm::vec3(0) ? empty : f32::cotan_encode_texel(v, portableFormat);
+        return v.z != 0 ? glm::vec3((v.x - low) * scale) : empty;
+    };
+    parallelRanges<std::size_t>(0, baked.values.size(), 1 << 14, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i != end; ++i)
+            writer.put(i, stored(baked.values[i]));
+    });
+    return std::move(writer.image);
+}
+
+Image maskOf(const Baked& baked)
+{
+    Writer writer{makeImage(baked.width, baked.height, PixelType::unorm8), false};
+    for (std::size_t i = 0; i < baked.states.size(); ++i) {
+        const std::uint8_t s = baked.states[i];
+        writer.put(i,
+                   s & texelMissed         ? glm::vec3(1, 0, 0)
+                       : s & texelNegative ? glm::vec3(0, 0.3f, 1)
+                       : s & texelTwice    ? glm::vec3(1, 1, 0)
+                       : s & texelCovered  ? glm::vec3(0, 0.7f, 0)
+                       : s & texelTouched  ? glm::vec3(0, 0.35f, 0)
+                                           : glm::vec3(0));
+    }
+    return std::move(writer.image);
 }
 
 } // namespace cotan

@@ -1,6 +1,7 @@
 // From a detailed surface to a map on a simple one.
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "bake/high_normal_maps.hpp"
@@ -9,7 +10,6 @@
 #include "bake/surface/low_surface.hpp"
 #include "cotan/bake.hpp"
 #include "cotan/result.hpp"
-#include "cotan/view.hpp"
 
 namespace cotan {
 
@@ -31,22 +31,6 @@ Result<Baked> bake(const LowSurface& low, const HighSurface& high, const BakeOpt
 // Measures options.starts where bake() needs them and they are null. Errors: those of makeRayStarts.
 Status measureRayStarts(const LowSurface& low, const HighSurface& high, BakeOptions& options, const LowRest& rest = {});
 
-// What a camera sees of the high surface, and what a map should show of it.
-struct SeenHigh {
-    Image normals;  // of the high surface itself, where rays from the eye meet it; float32, alpha 1 there
-    Image expected; // the normals that the pixels of the low surface should show; float32, alpha 1 where one is known
-    std::vector<std::uint8_t> other; // one a pixel: 1 where `expected` is known and bake() takes another surface
-    std::size_t others = 0, compared = 0;
-};
-
-// Looks at both surfaces with the camera of `view`. A pixel of the low surface should show the outermost surface on the
-// baker's line through its point that faces outwards and that the camera really sees: rays from the eye decide, not the
-// baker's rule. Nothing further off than RayStarts::limit counts, nor behind another part of the low surface; where the
-// camera sees nothing on the line, nothing is known. Two surfaces are different if they lie 0.001 of the diagonal of
-// the low surface's box apart.
-// Errors: those of LowTree::make and makeRayStarts.
-Result<SeenHigh> seeHigh(const LowSurface& low, const HighSurface& high, const BakeOptions& options, const View& view);
-
 // Fills texels without a value from the nearest one that has one, up to `radius` texels away (0: no
 // limit), ties to the upper, then the left. So every texel belongs to its nearest chart.
 void padCharts(Baked& baked, int radius);
@@ -61,5 +45,30 @@ Image storeBaked(const Baked& baked, BakeKind kind, const StoredAs& as);
 
 // States as colours: covered green, touched dark green, missed red, negative blue, twice yellow.
 Image maskOf(const Baked& baked);
+
+// ---- the steps of bakeModel -------------------------------------------------------------------
+
+// For who wants to do something between them: all is prepared once, then each tile baked.
+
+// What a bake works on.
+struct BakeSetup {
+    LowSurface low;
+    HighSurface high;
+    BakeModelOptions options;          // as given; in options.bake what was derived. `cage` is null
+    std::vector<std::string> warnings; // one line each
+};
+
+// Derives what the frame needs on the simple scene, the acceleration structure over the detailed ones, the cage's
+// vertices and the matches.
+// Errors: those of checkScene, makeLowSurface, HighSurface::make and HighNormalMaps::make. One about an option begins
+// with its name, "options.material: ". ErrorKind::usage: a size, number of samples, frame, distance, number of rays,
+// material or number of maps out of range, or no tile; ErrorKind::input: a cage of another number of triangles, a mesh
+// without its match. An extrusion or the search `nearest` together with a cage are ErrorKind::usage, too.
+Result<BakeSetup> prepareBake(const Scene& low, HighModel high, const BakeModelOptions& options);
+
+// Bakes one tile, fills around its charts and stores it. `progress` is called from several threads, not always in
+// order. Errors: ErrorKind::input where no triangle lies on the tile, ErrorKind::usage for a number below 1001; both
+// begin with "options.tiles: "; ErrorKind::stopped.
+Result<BakedMap> bakeTile(const BakeSetup& setup, int tile, const Progress& progress = {});
 
 } // namespace cotan

@@ -5,7 +5,7 @@
 
 #include <glm/geometric.hpp>
 
-#include "core/list_by_group.hpp"
+#include "core/groups.hpp"
 #include "core/loops.hpp"
 #include "core/other_axis.hpp"
 

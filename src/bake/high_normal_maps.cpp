@@ -48,11 +48,9 @@ Result<HighNormalMaps> HighNormalMaps::make(std::vector<Scene>& scenes, Frame fr
             auto surface = makeLowSurface(scene, -1, frame, TangentOrigin::stored, {&instance, 1});
             if (!surface)
                 return surface.error();
-            part.surface = std::move(*surface);
-            part.image = &picture;
-            part.sampler = map.sampler;
-            part.format =
-                toFormat<f64::cotan_normal_format>(material.normalFormat, picture.type, double(material.normalScale));
+            part = {
+                std::move(*surface), &picture, map.sampler,
+                toFormat<f64::cotan_normal_format>(material.normalFormat, picture.type, double(material.normalScale))};
             ++maps.mapped_;
         }
     }

@@ -1,6 +1,7 @@
 #include "bake/high_surface.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -114,14 +115,10 @@ struct HighSurface::State {
         const Part& part = parts[instance];
         if (part.shapes.empty())
             return glm::vec3(0);
-        CurvedTriangle corners;
-        for (std::size_t i = 0; i < 3; ++i) {
-            const std::uint32_t v = part.indices[3 * std::size_t(triangle) + i];
-            corners.positions[i] = part.positions[v];
-            corners.normals[i] = part.normals[v];
-            corners.shapes[i] = part.shapes[v];
-        }
-        return cotan::curvedNormal(corners, b1, b2, direction);
+        const std::uint32_t* const v = &part.indices[3 * std::size_t(triangle)];
+        const auto ofCorners = [v](const auto& values) { return std::array{values[v[0]], values[v[1]], values[v[2]]}; };
+        return cotan::curvedNormal({ofCorners(part.positions), ofCorners(part.normals), ofCorners(part.shapes)}, b1, b2,
+                                   direction);
     }
     // The normals of hits that are complete otherwise.
     void findNormals(const Probes& probes, HighNormals normals, Hits& hits) const
@@ -226,7 +223,7 @@ Hit HighSurface::trace(const Ray& ray) const
 
 void HighSurface::nearest(const Probes& probes, float lift, HighNormals normals, Hits& hits) const
 {
-    const Asked context = asked(state_->fronts, filterFor(probes));
+    const Asked context = asked(probes, state_->fronts);
     Lanes<float> lifts, farthest;
     for (std::size_t i = 0; i < kLanes; ++i) {
         lifts[i] = lift;
@@ -258,7 +255,7 @@ void HighSurface::nearest(const Probes& probes, float lift, HighNormals normals,
 
 void HighSurface::outermost(const Probes& probes, HighNormals normals, Hits& hits) const
 {
-    const Asked context = asked(state_->fronts, filterFor(probes));
+    const Asked context = asked(probes, state_->fronts);
     Lanes<float> farthest;
     for (std::size_t i = 0; i < kLanes; ++i)
         farthest[i] = probes.before[i] + probes.reach[i];
@@ -272,8 +269,8 @@ void HighSurface::outermost(const Probes& probes, HighNormals normals, Hits& hit
         hits.away[i] = packet.foundAway(i, state_->fronts, normal) ? 1 : 0;
         if (!hits.away[i])
             continue;
-        Asked facing = asked(state_->fronts, keepFacing); // what faces the low surface counts where there is any
-        facing.normal = normal;
+        // What faces the low surface counts where there is any.
+        const Asked facing{RayQuery(Coherence::coherent, keepFacing), state_->fronts.data(), normal};
         packet.traceAlone(i, state_->embree.scene, facing);
         hits.away[i] = packet.foundAway(i, state_->fronts, normal) ? 1 : 0;
     }
@@ -289,7 +286,7 @@ void HighSurface::anyBetween(const Probes& probes, Lanes<int>& any) const
     for (std::size_t i = 0; i < kLanes; ++i)
         farthest[i] = probes.before[i] + probes.reach[i];
     Packet packet(probes, probes.before, -1, farthest);
-    Asked context = asked(state_->fronts, filterFor(probes));
+    Asked context = asked(probes, state_->fronts);
     occluded(packet.valid.data(), state_->embree.scene, context.query, packet.rays.ray);
     for (std::size_t i = 0; i < kLanes; ++i)
         any[i] = packet.valid[i] != 0 && packet.rays.ray.tfar[i] < 0; // Embree's mark for an occluded ray

@@ -6,13 +6,105 @@
 #include <cmath>
 #include <limits>
 
+#if COTAN_EMBREE_MAJOR == 3
+#include <embree3/rtcore.h>
+#else
+#include <embree4/rtcore.h>
+#endif
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
 
 #include "bake/high_surface.hpp"
-#include "embree.hpp"
 
 namespace cotan {
+
+// ---- Embree 3 or 4: all in which the two differ -----------------------------------------------
+
+enum class Coherence { incoherent, coherent };
+
+#if COTAN_EMBREE_MAJOR == 3
+
+// Lets scenes take filters from a query.
+inline constexpr RTCSceneFlags kFiltersInQueries = RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION;
+
+// What a trace is given beside its rays: how they lie to one another, and a filter or null. Filters find the context at
+// the start of it.
+struct RayQuery {
+    RTCIntersectContext context;
+
+    explicit RayQuery(Coherence coherence, RTCFilterFunctionN filter = nullptr)
+    {
+        rtcInitIntersectContext(&context);
+        context.flags = coherence == Coherence::coherent ? RTC_INTERSECT_CONTEXT_FLAG_COHERENT
+                                                         : RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
+        context.filter = filter;
+    }
+};
+
+inline void intersect(RTCScene scene, RayQuery& query, RTCRayHit& ray) { rtcIntersect1(scene, &query.context, &ray); }
+inline void intersect(const int* valid, RTCScene scene, RayQuery& query, RTCRayHit16& rays)
+{
+    rtcIntersect16(valid, scene, &query.context, &rays);
+}
+// Rays that meet something have a negative tfar then.
+inline void occluded(RTCScene scene, RayQuery& query, RTCRay& ray) { rtcOccluded1(scene, &query.context, &ray); }
+inline void occluded(const int* valid, RTCScene scene, RayQuery& query, RTCRay16& rays)
+{
+    rtcOccluded16(valid, scene, &query.context, &rays);
+}
+
+#else
+
+inline constexpr RTCSceneFlags kFiltersInQueries = RTC_SCENE_FLAG_FILTER_FUNCTION_IN_ARGUMENTS;
+
+struct RayQuery {
+    RTCRayQueryContext context;
+    RTCRayQueryFlags flags;
+    RTCFilterFunctionN filter;
+
+    explicit RayQuery(Coherence coherence, RTCFilterFunctionN filter_ = nullptr) : filter(filter_)
+    {
+        rtcInitRayQueryContext(&context);
+        const int order =
+            coherence == Coherence::coherent ? RTC_RAY_QUERY_FLAG_COHERENT : RTC_RAY_QUERY_FLAG_INCOHERENT;
+        flags = RTCRayQueryFlags(order | (filter ? RTC_RAY_QUERY_FLAG_INVOKE_ARGUMENT_FILTER : 0));
+    }
+    // RTCIntersectArguments or RTCOccludedArguments, of which init sets the rest.
+    template<class Arguments> Arguments arguments(void (*init)(Arguments*))
+    {
+        Arguments a;
+        init(&a);
+        a.flags = flags;
+        a.filter = filter;
+        a.context = &context;
+        return a;
+    }
+};
+
+inline void intersect(RTCScene scene, RayQuery& query, RTCRayHit& ray)
+{
+    RTCIntersectArguments arguments = query.arguments(rtcInitIntersectArguments);
+    rtcIntersect1(scene, &ray, &arguments);
+}
+inline void intersect(const int* valid, RTCScene scene, RayQuery& query, RTCRayHit16& rays)
+{
+    RTCIntersectArguments arguments = query.arguments(rtcInitIntersectArguments);
+    rtcIntersect16(valid, scene, &rays, &arguments);
+}
+inline void occluded(RTCScene scene, RayQuery& query, RTCRay& ray)
+{
+    RTCOccludedArguments arguments = query.arguments(rtcInitOccludedArguments);
+    rtcOccluded1(scene, &ray, &arguments);
+}
+inline void occluded(const int* valid, RTCScene scene, RayQuery& query, RTCRay16& rays)
+{
+    RTCOccludedArguments arguments = query.arguments(rtcInitOccludedArguments);
+    rtcOccluded16(valid, scene, &rays, &arguments);
+}
+
+#endif
+
+// ---- triangles and rays -----------------------------------------------------------------------
 
 // A scene of Embree's, on a device of its own. The arrays that are added must outlive it.
 struct EmbreeScene {
@@ -142,17 +234,12 @@ inline void keepFacing(const RTCFilterFunctionNArguments* a)
     }
 }
 
-// A filter costs a call for each candidate; most scenes need none: null.
-inline Asked asked(const std::vector<float>& fronts, RTCFilterFunctionN filter)
-{
-    return {RayQuery(Coherence::coherent, filter), fronts.data()};
-}
-
-inline RTCFilterFunctionN filterFor(const Probes& probes)
+// A filter costs a call for each candidate; most scenes need none.
+inline Asked asked(const Probes& probes, const std::vector<float>& fronts)
 {
     const bool filtered = std::any_of(probes.only.begin(), probes.only.begin() + std::ptrdiff_t(probes.count),
                                       [](std::uint32_t only) { return only != Probes::kAny; });
-    return filtered ? keepOnly : nullptr;
+    return {RayQuery(Coherence::coherent, filtered ? keepOnly : nullptr), fronts.data()};
 }
 
 static_assert(Hits::kNothing == RTC_INVALID_GEOMETRY_ID && kLanes == 16);
@@ -204,13 +291,7 @@ struct Packet {
         if (one.hit.geomID == RTC_INVALID_GEOMETRY_ID)
             return;
         rays.ray.tfar[i] = one.ray.tfar;
-        rays.hit.geomID[i] = one.hit.geomID;
-        rays.hit.primID[i] = one.hit.primID;
-        rays.hit.u[i] = one.hit.u;
-        rays.hit.v[i] = one.hit.v;
-        rays.hit.Ng_x[i] = one.hit.Ng_x;
-        rays.hit.Ng_y[i] = one.hit.Ng_y;
-        rays.hit.Ng_z[i] = one.hit.Ng_z;
+        rtcCopyHitToHitN(reinterpret_cast<RTCHitN*>(&rays.hit), &one.hit, kLanes, unsigned(i));
     }
     // Something was found that faces away.
     bool foundAway(std::size_t i, const std::vector<float>& fronts, glm::vec3 normal) const

@@ -13,9 +13,9 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
+#include "bake/surface/surface_triangle.hpp"
 #include "core/loops.hpp"
 #include "cotan/vector.hpp"
-#include "high_points.hpp"
 
 namespace cotan {
 
@@ -33,6 +33,7 @@ constexpr double kMaxAsked = 2e7;            // triangles that all points togeth
 constexpr std::size_t kTried = 256;          // triangles that say how many a point looks at
 constexpr std::size_t kCrowded = 2000;       // triangles that half of all points look at least at: too many
 constexpr float kSpacing = 1.0f / 256;       // of the diagonal, between points of large triangles
+constexpr int kMaxCuts = 64;                 // of an edge of a large triangle
 constexpr float kSkip = 1e-4f;               // of the diagonal
 
 // Numbers for vertices: equal for those of one instance at one position.
@@ -185,7 +186,8 @@ public:
         if (nearest.triangle >= low_.triangleCount())
             return;
         const glm::vec3 off = point - nearest.point;
-        const glm::vec3 way = directionAt(nearest.triangle, nearest.b1, nearest.b2);
+        const std::uint32_t* const v = &low_.indices[3 * std::size_t(nearest.triangle)];
+        const glm::vec3 sum = atVertices(starts_.directions, v, nearest.b1, nearest.b2), way = unitOr(sum, sum);
         const float along = glm::dot(off, way);
         if (nearest.distance <= 1e-6f * body_.diagonal || along <= 0)
             return raise(nearest.triangle, nearest.b1, nearest.b2, 0, way);
@@ -237,12 +239,6 @@ private:
     bool sees(std::uint32_t triangle, std::uint32_t instance) const
     {
         return body_.shown.empty() || body_.shown[triangle] < 0 || body_.shown[triangle] == std::int64_t(instance);
-    }
-    glm::vec3 directionAt(std::uint32_t triangle, float b1, float b2) const
-    {
-        const glm::vec3 sum = atVertices(starts_.directions, &low_.indices[3 * std::size_t(triangle)], b1, b2);
-        const float length = glm::length(sum);
-        return length > 0 ? sum / length : sum;
     }
     // Distances at the corners that reach `distance` off the triangle's plane, or whatever stands across `way`.
     void raise(std::uint32_t triangle, float b1, float b2, float distance, glm::vec3 way)
@@ -296,19 +292,53 @@ private:
     std::vector<std::uint8_t> reached_;    // something belongs to the group
 };
 
+// Of a triangle; v: the numbers of its corners' vertices.
+template<class Positions> float longestEdge(const Positions& positions, const std::uint32_t* v)
+{
+    const glm::vec3 a = positions[v[0]], b = positions[v[1]], c = positions[v[2]];
+    return std::sqrt(std::max({glm::dot(b - a, b - a), glm::dot(c - b, c - b), glm::dot(a - c, a - c)}));
+}
+
+// Into how many parts the edges of a triangle are cut for points about `spacing` apart; 0 of a small one, and of one
+// that nothing sees.
+int cutsOf(const HighSurface::Triangles& part, std::size_t triangle, float spacing)
+{
+    if (!part.repeated.empty() && part.repeated[triangle])
+        return 0;
+    const float longest = longestEdge(part.positions, &part.indices[3 * triangle]);
+    return longest > spacing ? int(std::min(std::ceil(longest / spacing), float(kMaxCuts))) : 0;
+}
+
+// Calls add(point, normal) for points between the corners of a triangle, about `spacing` apart.
+template<class Add>
+void pointsBetween(const HighSurface::Triangles& part, std::size_t triangle, float spacing, const Add& add)
+{
+    const int cuts = cutsOf(part, triangle, spacing);
+    if (cuts == 0)
+        return;
+    const std::uint32_t* c = &part.indices[3 * triangle];
+    for (int i = 0; i <= cuts; ++i)
+        for (int j = 0; j <= cuts - i; ++j) {
+            const float b1 = float(i) / float(cuts), b2 = float(j) / float(cuts);
+            const glm::vec3 n = atVertices(part.normals, c, b1, b2);
+            const float length = glm::length(n);
+            if (length > 0)
+                add(atVertices(part.positions, c, b1, b2), n / length);
+        }
+}
+
 // Of which triangles and vertices (so many) the points are taken: 1 of all, 2 of every second. Where many triangles lie
 // over one another each point looks at many, and fewer points have to do. An error where far too many do.
 Result<std::size_t> stepFor(const HighSurface& high, std::size_t vertices, float spacing, const Measuring& measuring)
 {
-    std::size_t between = 0, triangles = 0;
+    std::size_t between = 0;
     for (std::size_t instance = 0; instance < high.names().size(); ++instance) {
         const HighSurface::Triangles part = high.triangles(instance);
-        triangles += part.indices.size() / 3;
         for (std::size_t f = 0; f < part.indices.size() / 3; ++f)
             if (const auto cuts = std::size_t(cutsOf(part, f, spacing)))
                 between += (cuts + 1) * (cuts + 2) / 2;
     }
-    const std::size_t every = 1 + triangles / kTried;
+    const std::size_t every = 1 + high.triangleCount() / kTried;
     std::vector<std::size_t> asked;
     std::size_t next = 0; // of the instance's triangles
     for (std::uint32_t instance = 0; instance < high.names().size(); ++instance) {
@@ -371,9 +401,8 @@ bool isCrossed(const LowSurface& low, const RayStarts& starts, std::size_t trian
 {
     constexpr int kMinSteps = 3, kMaxSteps = 12;
     const std::uint32_t* v = &low.indices[3 * triangle];
-    const glm::vec3 p[3] = {low.positions[v[0]], low.positions[v[1]], low.positions[v[2]]};
-    const float longest = std::max({glm::length(p[1] - p[0]), glm::length(p[2] - p[1]), glm::length(p[0] - p[2])});
-    const int steps = std::max(kMinSteps, int(std::min(longest / (4 * kSpacing * diagonal), float(kMaxSteps))));
+    const float wantedSteps = longestEdge(low.positions, v) / (4 * kSpacing * diagonal);
+    const int steps = std::max(kMinSteps, int(std::min(wantedSteps, float(kMaxSteps))));
     for (int i = 0; i <= steps; ++i)
         for (int j = 0; j <= steps - i; ++j) {
             // A little inside the edges.

@@ -83,13 +83,6 @@ BakeModelOptions bakeOptionsOf(const cotan_bake_options& o, const cotan_picture&
     return options;
 }
 
-void checkMask(const cotan_picture& mask, const cotan_picture& map)
-{
-    checkedPicture(&mask, "options.mask");
-    require(mask.bits == 8 && mask.width == map.width && mask.height == map.height,
-            "options.mask: expected 8 bits and the size of the map");
-}
-
 // An error of bakeModel, about the field of C that this is: of its own structs the message begins with another.
 Error aboutFieldOfC(Error error)
 {
@@ -120,15 +113,18 @@ void bakeInto(const Scene& low, HighModel high, const cotan_bake_options* given,
     const cotan_bake_options o = optionsOf(given, "options");
     if (result)
         requireSize(result->size, offsetof(cotan_bake_result, further), "result");
-    if (o.mask)
-        checkMask(*o.mask, out);
+    if (o.mask) {
+        const cotan_picture& mask = checkedPicture(o.mask, "options.mask");
+        require(mask.bits == 8 && mask.width == out.width && mask.height == out.height,
+                "options.mask: expected 8 bits and the size of the map");
+    }
     BakeModelOptions options = bakeOptionsOf(o, out);
     readHigh(o, options, high);
     if (options.material >= int(low.materials.size()))
         fail(ErrorKind::usage, "options.material: expected 0 to ", low.materials.size(), ", found ", o.material);
     auto done = bakeModel(low, std::move(high), options, progressOf(o.progress, o.user));
     if (!done)
-        throw Failure{aboutFieldOfC(done.error())};
+        throw aboutFieldOfC(done.error());
     const BakedModel baked = *std::move(done);
     giveText(joined(baked.warnings), warnings);
     put(baked.maps[0].image, out);

@@ -24,11 +24,7 @@ struct cotan_bytes {
 
 namespace cotan::c {
 
-struct Failure {
-    Error error;
-};
-
-// parts: of the message, texts and whole numbers.
+// Throws an Error. parts: of the message, texts and whole numbers.
 template<class... Parts> [[noreturn]] void fail(ErrorKind kind, const Parts&... parts)
 {
     std::string message;
@@ -39,7 +35,7 @@ template<class... Parts> [[noreturn]] void fail(ErrorKind kind, const Parts&... 
             message += part;
     };
     (add(parts), ...);
-    throw Failure{{kind, std::move(message)}};
+    throw Error{kind, std::move(message)};
 }
 
 inline void require(bool holds, const char* expectation)
@@ -107,7 +103,7 @@ inline std::string_view word(const char* text, const char* name)
 template<class T> T valueOf(Result<T> result, const char* name)
 {
     if (!result)
-        throw Failure{about(name, result.error())};
+        throw about(name, result.error());
     return *std::move(result);
 }
 
@@ -115,7 +111,7 @@ template<class T> T valueOf(Result<T> result, const char* name)
 template<class T> T valueOf(Result<T> result)
 {
     if (!result)
-        throw Failure{result.error()};
+        throw result.error();
     return *std::move(result);
 }
 

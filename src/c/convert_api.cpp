@@ -117,13 +117,6 @@ GltfDocument closedDocument(const GltfDocument& document, const LoadLimits& limi
     return valueOf(openGltfDocument("model.glb", inside));
 }
 
-void replacePlaceholder(GltfDocument& document, const Bytes& placeholder, const Bytes& png)
-{
-    for (std::size_t i = 0; i < countOf(rootOf(document), "images"); ++i)
-        if (const auto bytes = gltfImageBytes(document, i); bytes && *bytes == placeholder)
-            replaceGltfImage(document, i, png, "image/png");
-}
-
 } // namespace
 
 cotan_status cotan_convert_gltf(const void* model, size_t model_size, const cotan_model_files* files,
@@ -193,7 +186,10 @@ cotan_status cotan_conversion_set(cotan_conversion* conversion, size_t number, c
         cotan_conversion::Picture& picture = pictureAt(conversion, number);
         require(png && png_size > 0, "png: expected bytes, found none");
         require(!picture.given, "number: expected a picture that has no PNG file yet");
-        replacePlaceholder(conversion->document, picture.placeholder, copied(png, png_size));
+        GltfDocument& document = conversion->document;
+        for (std::size_t i = 0; i < countOf(rootOf(document), "images"); ++i)
+            if (const auto bytes = gltfImageBytes(document, i); bytes && *bytes == picture.placeholder)
+                replaceGltfImage(document, i, copied(png, png_size), "image/png");
         std::size_t converted = 0; // maps so far: each has one of the pictures, in their order
         for (ConvertedMap& map : conversion->report.maps)
             if (!map.kept && converted++ == number)

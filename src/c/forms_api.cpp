@@ -18,16 +18,7 @@ std::span<const glm::vec3> vectors(const float* array, std::size_t count, const 
 
 template<class T> std::vector<T> copied(std::span<const T> values) { return {values.begin(), values.end()}; }
 
-template<class Value, class Out> void put(const std::vector<Value>& values, Out* out, const char* name)
-{
-    static_assert(sizeof(Value) % sizeof(Out) == 0); // a value is one of the caller's elements, or several
-    if (!out && !values.empty())
-        fail(ErrorKind::usage, name, ": expected an array, found null");
-    if (!values.empty())
-        std::memcpy(out, values.data(), values.size() * sizeof(Value));
-}
-
-void put(const VertexSplit& split, uint32_t* indices, uint32_t* sources, size_t* count)
+void putSplit(const VertexSplit& split, uint32_t* indices, uint32_t* sources, size_t* count)
 {
     require(count, "split_count: expected a place, found null");
     put(split.indices, indices, "split_indices");
@@ -44,16 +35,17 @@ cotan_status cotan_split_vertices(size_t vertex_count, size_t index_count, const
     return call(message, message_size, [&] {
         checkIndices("", vertex_count, index_count, indices);
         require(corners || index_count == 0, "corners: expected an array, found null");
-        put(splitVertices(vertex_count, {indices, index_count},
-                          {reinterpret_cast<const glm::vec4*>(corners), index_count}),
-            split_indices, sources, split_count);
+        putSplit(splitVertices(vertex_count, {indices, index_count},
+                               {reinterpret_cast<const glm::vec4*>(corners), index_count}),
+                 split_indices, sources, split_count);
     });
 }
 
 cotan_status cotan_split_mirrored(const cotan_mesh* mesh, uint32_t* split_indices, uint32_t* sources,
                                   size_t* split_count, char* message, size_t message_size)
 {
-    return call(message, message_size, [&] { put(splitMirrored(viewOf(mesh)), split_indices, sources, split_count); });
+    return call(message, message_size,
+                [&] { putSplit(splitMirrored(viewOf(mesh)), split_indices, sources, split_count); });
 }
 
 cotan_status cotan_triangle_vectors(const cotan_mesh* mesh, int threads, float* u, float* v, char* message,

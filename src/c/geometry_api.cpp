@@ -60,24 +60,22 @@ void turnByFrames(const char* frame, const auto* places, const float* from, floa
                  [&](std::size_t i, const f32::cotan_frame& f) { store(to, i, turn(f, vec3At(from, i))); });
 }
 
-// The words of the kinds are not asked of the table of frames, which cotan/tangents would have to carry.
-Frame tangentKind(const char* kind)
+// The kind of tangents, after checks. The words of the kinds are not asked of the table of frames, which cotan/tangents
+// would have to carry.
+Frame checkedTangents(const char* kind, int threads, const float* tangents)
 {
     const std::string_view which = word(kind, "kind");
     if (which != "vertex" && which != "mikktspace")
         fail(ErrorKind::usage, "kind: expected mikktspace or vertex, found '", which, "'");
+    require(threads >= 0, "threads: expected 0 or more");
+    require(tangents, "tangents: expected an array, found null");
     return which == "vertex" ? Frame::vertex : Frame::mikktspace;
-}
-
-void storeTangents(const std::vector<glm::vec4>& made, float* tangents)
-{
-    std::memcpy(tangents, made.data(), made.size() * sizeof(glm::vec4));
 }
 
 void storeCotangents(const Cotangents& made, float* u, float* v)
 {
-    std::memcpy(u, made.u.data(), made.u.size() * sizeof(glm::vec3));
-    std::memcpy(v, made.v.data(), made.v.size() * sizeof(glm::vec3));
+    put(made.u, u, "u");
+    put(made.v, v, "v");
 }
 
 // Tells of their begin and their end only.
@@ -128,10 +126,8 @@ cotan_status cotan_tangents(const char* kind, const cotan_mesh* mesh, int thread
                             size_t message_size)
 {
     return call(message, message_size, [&] {
-        const Frame frame = tangentKind(kind);
-        require(threads >= 0, "threads: expected 0 or more");
-        require(tangents, "tangents: expected an array, found null");
-        storeTangents(generateTangents(frame, viewOf(mesh), threads), tangents);
+        const Frame frame = checkedTangents(kind, threads, tangents);
+        put(generateTangents(frame, viewOf(mesh), threads), tangents, "tangents");
     });
 }
 
@@ -140,14 +136,12 @@ cotan_status cotan_tangents_with_progress(const char* kind, const cotan_mesh* me
                                           size_t message_size)
 {
     return call(message, message_size, [&] {
-        const Frame frame = tangentKind(kind);
-        require(threads >= 0, "threads: expected 0 or more");
-        require(tangents, "tangents: expected an array, found null");
+        const Frame frame = checkedTangents(kind, threads, tangents);
         const MeshView view = viewOf(mesh);
         const Progress told = progressOf(progress, user);
-        storeTangents(valueOf(frame == Frame::vertex ? vertexTangentsWithProgress(view, told)
-                                                     : mikktspaceTangents(view, threads, told)),
-                      tangents);
+        put(valueOf(frame == Frame::vertex ? vertexTangentsWithProgress(view, told)
+                                           : mikktspaceTangents(view, threads, told)),
+            tangents, "tangents");
     });
 }
 

@@ -73,8 +73,9 @@ cotan_lint_options lintOptionsOf(const cotan_lint_options* options, const cotan_
     return o;
 }
 
-LintLimits limitsOf(const cotan_lint_options& o)
+void lintInto(const Scene& scene, const cotan_lint_options& o, cotan_lint_result* result, cotan_bytes** json)
 {
+    const LintReport report = valueOf(lintScene(scene, {.distance = o.distance}, progressOf(o.progress, o.user)));
     LintLimits limits;
     if (o.limit > 0)
         limits.degrees = o.limit;
@@ -82,13 +83,7 @@ LintLimits limitsOf(const cotan_lint_options& o)
         limits.area = o.limit_area;
     if (o.frame)
         limits.frame = o.frame;
-    return limits;
-}
-
-void lintInto(const Scene& scene, const cotan_lint_options& o, cotan_lint_result* result, cotan_bytes** json)
-{
-    const LintReport report = valueOf(lintScene(scene, {.distance = o.distance}, progressOf(o.progress, o.user)));
-    giveText("cotan-lint-result", lintJson(report, scene, limitsOf(o)), json);
+    giveText("cotan-lint-result", lintJson(report, scene, limits), json);
     if (result)
         fill(report, *result);
 }
@@ -136,7 +131,7 @@ cotan_status cotan_gltf_pictures(const void* model, size_t model_size, const cot
             const Bytes bytes = valueOf(gltfImageBytes(document, image, limits));
             const std::string name = rootOf(document)["images"][image].value("name", "");
             if (take(user, name.c_str(), bytes.data(), bytes.size()) != 0)
-                throw Failure{stoppedError()};
+                throw stoppedError();
         }
     });
 }

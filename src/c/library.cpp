@@ -8,8 +8,8 @@ try {
     copyText("", message, size);
     run(work);
     return COTAN_OK;
-} catch (const Failure& failure) {
-    return refused(failure.error, message, size);
+} catch (const Error& error) {
+    return refused(error, message, size);
 } catch (const std::bad_alloc&) {
     return refused(ErrorKind::unavailable, "not enough memory", message, size);
 } catch (const std::exception& e) {

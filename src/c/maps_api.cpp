@@ -129,7 +129,7 @@ cotan_status cotan_map_mips(const cotan_picture* map, const char* convention, do
         for (std::size_t i = 0; i < levels.size(); ++i) {
             const cotan_picture normals = pictureOf(levels[i].normals), rough = pictureOf(levels[i].roughness);
             if (take(user, int(i), &normals, &rough) != 0)
-                throw Failure{stoppedError()};
+                throw stoppedError();
         }
     });
 }

@@ -73,6 +73,16 @@ inline MeshView viewOf(const cotan_mesh* given)
     return arraysOf(m);
 }
 
+// What was made, into the array of the caller. name: for messages.
+template<class Value, class Out> void put(const std::vector<Value>& values, Out* out, const char* name)
+{
+    static_assert(sizeof(Value) % sizeof(Out) == 0); // a value is one of the caller's elements, or several
+    if (!out && !values.empty())
+        fail(ErrorKind::usage, name, ": expected an array, found null");
+    if (!values.empty())
+        std::memcpy(out, values.data(), values.size() * sizeof(Value));
+}
+
 // One mesh, checked, as the library has it; its material is the first.
 inline Mesh meshOf(const cotan_mesh& m)
 {

@@ -96,9 +96,9 @@ private:
         image.name = name;
         done();
         return image;
-    } catch (const Failure& failure) {
+    } catch (const Error& error) {
         done();
-        return failure.error;
+        return error;
     }
 
     void done() const

@@ -137,10 +137,8 @@ std::span<const ConventionPreset> conventionPresets() { return kPresets; }
 
 std::optional<Convention> conventionFromName(std::string_view name)
 {
-    for (const ConventionPreset& p : kPresets)
-        if (p.name == name)
-            return p.convention;
-    return std::nullopt;
+    const auto found = std::ranges::find(kPresets, name, &ConventionPreset::name);
+    return found != kPresets.end() ? std::optional(found->convention) : std::nullopt;
 }
 
 Convention onCard(const ConventionPreset& preset)

@@ -145,12 +145,9 @@ template<bool kIsVertex>
     const std::size_t nextCorner = c + 1 - 3 * std::size_t(k == 2), previousCorner = c - 1 + 3 * std::size_t(k == 0);
     const std::size_t next = kIsVertex ? nextCorner : mesh.indices[nextCorner],
                       previous = kIsVertex ? previousCorner : mesh.indices[previousCorner];
-    return {mesh.positions[next] - at.position,
-            mesh.positions[previous] - at.position,
-            mesh.texcoords[next] - at.texcoord,
-            mesh.texcoords[previous] - at.texcoord,
-            at.normal,
-            at.unit};
+    const glm::vec3 dp1 = mesh.positions[next] - at.position, dp2 = mesh.positions[previous] - at.position;
+    const glm::vec2 duv1 = mesh.texcoords[next] - at.texcoord, duv2 = mesh.texcoords[previous] - at.texcoord;
+    return {dp1, dp2, duv1, duv2, at.normal, at.unit};
 }
 
 // The averages of vertices that are equal. Corners of several vertices are derived side by side; in WebAssembly one by
@@ -174,13 +171,9 @@ public:
     {
         if constexpr (!kSideBySide) {
             addOneByOne(first);
-        } else if (gathered(first)) {
-            waiting_.push_back({first, lanes_->count});
-        } else {
+        } else if (!gathered(first)) {
             finish();
-            if (gathered(first))
-                waiting_.push_back({first, lanes_->count});
-            else // more corners than there are lanes
+            if (!gathered(first)) // more corners than there are lanes
                 addOneByOne(first);
         }
     }
@@ -200,7 +193,7 @@ public:
     }
 
 private:
-    // Puts all corners into lanes, or none where they do not fit.
+    // Puts all corners into lanes, where they wait, or none where they do not fit.
     bool gathered(std::uint32_t first)
     {
         return chains_.cornersAreVertices() ? gatheredAs<true>(first) : gatheredAs<false>(first);
@@ -218,6 +211,7 @@ private:
                 lanes_->put(lane++, edgesIn<kIsVertex>(mesh_, c, at));
             }
         lanes_->count = lane;
+        waiting_.push_back({first, lane});
         return true;
     }
 
@@ -329,14 +323,14 @@ CornerGroups groupCorners(const MeshView& mesh, std::size_t threads, const Avera
     if (!listener(kWelded))
         return {};
     const Chains chains = chainsOf(mesh, groups.first);
-    const bool done = listener(kChained)
-        && runPartsWithProgress(count, threads, listener, kChained, [&](std::size_t begin, std::size_t end) {
-                          Averaging averaging(mesh, chains, groups.sides, averages);
-                          for (std::size_t v = begin; v != end; ++v)
-                              if (groups.first[v] == v)
-                                  averaging.add(std::uint32_t(v));
-                          averaging.finish();
-                      });
+    const auto average = [&](std::size_t begin, std::size_t end) {
+        Averaging averaging(mesh, chains, groups.sides, averages);
+        for (std::size_t v = begin; v != end; ++v)
+            if (groups.first[v] == v)
+                averaging.add(std::uint32_t(v));
+        averaging.finish();
+    };
+    const bool done = listener(kChained) && runPartsWithProgress(count, threads, listener, kChained, average);
     return done ? std::move(groups) : CornerGroups{};
 }
 

@@ -23,12 +23,11 @@ constexpr bool numberedInOrder()
 }
 static_assert(numberedInOrder(), "cotan/frames.inc: rows are numbered in their order, from 0");
 
-constexpr bool sameButForDashes(std::string_view name, std::string_view word)
+constexpr bool isWordWithDashes(const FrameInfo& f)
 {
-    return std::ranges::equal(name, word, [](char a, char b) { return (a == '-' ? '_' : a) == b; });
+    return std::ranges::equal(f.name, f.word, [](char a, char b) { return (a == '-' ? '_' : a) == b; });
 }
-static_assert(std::ranges::all_of(kFrames, [](const FrameInfo& f) { return sameButForDashes(f.name, f.word); }),
-              "cotan/frames.inc: a name is its word with '-' for '_'");
+static_assert(std::ranges::all_of(kFrames, isWordWithDashes), "cotan/frames.inc: a name is its word with '-' for '_'");
 
 // A row of the table is one case, which calls the row's function where the row has one of these sources: the arguments
 // are theirs, and of the precision that is wanted. For other frames there is the normal alone.
@@ -55,10 +54,8 @@ const FrameInfo& info(Frame frame) { return kFrames[static_cast<std::size_t>(fra
 
 std::optional<Frame> frameFromName(std::string_view name)
 {
-    for (const FrameInfo& f : kFrames)
-        if (f.name == name)
-            return f.frame;
-    return std::nullopt;
+    const auto found = std::ranges::find(kFrames, name, &FrameInfo::name);
+    return found != kFrames.end() ? std::optional(found->frame) : std::nullopt;
 }
 
 f32::cotan_frame evaluate(Frame frame, f32::cotan_vec3 n, f32::cotan_vec3 dpdx, f32::cotan_vec3 dpdy,

@@ -2,9 +2,10 @@
 
 #include <algorithm>
 #include <array>
+#include <utility>
 
 #include "corner_groups.hpp"
-#include "list_by_group.hpp"
+#include "groups.hpp"
 #include "tangents_mesh.hpp"
 
 namespace cotan {
@@ -143,12 +144,11 @@ void addRings(RingMeshlets& out, const Adjacency& adjacency, std::size_t vertexC
         for (std::uint32_t i = adjacency.vertexBegin[g]; i < adjacency.vertexBegin[g + 1]; ++i)
             groupOf[adjacency.vertices[i]] = g;
     out.ringBegin.reserve(out.vertices.size() + 1);
+    const auto all = adjacency.corners.begin();
     for (const std::uint32_t vertex : out.vertices) {
         out.ringBegin.push_back(std::uint32_t(out.corners.size()));
-        const auto corners = adjacency.corners.begin();
         const std::uint32_t g = groupOf[vertex];
-        out.corners.insert(out.corners.end(), corners + adjacency.cornerBegin[g],
-                           corners + adjacency.cornerBegin[g + 1]);
+        out.corners.insert(out.corners.end(), all + adjacency.cornerBegin[g], all + adjacency.cornerBegin[g + 1]);
     }
     out.ringBegin.push_back(std::uint32_t(out.corners.size()));
 }
@@ -208,19 +208,19 @@ ProvokingMesh provokingMesh(std::span<const std::uint32_t> indices, std::size_t 
     const std::vector<std::uint8_t> chosen = chooseCorners(indices, vertexCount);
     ProvokingMesh mesh;
     mesh.corners.reserve(indices.size());
-    for (std::size_t f = 0; f < chosen.size(); ++f)
+    for (std::size_t f = 0; f < chosen.size(); ++f) {
+        mesh.sources.push_back(indices[3 * f + chosen[f]]);
         for (std::size_t k = 0; k < 3; ++k)
             mesh.corners.push_back(indices[3 * f + (chosen[f] + k) % 3]);
+    }
 
     // The copy of each vertex that was used last: near in the list, so that it is still in the cache.
     std::vector<std::uint32_t> copies(vertexCount, kNone);
     for (std::size_t f = chosen.size(); f-- > 0;)
-        copies[mesh.corners[3 * f]] = static_cast<std::uint32_t>(f);
-    for (std::size_t f = 0; f < chosen.size(); ++f)
-        mesh.sources.push_back(mesh.corners[3 * f]);
+        copies[mesh.sources[f]] = static_cast<std::uint32_t>(f);
     mesh.indices.reserve(indices.size());
     for (std::uint32_t f = 0; f < chosen.size(); ++f) {
-        copies[mesh.corners[3 * f]] = f;
+        copies[mesh.sources[f]] = f;
         std::array<std::uint32_t, 3> triangle{f, 0, 0};
         for (std::size_t k = 1; k < 3; ++k) {
             std::uint32_t& copy = copies[mesh.corners[3 * f + k]];
@@ -239,46 +239,36 @@ ProvokingMesh provokingMesh(std::span<const std::uint32_t> indices, std::size_t 
 
 namespace {
 
-void addTriangle(std::vector<std::uint32_t>& out, std::uint32_t a, std::uint32_t b, std::uint32_t c)
+// The triangles of the runs of indices between restarts: each corner from the third on, with two before it, whose
+// places in the run pair(corner) gives.
+std::vector<std::uint32_t> trianglesOf(std::span<const std::uint32_t> indices, std::uint32_t restart, const auto& pair)
 {
-    if (a != b && b != c && c != a)
-        out.insert(out.end(), {a, b, c});
-}
-
-// Calls add(run) for each run of indices between restarts.
-void forEachRun(std::span<const std::uint32_t> indices, std::uint32_t restart, const auto& add)
-{
+    std::vector<std::uint32_t> out;
     while (!indices.empty()) {
         const auto end = std::find(indices.begin(), indices.end(), restart);
-        const std::size_t size = static_cast<std::size_t>(end - indices.begin());
-        add(indices.first(size));
-        indices = indices.subspan(std::min(size + 1, indices.size()));
+        const auto run = indices.first(static_cast<std::size_t>(end - indices.begin()));
+        for (std::size_t i = 2; i < run.size(); ++i) {
+            const auto [first, second] = pair(i);
+            const std::uint32_t a = run[first], b = run[second], c = run[i];
+            if (a != b && b != c && c != a)
+                out.insert(out.end(), {a, b, c});
+        }
+        indices = indices.subspan(std::min(run.size() + 1, indices.size()));
     }
+    return out;
 }
 
 } // namespace
 
 std::vector<std::uint32_t> trianglesOfStrip(std::span<const std::uint32_t> indices, std::uint32_t restart)
 {
-    std::vector<std::uint32_t> out;
-    forEachRun(indices, restart, [&](std::span<const std::uint32_t> run) {
-        for (std::size_t i = 2; i < run.size(); ++i)
-            if (i % 2 == 0)
-                addTriangle(out, run[i - 2], run[i - 1], run[i]);
-            else
-                addTriangle(out, run[i - 1], run[i - 2], run[i]);
-    });
-    return out;
+    return trianglesOf(indices, restart,
+                       [](std::size_t i) { return i % 2 == 0 ? std::pair(i - 2, i - 1) : std::pair(i - 1, i - 2); });
 }
 
 std::vector<std::uint32_t> trianglesOfFan(std::span<const std::uint32_t> indices, std::uint32_t restart)
 {
-    std::vector<std::uint32_t> out;
-    forEachRun(indices, restart, [&](std::span<const std::uint32_t> run) {
-        for (std::size_t i = 2; i < run.size(); ++i)
-            addTriangle(out, run[0], run[i - 1], run[i]);
-    });
-    return out;
+    return trianglesOf(indices, restart, [](std::size_t i) { return std::pair(std::size_t(0), i - 1); });
 }
 
 } // namespace cotan

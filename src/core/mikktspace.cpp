@@ -23,6 +23,108 @@ using namespace mikktspace;
 using tangents::normalizeOrZero;
 using tangents::projectedUnit;
 
+// ---- corners: which meet at a vertex, and which of those are neighbours ---------------------
+
+// The corners at each welded vertex, in order; those of degenerate triangles are left out.
+struct CornersAt {
+    LargeArray<std::uint32_t> first; // per vertex; kNone: it has none
+    LargeArray<std::uint32_t> next;  // per corner; kNone: it is its vertex's last
+
+    // Into `corners`, as far as they fit. Returns the first that does not fit, or kNone.
+    std::uint32_t list(std::size_t vertex, std::span<std::uint32_t> corners, std::uint32_t& count) const
+    {
+        std::uint32_t c = first[vertex];
+        for (count = 0; c != kNone && count < corners.size(); c = next[c])
+            corners[count++] = c;
+        return c;
+    }
+
+    // All of them.
+    void list(std::size_t vertex, std::vector<std::uint32_t>& corners) const
+    {
+        corners.clear();
+        for (std::uint32_t c = first[vertex]; c != kNone; c = next[c])
+            corners.push_back(c);
+    }
+};
+
+// at: without corners yet.
+void addCorners(const Triangles& t, std::size_t threads, CornersAt& at)
+{
+    const std::size_t vertices = t.mesh.positions.size();
+    // Each thread writes the corners of its own vertices, from the last, and reads the blocks that have such.
+    runTasks(threads, threads, [&](std::size_t part) {
+        const std::size_t begin = partBegin(vertices, part, threads);
+        const std::size_t size = partBegin(vertices, part + 1, threads) - begin;
+        for (std::size_t block = t.ranges.size(); block-- > 0;) {
+            const VertexRange range = t.ranges[block];
+            if (range.least >= begin + size || range.most < begin)
+                continue;
+            for (std::size_t f = std::min((block + 1) * kBlock, t.count); f-- > block * kBlock;)
+                if (!t.has(f, kDegenerate))
+                    for (std::size_t c = 3 * f + 3; c-- > 3 * f;)
+                        if (const std::size_t v = t.vertices[c]; v - begin < size)
+                            at.next[c] = std::exchange(at.first[v], static_cast<std::uint32_t>(c));
+        }
+    });
+}
+
+// Which of the corners at one vertex are neighbours: across the edge that leaves the vertex at corner i,
+// and across the one that comes back to it, is the corner left[i], right[i]; kNone where there is none.
+// As indices into the list of corners, in lists as long as the longest needed so far. Of the edges between the same two
+// vertices the k-th that runs one way meets the k-th that runs the other way.
+struct Ring {
+    std::vector<std::uint32_t> left, right;
+
+    // In time n log n.
+    void make(const Triangles& t, std::span<const std::uint32_t> corners)
+    {
+        const auto count = static_cast<std::uint32_t>(corners.size());
+        if (left.size() < count)
+            for (auto* list : {&leaving, &coming, &left, &right})
+                list->resize(count);
+        for (std::uint32_t i = 0; i < count; ++i) {
+            leaving[i] = t.vertices[nextCorner(corners[i])];
+            coming[i] = t.vertices[previousCorner(corners[i])];
+            left[i] = right[i] = kNone;
+        }
+        const auto sorted = [&](const std::vector<std::uint32_t>& others, std::vector<std::uint32_t>& order) {
+            keys.resize(count);
+            order.resize(count);
+            for (std::uint32_t i = 0; i < count; ++i)
+                keys[i] = std::uint64_t(others[i]) << 32 | i;
+            std::ranges::sort(keys);
+            std::ranges::transform(keys, order.begin(), [](std::uint64_t key) { return std::uint32_t(key); });
+        };
+        sorted(leaving, byLeaving);
+        sorted(coming, byComing);
+        for (std::size_t i = 0, j = 0; i < byLeaving.size() && j < byComing.size();) {
+            const std::uint32_t a = leaving[byLeaving[i]], b = coming[byComing[j]];
+            if (a == b) {
+                left[byLeaving[i]] = byComing[j];
+                right[byComing[j]] = byLeaving[i];
+            }
+            i += a <= b;
+            j += b <= a;
+        }
+    }
+
+private:
+    std::vector<std::uint32_t> leaving, coming; // the edges' other vertices
+    std::vector<std::uint32_t> byLeaving, byComing;
+    std::vector<std::uint64_t> keys; // another vertex, and the corner below it
+};
+
+// The corners that hang together with `seed`, as far as take(corner) says yes: it is asked for each in
+// order, to the left first, and says no to a neighbour that is none.
+template<class List, class Take> void walk(std::uint32_t seed, const List& left, const List& right, const Take& take)
+{
+    for (std::uint32_t i = seed; take(i);)
+        i = left[i];
+    for (std::uint32_t i = right[seed]; take(i);)
+        i = right[i];
+}
+
 // ---- averages -------------------------------------------------------------------------------
 
 // With the threshold of 180 degrees two triangles are still kept apart where their directions are
@@ -207,33 +309,29 @@ constexpr double kWelded = 0.2, kDerived = 0.5, kListed = 0.6;
 bool averageByVertex(const Triangles& t, const CornersAt& at, std::size_t threads, const Listener& listener,
                      std::span<glm::vec4> out)
 {
-    return runPartsWithProgress(t.mesh.positions.size(), threads, listener, kListed,
-                                [&](std::size_t begin, std::size_t end) {
-                                    Members members;
-                                    ManyCorners many;
-                                    std::vector<std::uint32_t> all;
-                                    std::array<std::uint32_t, 16> few;
-                                    std::uint32_t count = 0;
-                                    for (std::size_t v = begin; v < end; ++v)
-                                        if (at.list(v, few, count) != kNone) {
-                                            at.list(v, all);
-                                            many.average(t, all, members, out);
-                                        } else if (count > 8) {
-                                            averageFew<16>(t, std::span(few).first(count), members, out);
-                                        } else if (count > 0) { // not welded to another
-                                            averageFew<8>(t, std::span(few).first(count), members, out);
-                                        }
-                                });
+    const auto average = [&](std::size_t begin, std::size_t end) {
+        Members members;
+        ManyCorners many;
+        std::vector<std::uint32_t> all;
+        std::array<std::uint32_t, 16> few;
+        std::uint32_t count = 0;
+        for (std::size_t v = begin; v < end; ++v)
+            if (at.list(v, few, count) != kNone) {
+                at.list(v, all);
+                many.average(t, all, members, out);
+            } else if (count > 8) {
+                averageFew<16>(t, std::span(few).first(count), members, out);
+            } else if (count > 0) { // not welded to another
+                averageFew<8>(t, std::span(few).first(count), members, out);
+            }
+    };
+    return runPartsWithProgress(t.mesh.positions.size(), threads, listener, kListed, average);
 }
 
-// left and right by corner: Ring for all vertices. left takes the place of at.next.
-struct Neighbours {
-    LargeArray<std::uint32_t> left, right;
-};
-
-Neighbours allRings(const Triangles& t, CornersAt& at)
+// left and right by corner: Ring for all vertices. left takes the place of at.next; returns right.
+LargeArray<std::uint32_t> makeRings(const Triangles& t, CornersAt& at)
 {
-    Neighbours all{{}, makeLargeArray<std::uint32_t>(t.corners())};
+    LargeArray<std::uint32_t> right = makeLargeArray<std::uint32_t>(t.corners());
     Ring ring;
     std::vector<std::uint32_t> corners;
     for (std::size_t v = 0; v < t.mesh.positions.size(); ++v) {
@@ -241,11 +339,10 @@ Neighbours allRings(const Triangles& t, CornersAt& at)
         ring.make(t, corners);
         for (std::size_t i = 0; i < corners.size(); ++i) {
             at.next[corners[i]] = ring.left[i] == kNone ? kNone : corners[ring.left[i]];
-            all.right[corners[i]] = ring.right[i] == kNone ? kNone : corners[ring.right[i]];
+            right[corners[i]] = ring.right[i] == kNone ? kNone : corners[ring.right[i]];
         }
     }
-    all.left = std::move(at.next);
-    return all;
+    return right;
 }
 
 std::uint8_t takenFlag(std::size_t corner) { return static_cast<std::uint8_t>(kTaken << corner % 3); }
@@ -269,7 +366,8 @@ bool join(Triangles& t, std::size_t corner, bool preserving)
 // other. What no group reaches gets kNoGroup.
 bool averageInOrder(Triangles& t, CornersAt& at, const Listener& listener, std::span<glm::vec4> out)
 {
-    const auto [left, right] = allRings(t, at);
+    const LargeArray<std::uint32_t> right = makeRings(t, at);
+    const LargeArray<std::uint32_t>& left = at.next;
     Members members;
     std::vector<std::uint32_t> group;
     for (std::uint32_t c = 0; c < t.corners(); ++c) {

@@ -1,4 +1,4 @@
-// The steps of MikkTSpace.
+// MikkTSpace, and the first of its steps, which has a file of its own: mikktspace_triangles.cpp.
 #pragma once
 
 #include <cstdint>
@@ -48,7 +48,6 @@ struct Triangles {
 };
 
 constexpr std::size_t nextCorner(std::size_t corner) { return corner % 3 == 2 ? corner - 2 : corner + 1; }
-
 constexpr std::size_t previousCorner(std::size_t corner) { return corner % 3 == 0 ? corner + 2 : corner - 1; }
 
 // firstVertex: of every vertex the first one that equals it. contributions gets for every corner dP/du in the
@@ -58,59 +57,5 @@ Triangles makeTriangles(const MeshView& mesh, LargeArray<std::uint32_t> firstVer
 
 // Unit dP/du of a triangle, or zero.
 glm::vec3 alongU(const Triangles& t, std::size_t triangle);
-
-// ---- second step: which corners meet at a vertex, and which of those are neighbours ----------
-
-// The corners at each welded vertex, in order; those of degenerate triangles are left out.
-struct CornersAt {
-    LargeArray<std::uint32_t> first; // per vertex; kNone: it has none
-    LargeArray<std::uint32_t> next;  // per corner; kNone: it is its vertex's last
-
-    // Into `corners`, as far as they fit. Returns the first that does not fit, or kNone.
-    std::uint32_t list(std::size_t vertex, std::span<std::uint32_t> corners, std::uint32_t& count) const
-    {
-        std::uint32_t c = first[vertex];
-        for (count = 0; c != kNone && count < corners.size(); c = next[c])
-            corners[count++] = c;
-        return c;
-    }
-
-    // All of them.
-    void list(std::size_t vertex, std::vector<std::uint32_t>& corners) const
-    {
-        corners.clear();
-        for (std::uint32_t c = first[vertex]; c != kNone; c = next[c])
-            corners.push_back(c);
-    }
-};
-
-// at: without corners yet.
-void addCorners(const Triangles& t, std::size_t threads, CornersAt& at);
-
-// Which of the corners at one vertex are neighbours: across the edge that leaves the vertex at corner i,
-// and across the one that comes back to it, is the corner left[i], right[i]; kNone where there is none.
-// As indices into the list of corners, in lists as long as the longest needed so far. Of the edges between the same two
-// vertices the k-th that runs one way meets the k-th that runs the other way.
-struct Ring {
-    std::vector<std::uint32_t> left, right;
-
-    // In time n log n.
-    void make(const Triangles& t, std::span<const std::uint32_t> corners);
-
-private:
-    std::vector<std::uint32_t> leaving, coming; // the edges' other vertices
-    std::vector<std::uint32_t> byLeaving, byComing;
-    std::vector<std::uint64_t> keys; // another vertex, and the corner below it
-};
-
-// The corners that hang together with `seed`, as far as take(corner) says yes: it is asked for each in
-// order, to the left first, and says no to a neighbour that is none.
-template<class List, class Take> void walk(std::uint32_t seed, const List& left, const List& right, const Take& take)
-{
-    for (std::uint32_t i = seed; take(i);)
-        i = left[i];
-    for (std::uint32_t i = right[seed]; take(i);)
-        i = right[i];
-}
 
 } // namespace cotan::mikktspace

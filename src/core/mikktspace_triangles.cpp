@@ -174,13 +174,9 @@ Triangles makeTriangles(const MeshView& mesh, LargeArray<std::uint32_t> firstVer
     for (std::uint32_t v = 0; v < mesh.positions.size(); ++v)
         moved |= firstVertex[v] ^ v;
     const std::size_t blocks = (count + kBlock - 1) / kBlock;
-    Triangles t{mesh,
-                count,
-                mesh.indices.data(),
-                {},
-                makeLargeArray<std::uint8_t>(count),
-                makeLargeArray<glm::vec3>(count),
-                std::vector<VertexRange>(blocks, {0, kNone})};
+    Triangles t{mesh, count, mesh.indices.data(), {}, makeLargeArray<std::uint8_t>(count), {}, {}};
+    t.alongV = makeLargeArray<glm::vec3>(count);
+    t.ranges.assign(blocks, {0, kNone});
     if (moved != 0)
         t.vertices = (t.welded = makeLargeArray<std::uint32_t>(3 * count)).get();
     runParts(blocks, threads, [&](std::size_t firstBlock, std::size_t endBlock) {

@@ -28,8 +28,7 @@ constexpr std::size_t kMinCorners = 100000; // of a thread
 // The unit direction of dP/du, or zero.
 glm::vec3 alongU(const Edges& e)
 {
-    const glm::dvec3 t = (e.dp1 * e.duv2.y - e.dp2 * e.duv1.y) * (e.uvArea() < 0 ? -1.0 : 1.0);
-    return unitOrZero(t);
+    return unitOrZero((e.dp1 * e.duv2.y - e.dp2 * e.duv1.y) * (e.uvArea() < 0 ? -1.0 : 1.0));
 }
 
 // A unit vector perpendicular to n; n may be zero or not finite.
@@ -227,19 +226,17 @@ std::optional<Error> problemOf(const MeshView& mesh)
     return std::nullopt;
 }
 
-Listener listenerOf(const Progress& progress)
-{
-    if (!progress)
-        return {};
-    return {[](const void* who, double share) { return (*static_cast<const Progress*>(who))(share); }, &progress};
-}
-
-template<class Made, class Make> Result<Made> made(const MeshView& mesh, const Progress& progress, const Make& make)
+template<class Made>
+Result<Made> made(bool (*make)(const MeshView&, int, const Listener&, Made&), const MeshView& mesh, int threads,
+                  const Progress& progress)
 {
     if (const auto problem = problemOf(mesh))
         return *problem;
+    Listener listener;
+    if (progress)
+        listener = {[](const void* who, double done) { return (*static_cast<const Progress*>(who))(done); }, &progress};
     Made all;
-    if (!make(listenerOf(progress), all))
+    if (!make(mesh, threads, listener, all))
         return stoppedError();
     return all;
 }
@@ -248,16 +245,12 @@ template<class Made, class Make> Result<Made> made(const MeshView& mesh, const P
 
 Result<std::vector<glm::vec4>> mikktspaceTangents(const MeshView& mesh, int threads, const Progress& progress)
 {
-    return made<std::vector<glm::vec4>>(mesh, progress, [&](const Listener& listener, auto& all) {
-        return mikktspace::makeTangents(mesh, threads, listener, all);
-    });
+    return made(mikktspace::makeTangents, mesh, threads, progress);
 }
 
 Result<Cotangents> smoothCotangents(const MeshView& mesh, int threads, const Progress& progress)
 {
-    return made<Cotangents>(mesh, progress, [&](const Listener& listener, auto& all) {
-        return tangents::averageCotangents(mesh, threads, listener, all);
-    });
+    return made(tangents::averageCotangents, mesh, threads, progress);
 }
 
 // ---- compared ------------------------------------------------------------------------------

@@ -34,8 +34,7 @@ std::string textOf(double value)
 
 ValueCheck numberAbove0()
 {
-    return numberThat("a number above 0 and at most 1e6", std::strtof,
-                      [](float value) { return value > 0 && value <= 1e6f; });
+    return numberThat("a number above 0 and at most 1e6", std::strtof, [](float x) { return x > 0 && x <= 1e6f; });
 }
 
 ValueCheck numberAbove0Or(const std::string& word)

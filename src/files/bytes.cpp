@@ -1,8 +1,6 @@
 #include "files/bytes.hpp"
 
 #include <algorithm>
-#include <cstdio>
-#include <memory>
 #include <system_error>
 #include <utility>
 
@@ -17,7 +15,15 @@ namespace fs = std::filesystem;
 
 namespace {
 
-Result<std::size_t> usableSize(const fs::path& file, std::size_t limit, bool isInput)
+Sandbox& sandboxOfProcess()
+{
+    static Sandbox sandbox;
+    return sandbox;
+}
+
+} // namespace
+
+Result<std::size_t> usableFileSize(const fs::path& file, std::size_t limit, bool isInput)
 {
     std::error_code error;
     const fs::file_status status = fs::status(file, error);
@@ -40,39 +46,18 @@ Result<std::size_t> usableSize(const fs::path& file, std::size_t limit, bool isI
     return static_cast<std::size_t>(size);
 }
 
-Result<std::vector<std::byte>> readBytes(const fs::path& file, std::size_t limit, bool isInput)
+Result<std::vector<std::byte>> readFileBytes(const fs::path& file, std::size_t limit, bool isInput)
 {
-    const auto size = usableSize(file, limit, isInput);
+    const auto size = usableFileSize(file, limit, isInput);
     if (!size)
         return size.error();
-    const std::unique_ptr<std::FILE, int (*)(std::FILE*)> handle(std::fopen(file.c_str(), "rb"),
-                                                                 [](std::FILE* f) { return std::fclose(f); });
+    const OpenFile handle(std::fopen(file.c_str(), "rb"));
     if (!handle)
         return inputError(fmt::format("{}: cannot be opened for reading", file.string()));
     std::vector<std::byte> bytes(*size);
     if (std::fread(bytes.data(), 1, bytes.size(), handle.get()) != bytes.size())
         return inputError(fmt::format("{}: reading stopped before the end", file.string()));
     return bytes;
-}
-
-Sandbox& sandboxOfProcess()
-{
-    static Sandbox sandbox;
-    return sandbox;
-}
-
-} // namespace
-
-Result<std::size_t> usableFileSize(const fs::path& file, std::size_t limit) { return usableSize(file, limit, true); }
-
-Result<std::vector<std::byte>> readFileBytes(const fs::path& file, std::size_t limit)
-{
-    return readBytes(file, limit, true);
-}
-
-Result<std::vector<std::byte>> readReplacedBytes(const fs::path& file, std::size_t limit)
-{
-    return readBytes(file, limit, false);
 }
 
 std::optional<fs::path> findInFolder(const fs::path& folder, std::string request, bool& outside)

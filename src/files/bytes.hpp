@@ -3,7 +3,9 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdio>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -22,16 +24,19 @@ inline std::filesystem::path folderOf(const std::filesystem::path& file)
     return file.has_parent_path() ? file.parent_path() : std::filesystem::path(".");
 }
 
+struct CloseFile {
+    void operator()(std::FILE* file) const { std::fclose(file); }
+};
+using OpenFile = std::unique_ptr<std::FILE, CloseFile>;
+
 // The size in bytes of a regular file that may be read.
+// isInput: false for an older output that the new one replaces: noteInput does not hear of it.
 // Errors (ErrorKind::input): missing, not a regular file, empty, over `limit` bytes; those of noteInput.
-Result<std::size_t> usableFileSize(const std::filesystem::path& file, std::size_t limit);
+Result<std::size_t> usableFileSize(const std::filesystem::path& file, std::size_t limit, bool isInput = true);
 
-// All bytes of a regular file of at most `limit` bytes.
+// All bytes of a regular file of at most `limit` bytes. isInput: as for usableFileSize.
 // Errors (ErrorKind::input): missing, not a regular file, empty, too large, not readable; those of noteInput.
-Result<std::vector<std::byte>> readFileBytes(const std::filesystem::path& file, std::size_t limit);
-
-// The same of an older output, which the new one replaces: no input, so noteInput does not hear of it.
-Result<std::vector<std::byte>> readReplacedBytes(const std::filesystem::path& file, std::size_t limit);
+Result<std::vector<std::byte>> readFileBytes(const std::filesystem::path& file, std::size_t limit, bool isInput = true);
 
 // The file that `request`, as a model writes it, stands for: relative to `folder` (canonical), with
 // either slash. Nothing where it is missing or leads out of the folder, by an absolute path, by

@@ -83,7 +83,7 @@ private:
 
     std::vector<float> read(int accessor, const Choice& choice, std::size_t width)
     {
-        takeGltfBytes(model_, choice.size() * width * sizeof(float), field_);
+        takeGltfBytes(model_, std::uint64_t(choice.size()) * width * sizeof(float), field_);
         std::vector<float> numbers(choice.size() * width);
         if (!numbers.empty())
             gltf::readNumbers(model_.accessors[std::size_t(accessor)], choice, width, numbers.data());
@@ -116,7 +116,7 @@ private:
     {
         const Accessor& a = model_.accessors[std::size_t(output)].accessor;
         const std::size_t parts = cubic ? 3 : 1, width = gltf::componentCount(type);
-        gltf::expectElements(a, type, keys * each * parts, {output, field_});
+        gltf::expectElements(a, type, std::uint64_t(keys) * each * parts, {output, field_});
         if (a.componentType == gltf::kUnsignedInt || (a.componentType != gltf::kFloat && !a.normalized))
             failGltf("{}: expected floats or normalized integers in accessors[{}], found {}", field_, output,
                      gltf::nameOfComponent(a.componentType));
@@ -169,14 +169,10 @@ private:
     std::string field_;
 };
 
-// By number or by name, of several the first.
-std::size_t findAnimation(const Json& root, const std::string& wanted)
+// As the file has them.
+std::vector<std::string> animationNames(const Json& root)
 {
-    std::vector<std::string> names;
-    if (const Json* const animations = gltf::member(root, "animations"))
-        for (const Json& animation : *animations)
-            names.push_back(gltf::valueOr(animation, "name", std::string()));
-    return findNamed(names, wanted, "animations");
+    return gltf::readAll(&root, "animations", [](const Json& a) { return gltf::valueOr(a, "name", std::string()); });
 }
 
 // Seconds; 0 where the accessor does not hold times.
@@ -192,37 +188,7 @@ double lastKey(const GltfModel& model, int input)
     return std::max(double(last), 0.0);
 }
 
-} // namespace
-
-std::vector<GltfAnimation> gltfAnimations(GltfModel& model)
-{
-    const Json* const list = gltf::member(model.file.json, "animations");
-    std::vector<GltfAnimation> all(list ? list->size() : 0);
-    for (std::size_t i = 0; i < all.size(); ++i)
-        all[i].name = oneLine(gltf::valueOr((*list)[i], "name", std::string()));
-    try {
-        checkGltfAnimations(model.file.json);
-    } catch (const GltfProblem&) {
-        return all;
-    }
-    for (std::size_t i = 0; i < all.size(); ++i)
-        for (const Json& sampler : (*list)[i]["samplers"])
-            all[i].seconds = std::max(all[i].seconds, lastKey(model, sampler["input"].get<int>()));
-    return all;
-}
-
-void poseGltf(GltfModel& model)
-{
-    if (model.limits.pose.animation.empty())
-        return;
-    const std::size_t animation = findAnimation(model.file.json, model.limits.pose.animation);
-    checkGltfAnimations(model.file.json);
-    Poser(model, animation).run();
-}
-
 // ---- where an animation gets to -------------------------------------------------------------
-
-namespace {
 
 constexpr double kMomentsASecond = 30;
 constexpr std::size_t kMaxMoments = 256, kFewestMoments = 9;
@@ -268,10 +234,8 @@ void addFurthest(const Scene& scene, std::vector<glm::vec3>& points)
         }
     });
     for (const Furthest& f : found)
-        if (f.low <= f.high) {
-            points.push_back(f.lowest);
-            points.push_back(f.highest);
-        }
+        if (f.low <= f.high)
+            points.insert(points.end(), {f.lowest, f.highest});
 }
 
 std::size_t verticesPlaced(const Scene& scene)
@@ -294,6 +258,32 @@ double secondsOf(const AnimatedGltf& model, const std::string& animation)
 }
 
 } // namespace
+
+std::vector<GltfAnimation> gltfAnimations(GltfModel& model)
+{
+    const Json* const list = gltf::member(model.file.json, "animations");
+    std::vector<GltfAnimation> all;
+    for (const std::string& name : animationNames(model.file.json))
+        all.push_back({oneLine(name), 0});
+    try {
+        checkGltfAnimations(model.file.json);
+    } catch (const GltfProblem&) {
+        return all;
+    }
+    for (std::size_t i = 0; i < all.size(); ++i)
+        for (const Json& sampler : (*list)[i]["samplers"])
+            all[i].seconds = std::max(all[i].seconds, lastKey(model, sampler["input"].get<int>()));
+    return all;
+}
+
+void poseGltf(GltfModel& model)
+{
+    if (model.limits.pose.animation.empty())
+        return;
+    const std::size_t animation = findNamed(animationNames(model.file.json), model.limits.pose.animation, "animations");
+    checkGltfAnimations(model.file.json);
+    Poser(model, animation).run();
+}
 
 Result<std::vector<glm::vec3>> pointsReached(AnimatedGltf& model, const std::string& animation)
 {

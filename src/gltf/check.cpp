@@ -189,9 +189,6 @@ constexpr std::string_view kSupported[] = {
     "KHR_materials_specular",          "KHR_materials_sheen",      "KHR_materials_transmission",
     "KHR_materials_variants"};
 
-// The same in a format that is not read; it matters to who needs the pixels.
-constexpr std::string_view kUnreadImages = "EXT_texture_avif";
-
 // KHR_materials_... refine how a surface looks and leave shape and normal map alone: such a model can be drawn without
 // them, if that is said. Any other unknown extension may change what the data mean.
 void checkExtensions(const Json& root, Pixels pixels, GltfWarnings& warnings)
@@ -204,7 +201,8 @@ void checkExtensions(const Json& root, Pixels pixels, GltfWarnings& warnings)
             const Json& item = (*names)[i];
             const auto& name = item.get_ref<const std::string&>();
             const auto in = [&](const auto& all) { return std::ranges::find(all, name) != std::end(all); };
-            const bool known = in(kSupported) || in(gltf::kReadImageExtensions), image = name == kUnreadImages;
+            const bool known = in(kSupported) || in(gltf::kReadImageExtensions);
+            const bool image = name == "EXT_texture_avif"; // is not read, which matters to who needs the pixels
             const bool harmless = name.starts_with("KHR_materials_") || (image && pixels != Pixels::all);
             if (!known && !harmless && list == std::string_view("extensionsRequired"))
                 failGltf("extensionsRequired: \"{}\" is not supported", oneLine(name));
@@ -220,11 +218,10 @@ void checkExtensions(const Json& root, Pixels pixels, GltfWarnings& warnings)
 
 void checkGltfShape(const Json& root, const LoadLimits& limits, GltfWarnings& warnings)
 {
-    const Place top;
     if (!root.is_object())
         failGltf("JSON: expected an object, found {}", found(root));
     refuseVersion1(root);
-    Checker(root).fields(root, kRoot, top);
+    Checker(root).fields(root, kRoot, Place());
     checkVersion(root["asset"]);
     checkExtensions(root, limits.pixels, warnings);
     if (const Json* const nodes = member(root, "nodes"); nodes && nodes->size() > limits.nodes)

@@ -7,7 +7,6 @@
 #include <string>
 #include <vector>
 
-#include "cotan/files.hpp"
 #include "cotan/result.hpp"
 
 namespace cotan {
@@ -33,17 +32,9 @@ struct DracoGeometry {
     std::vector<std::vector<std::byte>> attributes; // packed, in the order of the job
 };
 
-// Errors: ErrorKind::input for streams that are damaged or hold something else; ErrorKind::unavailable where this build
-// lacks Draco. name: of the file, for messages.
-Result<std::vector<DracoGeometry>> decodeDraco(const std::vector<DracoJob>& jobs, const std::string& name,
-                                               const LoadLimits& limits);
-
-namespace gltf {
-
-// In this process, whatever the limits say.
+// In this process. Errors: ErrorKind::input for streams that are damaged or hold something else; ErrorKind::unavailable
+// where this build lacks Draco.
 Result<std::vector<DracoGeometry>> decodeDracoHere(const std::vector<DracoJob>& jobs);
-
-} // namespace gltf
 
 // What the two processes say to each other.
 template<class W, class T> void exchangeDracoJobs(W& w, T& jobs)

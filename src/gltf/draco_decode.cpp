@@ -12,12 +12,12 @@
 #include "gltf/draco.hpp"
 #include "problem.hpp"
 
-namespace cotan::gltf {
+namespace cotan {
 
 namespace {
 
 // Refuses a stream whose header promises something else than the model does: the decoder takes memory by it.
-void checkHeader(const DracoJob& job)
+void checkStreamHeader(const DracoJob& job)
 {
     constexpr std::string_view kMagic = "DRACO";
     constexpr std::uint8_t kMesh = 1, kSequential = 0, kEdgebreaker = 1;
@@ -62,16 +62,16 @@ std::vector<std::byte> valuesOf(const draco::Mesh& mesh, const DracoAttribute& w
     if (std::uint32_t(attribute->num_components()) != wanted.components)
         failGltf("{}: expected {} components in the Draco attribute of the id {}, found {}", job.field,
                  wanted.components, wanted.id, attribute->num_components());
-    const std::size_t each = wanted.components * componentSize(wanted.componentType);
+    const std::size_t each = wanted.components * gltf::componentSize(wanted.componentType);
     std::vector<std::byte> values(job.vertices * each);
-    withType(wanted.componentType, [&]<class T>(T) {
+    gltf::withType(wanted.componentType, [&]<class T>(T) {
         std::vector<T> element(wanted.components);
         for (std::uint32_t p = 0; p < mesh.num_points(); ++p) {
             const draco::AttributeValueIndex at = attribute->mapped_index(draco::PointIndex(p));
             if (at.value() >= attribute->size()
                 || !attribute->ConvertValue(at, static_cast<std::int8_t>(wanted.components), element.data()))
                 failGltf("{}: vertex {} of the Draco attribute of the id {} is no {}", job.field, p, wanted.id,
-                         nameOfComponent(wanted.componentType));
+                         gltf::nameOfComponent(wanted.componentType));
             std::memcpy(values.data() + p * each, element.data(), each);
         }
     });
@@ -80,7 +80,7 @@ std::vector<std::byte> valuesOf(const draco::Mesh& mesh, const DracoAttribute& w
 
 std::vector<std::byte> indicesOf(const draco::Mesh& mesh, const DracoJob& job)
 {
-    const std::size_t each = componentSize(job.indexType);
+    const std::size_t each = gltf::componentSize(job.indexType);
     std::vector<std::byte> indices(job.indices * each);
     for (std::uint32_t f = 0; f < mesh.num_faces(); ++f)
         for (std::uint32_t k = 0; k < 3; ++k) {
@@ -93,9 +93,9 @@ std::vector<std::byte> indicesOf(const draco::Mesh& mesh, const DracoJob& job)
     return indices;
 }
 
-DracoGeometry decode(const DracoJob& job)
+DracoGeometry decodeOne(const DracoJob& job)
 {
-    checkHeader(job);
+    checkStreamHeader(job);
     draco::DecoderBuffer buffer;
     buffer.Init(reinterpret_cast<const char*>(job.bytes.data()), job.bytes.size());
     auto decoded = draco::Decoder().DecodeMeshFromBuffer(&buffer);
@@ -120,7 +120,7 @@ Result<std::vector<DracoGeometry>> decodeDracoHere(const std::vector<DracoJob>& 
 try {
     std::vector<DracoGeometry> meshes;
     for (const DracoJob& job : jobs)
-        meshes.push_back(decode(job));
+        meshes.push_back(decodeOne(job));
     return meshes;
 } catch (const GltfProblem& problem) {
     return inputError(problem.error.message);
@@ -128,4 +128,4 @@ try {
     return inputError("not enough memory for a Draco stream");
 }
 
-} // namespace cotan::gltf
+} // namespace cotan

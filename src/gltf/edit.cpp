@@ -82,21 +82,16 @@ void checkCounts(const GltfModel& model)
     }
 }
 
-// What the reader would find wrong with the nodes and the geometry.
-void checkModel(GltfModel& model)
+GltfDocument open(const std::filesystem::path& path, const LoadLimits& limits)
 {
+    GltfModel model;
+    readGltfModel(model, path, limits);
+    // What the reader would find wrong with the nodes and the geometry.
     readGltfNodes(model);
     for (std::size_t m = 0; m < model.structure.meshes.size(); ++m)
         for (std::size_t p = 0; p < model.structure.meshes[m].primitives.size(); ++p)
             readGltfPrimitive(model, int(m), p, {});
     checkCounts(model);
-}
-
-GltfDocument open(const std::filesystem::path& path, const LoadLimits& limits)
-{
-    GltfModel model;
-    readGltfModel(model, path, limits);
-    checkModel(model);
     auto source = std::make_shared<GltfSource>();
     source->path = path;
     source->file = std::move(model.file);
@@ -117,33 +112,6 @@ Json withImage(GltfDocument& document, Json image, std::vector<std::byte> bytes,
     return image;
 }
 
-// The attribute of the chosen vertices; empty where the primitive lacks it.
-template<class Vector>
-std::vector<Vector> readAttribute(const GltfDocument& document, const gltf::Primitive& primitive,
-                                  const std::string& name, const gltf::Choice& choice, const std::string& field)
-{
-    const int accessor = gltf::accessorOf(primitive.attributes, name);
-    if (accessor < 0)
-        return {};
-    return gltf::readVectors<Vector>(elementsOf(document, rootOf(document)["accessors"][std::size_t(accessor)]), choice,
-                                     {accessor, field + "." + name});
-}
-
-// The uv as a map reads them.
-void readTexcoords(const GltfDocument& document, const gltf::Primitive& primitive, const gltf::TextureUse& map,
-                   const gltf::Choice& choice, const std::string& field, GltfGeometry& out)
-{
-    out.texcoordSet = map.texcoord;
-    out.texcoords =
-        readAttribute<glm::vec2>(document, primitive, fmt::format("TEXCOORD_{}", map.texcoord), choice, field);
-    for (glm::vec2& uv : out.texcoords) {
-        if (!isFinite(uv))
-            uv = glm::vec2(0);
-        if (map.moves())
-            uv = moveUv(map.uRow, map.vRow, uv);
-    }
-}
-
 GltfGeometry readGeometry(const GltfDocument& document, const Json& source, const std::string& field, NormalSlot slot,
                           std::optional<std::size_t> material)
 {
@@ -161,10 +129,23 @@ GltfGeometry readGeometry(const GltfDocument& document, const Json& source, cons
     const auto count = rootOf(document)["accessors"][std::size_t(positions)]["count"].get<std::size_t>();
     const std::vector<std::uint32_t> vertices = takeUsedVertices(out.indices, count);
     const gltf::Choice choice(count, vertices);
-    out.positions = readAttribute<glm::vec3>(document, primitive, "POSITION", choice, field);
-    out.normals = readAttribute<glm::vec3>(document, primitive, "NORMAL", choice, field);
-    out.tangents = readAttribute<glm::vec4>(document, primitive, "TANGENT", choice, field);
-    readTexcoords(document, primitive, map, choice, field, out);
+    const auto read = [&]<class Vector>(std::vector<Vector>& to, const std::string& name) {
+        const int a = gltf::accessorOf(primitive.attributes, name);
+        if (a >= 0)
+            to = gltf::readVectors<Vector>(elementsOf(document, rootOf(document)["accessors"][std::size_t(a)]), choice,
+                                           {a, field + "." + name});
+    };
+    read(out.positions, "POSITION");
+    read(out.normals, "NORMAL");
+    read(out.tangents, "TANGENT");
+    out.texcoordSet = map.texcoord;
+    read(out.texcoords, fmt::format("TEXCOORD_{}", map.texcoord));
+    for (glm::vec2& uv : out.texcoords) { // as the map reads them
+        if (!isFinite(uv))
+            uv = glm::vec2(0);
+        if (map.moves())
+            uv = moveUv(map.uRow, map.vRow, uv);
+    }
     return out;
 }
 
@@ -187,23 +168,21 @@ Result<GltfGeometry> gltfGeometry(const GltfDocument& document, std::size_t mesh
 }
 
 Result<std::vector<std::byte>> gltfImageBytes(const GltfDocument& document, std::size_t image, const LoadLimits& limits)
-{
+try {
     const gltf::Image entry = gltf::readImage(rootOf(document)["images"][image]);
     if (entry.view >= 0) {
         const auto bytes = viewBytes(document, std::size_t(entry.view));
         return std::vector<std::byte>(bytes.begin(), bytes.end());
     }
     const std::string field = fmt::format("images[{}]", image);
-    try {
-        if (!entry.uri)
-            failGltf("{}: expected either uri or bufferView", field);
-        GltfResource resource = resolveGltfUri(document.source->file, *entry.uri, field + ".uri");
-        if (resource.file.empty())
-            return std::move(resource.bytes);
-        return readGltfResource(document.source->file, resource.file, limits);
-    } catch (const GltfProblem& problem) {
-        return inputError(document.source->path.string() + ": " + problem.error.message);
-    }
+    if (!entry.uri)
+        failGltf("{}: expected either uri or bufferView", field);
+    GltfResource resource = resolveGltfUri(document.source->file, *entry.uri, field + ".uri");
+    if (resource.file.empty())
+        return std::move(resource.bytes);
+    return readGltfResource(document.source->file, resource.file, limits);
+} catch (const GltfProblem& problem) {
+    return inputError(document.source->path.string() + ": " + problem.error.message);
 }
 
 void replaceGltfImage(GltfDocument& document, std::size_t image, std::vector<std::byte> bytes,

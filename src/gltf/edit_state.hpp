@@ -77,16 +77,7 @@ std::size_t addElements(GltfDocument& document, const std::vector<T>& elements, 
         {{"bufferView", view}, {"componentType", componentType}, {"count", elements.size()}, {"type", type}});
 }
 
-// ---- edit_repack.cpp --------------------------------------------------------------------------
-
-// Takes the bytes of accessors marked as removed out of views that others still use: ranges are
-// cut out, columns of interleaved views too. Such views are replaced by added ones.
-void repackViews(GltfDocument& document, const std::vector<bool>& removedAccessors);
-
 // ---- edit_layout.cpp --------------------------------------------------------------------------
-
-// The view that meshoptimizer compressed, where it still is that of the file: its JSON as the file has it; else null.
-const Json* packedView(const GltfDocument& document, std::size_t view);
 
 struct Layout {
     Json root;

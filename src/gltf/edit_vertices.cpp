@@ -26,26 +26,22 @@ std::size_t addVertexView(GltfDocument& document, const gltf::Run& elements, std
     return addView(document, std::move(bytes), stride, gltf::kArrayBuffer);
 }
 
-template<class Index> std::vector<std::byte> asBytes(std::span<const std::uint32_t> values)
-{
-    std::vector<std::byte> bytes(values.size() * sizeof(Index));
-    for (std::size_t i = 0; i < values.size(); ++i) {
-        const auto value = static_cast<Index>(values[i]);
-        std::memcpy(bytes.data() + i * sizeof value, &value, sizeof value);
-    }
-    return bytes;
-}
-
 // Indices in the smallest type, but not bytes where `bytesToo` is false; the largest value of a
 // type restarts primitives and is not used.
 std::pair<int, std::vector<std::byte>> smallestIndices(std::span<const std::uint32_t> values, std::size_t count,
                                                        bool bytesToo)
 {
-    if (count <= 0xff && bytesToo)
-        return {gltf::kUnsignedByte, asBytes<std::uint8_t>(values)};
-    if (count <= 0xffff)
-        return {gltf::kUnsignedShort, asBytes<std::uint16_t>(values)};
-    return {gltf::kUnsignedInt, asBytes<std::uint32_t>(values)};
+    const int type = count <= 0xff && bytesToo ? gltf::kUnsignedByte
+        : count <= 0xffff                      ? gltf::kUnsignedShort
+                                               : gltf::kUnsignedInt;
+    std::vector<std::byte> bytes(values.size() * gltf::componentSize(type));
+    gltf::withType(type, [&]<class Index>(Index) {
+        for (std::size_t i = 0; i < values.size(); ++i) {
+            const auto value = static_cast<Index>(values[i]);
+            std::memcpy(bytes.data() + i * sizeof value, &value, sizeof value);
+        }
+    });
+    return {type, std::move(bytes)};
 }
 
 // Puts the sparse part for the new vertices into the accessor: copies of a replaced element are replaced as well.
@@ -105,9 +101,10 @@ std::size_t renewAccessor(GltfDocument& document, std::size_t index, Sources sou
 // Accessors that were made for new vertices: by the index of the old one that of the new one.
 using Renewed = std::map<std::size_t, std::size_t>;
 
-// Gives a primitive new vertices, copies of old ones with all attributes and morph targets, to the bit.
-// sources: per new vertex the old one. renewed: those that primitives share are made once.
-void renewVertices(GltfDocument& document, Json& primitive, Sources sources, Renewed& renewed)
+// Gives a primitive new vertices, copies of old ones with all attributes and morph targets, to the bit. Notes its
+// extensions that might hold something for each vertex. sources: per new vertex the old one. renewed: those that
+// primitives share are made once.
+void renewVertices(GltfDocument& document, Json& primitive, const std::string& field, Sources sources, Renewed& renewed)
 {
     const auto renewAll = [&](Json& attributes) {
         for (Json& index : attributes) {
@@ -121,11 +118,6 @@ void renewVertices(GltfDocument& document, Json& primitive, Sources sources, Ren
     if (primitive.contains("targets"))
         for (Json& target : primitive["targets"])
             renewAll(target);
-}
-
-// Notes the extensions of a primitive whose vertices were copied that might hold something for each vertex.
-void noteCopied(GltfDocument& document, const Json& primitive, const std::string& field)
-{
     for (const std::string& name : unknownExtensions(primitive))
         document.notes.push_back(
             fmt::format("{}: vertices were copied; its extension {} is kept as it is", field, oneLine(name)));
@@ -238,21 +230,11 @@ std::size_t setGroup(GltfDocument& document, const Group& group)
         if (!sameOrder(document, primitive, own))
             setTriangles(document, primitive, own, count);
         primitive["attributes"]["TANGENT"] = tangents;
-        if (copied) {
-            renewVertices(document, primitive, split.sources, renewed);
-            noteCopied(document, primitive, primitiveField(group.members[m]->mesh, group.members[m]->primitive));
-        }
+        if (copied)
+            renewVertices(document, primitive, primitiveField(group.members[m]->mesh, group.members[m]->primitive),
+                          split.sources, renewed);
     }
     return count - group.vertexCount;
-}
-
-// glTF wants a target to have some attribute: one without any becomes an explicit "no change".
-void fillEmptyTarget(GltfDocument& document, std::size_t count, Json& target)
-{
-    const Json zero = {0, 0, 0};
-    target["POSITION"] =
-        addItem(document, "accessors",
-                {{"componentType", gltf::kFloat}, {"count", count}, {"type", "VEC3"}, {"min", zero}, {"max", zero}});
 }
 
 // ---- provoking vertices ---------------------------------------------------------------------
@@ -275,46 +257,39 @@ void drawAs(Json& primitive, const Json& like)
     primitive.erase("mode");
 }
 
-// Nothing is changed where there are no triangles.
+// Nothing is changed, and the counts are 0, where there are no triangles.
 GltfProvoked provoke(GltfDocument& document, std::size_t m, std::size_t p, ProvokingVertex provoking)
 {
     Json& primitive = rootOf(document)["meshes"][m]["primitives"][p];
-    GltfProvoked done{.mesh = m, .primitive = p};
     if (!primitive["attributes"].contains("POSITION"))
-        return done;
+        return {};
     const auto position = primitive["attributes"]["POSITION"].get<std::size_t>();
     const auto count = rootOf(document)["accessors"][position]["count"].get<std::size_t>();
     std::vector<std::uint32_t> corners = readTriangles(document, gltf::readPrimitive(primitive));
     if (corners.empty())
-        return done;
+        return {};
     const std::vector<std::uint32_t> used = takeUsedVertices(corners, count);
     ProvokingMesh own = provokingMesh(corners, used.size(), provoking);
     for (std::uint32_t& source : own.sources)
         source = used[source];
     setTriangles(document, primitive, own.indices, own.sources.size());
     Renewed renewed; // of this primitive: vertex k belongs to its triangle k
-    renewVertices(document, primitive, own.sources, renewed);
-    noteCopied(document, primitive, primitiveField(m, p));
-    done.triangles = corners.size() / 3;
-    done.verticesBefore = used.size();
-    done.verticesAfter = own.sources.size();
-    return done;
+    renewVertices(document, primitive, primitiveField(m, p), own.sources, renewed);
+    return {m, p, corners.size() / 3, used.size(), own.sources.size()};
 }
 
 } // namespace
 
 Result<std::size_t> setGltfTangents(GltfDocument& document, std::span<const GltfCornerTangents> tangents)
-{
-    try {
-        std::size_t added = 0;
-        for (const Group& group : makeGroups(document, tangents))
-            added += setGroup(document, group);
-        return added;
-    } catch (const GltfProblem& problem) {
-        return inputError(document.source->path.string() + ": " + problem.error.message);
-    } catch (const Error& error) {
-        return error;
-    }
+try {
+    std::size_t added = 0;
+    for (const Group& group : makeGroups(document, tangents))
+        added += setGroup(document, group);
+    return added;
+} catch (const GltfProblem& problem) {
+    return inputError(document.source->path.string() + ": " + problem.error.message);
+} catch (const Error& error) {
+    return error;
 }
 
 bool dropGltfTangents(GltfDocument& document, std::size_t mesh, std::size_t primitive)
@@ -327,11 +302,15 @@ bool dropGltfTangents(GltfDocument& document, std::size_t mesh, std::size_t prim
         const auto tangents = target.find("TANGENT");
         if (tangents == target.end())
             continue;
-        const Json& count = rootOf(document)["accessors"][tangents->get<std::size_t>()]["count"];
-        const auto vertices = count.get<std::size_t>();
+        const auto count = rootOf(document)["accessors"][tangents->get<std::size_t>()]["count"].get<std::size_t>();
         target.erase("TANGENT");
-        if (target.empty())
-            fillEmptyTarget(document, vertices, target);
+        if (!target.empty())
+            continue;
+        // glTF wants a target to have some attribute: one without any becomes an explicit "no change".
+        const Json zero = {0, 0, 0};
+        target["POSITION"] = addItem(
+            document, "accessors",
+            {{"componentType", gltf::kFloat}, {"count", count}, {"type", "VEC3"}, {"min", zero}, {"max", zero}});
     }
     return true;
 }
@@ -346,13 +325,10 @@ Result<std::vector<GltfProvoked>> setGltfProvoking(GltfDocument& document, Provo
             const std::string drawn = drawnBy(primitive);
             if (const auto found = done.find(drawn); found != done.end()) {
                 drawAs(primitive, found->second);
-                return Done{};
+            } else if (const GltfProvoked row = provoke(document, m, p, provoking); row.triangles > 0) {
+                done[drawn] = primitive;
+                all.push_back(row);
             }
-            const GltfProvoked row = provoke(document, m, p, provoking);
-            if (row.triangles == 0)
-                return Done{};
-            done[drawn] = primitive;
-            all.push_back(row);
             return Done{};
         });
         return all;

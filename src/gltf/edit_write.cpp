@@ -159,22 +159,20 @@ fs::path binaryBeside(const GltfSource& source, const fs::path& file)
 
 // ---- images that are new --------------------------------------------------------------------
 
-std::string plainName(const std::string& name)
-{
-    constexpr std::size_t kMax = 64;
-    std::string plain;
-    for (const unsigned char c : name.substr(0, kMax))
-        plain += std::isalnum(c) || c == '-' || c == '_' ? char(c) : '_';
-    return plain;
-}
-
 // What an image is called: by its name, or by the file that it was in.
 std::string nameOfImage(const GltfSource& source, const Json& root, std::size_t i)
 {
     std::string name = root["images"][i].value("name", std::string());
     if (name.empty() && i < countOf(source.file.json, "images") && isExternal(source.file.json["images"][i]))
         name = fs::path(source.file.json["images"][i]["uri"].get<std::string>()).stem().string();
-    return name.empty() ? fmt::format("image{}", i) : plainName(name);
+    if (name.empty())
+        return fmt::format("image{}", i);
+    constexpr std::size_t kMax = 64;
+    name.resize(std::min(name.size(), kMax));
+    for (char& c : name)
+        if (!std::isalnum(static_cast<unsigned char>(c)) && c != '-')
+            c = '_';
+    return name;
 }
 
 // The image files that a model of that name, about to be replaced, calls its own.
@@ -185,7 +183,7 @@ std::vector<std::string> ownImages(const fs::path& file, const LoadLimits& limit
     if (!fs::is_regular_file(file, error))
         return uris;
     Json root; // whatever is wrong with it, it goes
-    if (const auto bytes = readReplacedBytes(file, limits.fileBytes))
+    if (const auto bytes = readFileBytes(file, limits.fileBytes, /*isInput*/ false))
         try {
             root = parseGltfJson(*bytes);
         } catch (const GltfProblem&) {
@@ -284,8 +282,7 @@ GltfWritten write(GltfDocument document, const fs::path& file, const LoadLimits&
         throw outputError(fmt::format("{}: the folder {} does not exist", file.string(), folderOf(file).string()));
     GltfWritten written;
     written.bytesBefore = sizeBefore(*document.source);
-    std::vector<WrittenFile> outputs(1);
-    outputs[0].file = file;
+    std::vector<WrittenFile> outputs{{file, {}}};
     if (binary)
         embedImages(document, limits);
     else

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <cstring>
 #include <limits>
 #include <type_traits>
@@ -19,13 +20,12 @@ Run runIn(const ViewBytes& from, int view, std::size_t offset, std::size_t strid
 {
     if (stride < size)
         failGltf("{}: expected a stride of at least {} bytes, found {}", field, size, stride);
-    if (count > 0 && offset + stride * (count - 1) + size > from.bytes.size())
-        failGltf("{}: {} elements end at byte {} of bufferViews[{}], which has {}", field, count,
-                 offset + stride * (count - 1) + size, view, from.bytes.size());
+    const std::uint64_t end = count > 0 ? offset + std::uint64_t(stride) * (count - 1) + size : 0;
+    if (end > from.bytes.size())
+        failGltf("{}: {} elements end at byte {} of bufferViews[{}], which has {}", field, count, end, view,
+                 from.bytes.size());
     return {from.bytes.data() + std::min(offset, from.bytes.size()), stride, count};
 }
-
-// ---- conversion -----------------------------------------------------------------------------
 
 template<class Out, class Stored> Out convert(Stored value, bool normalized)
 {
@@ -123,7 +123,7 @@ const char* nameOfComponent(int componentType)
     }
 }
 
-void expectElements(const Accessor& a, ElementType type, std::size_t count, const Role& role)
+void expectElements(const Accessor& a, ElementType type, std::uint64_t count, const Role& role)
 {
     if (a.type != type)
         failGltf("{}: expected accessors[{}] of type {}, found {}", role.field, role.accessor, nameOf(type),

@@ -94,7 +94,7 @@ template<class Use> void withType(int componentType, const Use& use)
 }
 
 // Throws GltfProblem for another type or number of elements.
-void expectElements(const Accessor& accessor, ElementType type, std::size_t count, const Role& role);
+void expectElements(const Accessor& accessor, ElementType type, std::uint64_t count, const Role& role);
 
 // Throws GltfProblem for scalars that cannot be indices.
 void expectIndices(const Accessor& accessor, const Role& role);

@@ -3,6 +3,8 @@
 #include <cmath>
 #include <limits>
 
+#include <glm/gtc/type_ptr.hpp>
+
 #include "cotan/image.hpp"
 #include "edit_state.hpp"
 #include "gltf/json/lookup.hpp"
@@ -131,10 +133,8 @@ Json nodeOf(const Instance& instance)
     if (!instance.name.empty())
         node["name"] = instance.name;
     if (instance.toWorld != glm::mat4(1)) {
-        Json& matrix = node["matrix"] = Json::array();
-        for (int column = 0; column < 4; ++column)
-            for (int row = 0; row < 4; ++row)
-                matrix.push_back(instance.toWorld[column][row]);
+        const float* const matrix = glm::value_ptr(instance.toWorld);
+        node["matrix"] = std::vector(matrix, matrix + 16);
     }
     return node;
 }

@@ -3,14 +3,18 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <limits>
+#include <map>
 #include <optional>
 #include <string_view>
+#include <vector>
 
 #include "files/bytes.hpp"
 
 namespace cotan {
 
 namespace fs = std::filesystem;
+using gltf::Json;
 
 namespace {
 
@@ -62,6 +66,125 @@ std::span<const std::byte> splitChunks(GltfFile& file, GltfWarnings& warnings)
     }
     return text;
 }
+
+// ---- JSON -----------------------------------------------------------------------------------
+
+// Builds the document from the events of the parser. The library's own builder looks for each new member among all
+// that its object has already, so that an object of a million members would take hours.
+class Builder : public nlohmann::json_sax<Json> {
+public:
+    explicit Builder(std::string_view text) : text_(text) {}
+
+    Json root;
+
+    bool null() override { return put(nullptr); }
+    bool boolean(bool value) override { return put(value); }
+    bool number_integer(number_integer_t value) override { return put(value); }
+    bool number_unsigned(number_unsigned_t value) override { return put(value); }
+    bool number_float(number_float_t value, const string_t&) override { return put(value); }
+    bool string(string_t& value) override { return put(std::move(value)); }
+    bool binary(binary_t&) override { return false; } // not in JSON
+    bool start_object(std::size_t) override { return open(Json::object()); }
+    bool start_array(std::size_t) override { return open(Json::array()); }
+    bool end_object() override { return close(); }
+    bool end_array() override { return close(); }
+
+    bool key(string_t& name) override
+    {
+        member_ = &levels_.back().place(name);
+        return true;
+    }
+
+    // position: of the last byte that was read, from 1. The parser's own sentences are for programmers.
+    bool parse_error(std::size_t position, const std::string& last, const nlohmann::detail::exception& problem) override
+    {
+        const std::string_view before = text_.substr(0, std::min(std::max<std::size_t>(position, 1) - 1, text_.size()));
+        const auto line = 1 + std::count(before.begin(), before.end(), '\n');
+        const std::size_t column = before.size() - (before.find_last_of('\n') + 1) + 1; // npos + 1 is 0
+        constexpr int kNumberTooLarge = 406;
+        const bool ended = position > text_.size();
+        failGltf("JSON: line {}, column {}: expected {}; found {}", line, column,
+                 problem.id == kNumberTooLarge ? "a number that a double holds"
+                     : ended                   ? "more"
+                                               : "valid JSON",
+                 ended ? "the end of the file" : quotedTail(last));
+    }
+
+private:
+    struct Level {
+        Json* value = nullptr;
+        std::map<std::string, std::size_t> places{}; // of the members of an object, once there are many
+
+        // The member of that name; a new one where there is none.
+        Json& place(string_t& name)
+        {
+            constexpr std::size_t kFew = 16;
+            auto& members = value->get_ref<Json::object_t&>();
+            if (members.size() < kFew) {
+                for (auto& [known, member] : members)
+                    if (known == name)
+                        return member;
+            } else {
+                if (places.empty())
+                    for (const auto& [known, member] : members)
+                        places.emplace(known, places.size());
+                if (const auto [known, isNew] = places.emplace(name, members.size()); !isNew)
+                    return (members.begin() + std::ptrdiff_t(known->second))->second;
+            }
+            members.emplace_back(std::move(name), nullptr);
+            return members.back().second;
+        }
+    };
+
+    // The end of what was read, on one line.
+    static std::string quotedTail(std::string_view read)
+    {
+        constexpr std::size_t kMax = 24;
+        std::string tail(read.substr(read.size() - std::min(read.size(), kMax)));
+        for (char& c : tail)
+            if (c < ' ' || c > '~')
+                c = '?';
+        return "'" + tail + "'";
+    }
+
+    // Where the next value goes: the root, a member, or the end of an array.
+    Json& put(Json&& value)
+    {
+        if (levels_.empty())
+            return root = std::move(value);
+        Json& owner = *levels_.back().value;
+        if (owner.is_object())
+            return *member_ = std::move(value);
+        auto& items = owner.get_ref<Json::array_t&>();
+        items.push_back(std::move(value));
+        return items.back();
+    }
+
+    template<class T> bool put(T&& value)
+    {
+        put(Json(std::forward<T>(value)));
+        return true;
+    }
+
+    bool open(Json&& value)
+    {
+        constexpr std::size_t kDeepest = 128; // what walks through a document recurses once a level
+        if (levels_.size() >= kDeepest)
+            failGltf("JSON: nested deeper than {} levels", kDeepest);
+        levels_.push_back({&put(std::move(value))});
+        return true;
+    }
+
+    bool close()
+    {
+        levels_.pop_back();
+        return true;
+    }
+
+    std::string_view text_;
+    std::vector<Level> levels_; // the objects and arrays that are open
+    Json* member_ = nullptr;    // of the innermost, named last
+};
 
 // ---- URIs -----------------------------------------------------------------------------------
 
@@ -130,12 +253,6 @@ std::vector<std::byte> decodeDataUri(std::string_view uri, const std::string& fi
     return std::move(*bytes);
 }
 
-bool hasScheme(std::string_view uri)
-{
-    const std::size_t end = uri.find_first_of(":/?#");
-    return end != std::string_view::npos && uri[end] == ':';
-}
-
 std::span<const std::byte> bufferFile(GltfFile& file, const fs::path& path, const std::string& field,
                                       const LoadLimits& limits)
 {
@@ -152,6 +269,14 @@ std::span<const std::byte> bufferFile(GltfFile& file, const fs::path& path, cons
 
 } // namespace
 
+Json parseGltfJson(std::span<const std::byte> text)
+{
+    const auto* const first = reinterpret_cast<const char*>(text.data());
+    Builder builder({first, text.size()});
+    Json::sax_parse(first, first + text.size(), &builder);
+    return std::move(builder.root);
+}
+
 Result<std::vector<std::byte>> readGltfResource(const GltfFile& file, const fs::path& resource,
                                                 const LoadLimits& limits)
 {
@@ -164,9 +289,10 @@ Result<std::vector<std::byte>> readGltfResource(const GltfFile& file, const fs::
     return bytes;
 }
 
-void takeBytes(std::size_t& taken, std::size_t bytes, std::size_t most, const char* what, std::size_t fileBytes,
+void takeBytes(std::uint64_t& taken, std::uint64_t bytes, std::uint64_t most, const char* what, std::size_t fileBytes,
                const std::string& field)
 {
+    most = std::min<std::uint64_t>(most, std::numeric_limits<std::size_t>::max());
     if (bytes > most - std::min(taken, most))
         failGltf("{}: {} {} bytes with it, the limit is {} for a file of {}", field, what, taken + bytes, most,
                  fileBytes);
@@ -192,25 +318,19 @@ GltfFile openGltf(const fs::path& path, const LoadLimits& limits, GltfWarnings& 
 
 GltfResource resolveGltfUri(const GltfFile& file, std::string_view uri, const std::string& field, bool mayMiss)
 {
-    GltfResource resource;
-    if (uri.starts_with("data:")) {
-        resource.bytes = decodeDataUri(uri, field);
-        return resource;
-    }
-    if (hasScheme(uri))
+    if (uri.starts_with("data:"))
+        return {{}, decodeDataUri(uri, field)};
+    if (const std::size_t end = uri.find_first_of(":/?#"); end != uri.npos && uri[end] == ':') // a scheme
         failGltf("{}: expected a file in the model's folder, found \"{}\"", field, oneLine(uri));
-    if (file.readFile) {
-        resource.file = decodePercent(uri);
-        return resource;
-    }
+    if (file.readFile)
+        return {decodePercent(uri), {}};
     bool outside = false;
     const std::optional<fs::path> found = findInFolder(file.folder, decodePercent(uri), outside);
     if (outside)
         failGltf("{}: expected a file in the model's folder, found \"{}\", which leads out of it", field, oneLine(uri));
     if (!found && !mayMiss)
         failGltf("{}: there is no file \"{}\" in the model's folder", field, oneLine(uri));
-    resource.file = found.value_or(fs::path());
-    return resource;
+    return {found.value_or(fs::path()), {}};
 }
 
 bool isGltfFallback(const gltf::Json& buffer)
@@ -218,14 +338,14 @@ bool isGltfFallback(const gltf::Json& buffer)
     if (gltf::member(buffer, "uri"))
         return false;
     for (const char* const name : kMeshoptExtensions)
-        if (const gltf::Json* const packed = gltf::extension(buffer, name))
+        if (const Json* const packed = gltf::extension(buffer, name))
             return gltf::valueOr(*packed, "fallback", false);
     return false;
 }
 
 void loadGltfBuffers(GltfFile& file, const LoadLimits& limits)
 {
-    const gltf::Json* const list = gltf::member(file.json, "buffers");
+    const Json* const list = gltf::member(file.json, "buffers");
     const std::size_t count = list ? list->size() : 0;
     file.bufferBytes.reserve(count); // spans point into it
     for (std::size_t i = 0; i < count; ++i) {
@@ -237,7 +357,7 @@ void loadGltfBuffers(GltfFile& file, const LoadLimits& limits)
         }
         const auto length = buffer["byteLength"].get<std::size_t>();
         std::span<const std::byte> bytes;
-        if (const gltf::Json* const uri = gltf::member(buffer, "uri")) {
+        if (const Json* const uri = gltf::member(buffer, "uri")) {
             GltfResource resource = resolveGltfUri(file, uri->get_ref<const std::string&>(), field + ".uri");
             if (resource.file.empty())
                 bytes = file.bufferBytes.emplace_back(std::move(resource.bytes));
@@ -252,6 +372,15 @@ void loadGltfBuffers(GltfFile& file, const LoadLimits& limits)
             failGltf("{}.byteLength: {} bytes are promised, found {}", field, length, bytes.size());
         file.buffers.push_back(bytes.first(length));
     }
+}
+
+std::span<const std::byte> gltfViewBytes(const GltfFile& file, const gltf::BufferView& view, const std::string& field)
+{
+    const std::span<const std::byte> bytes = file.buffers[view.buffer];
+    if (view.offset > bytes.size() || view.length > bytes.size() - view.offset)
+        failGltf("{}: it ends at byte {} of buffers[{}], which has {}", field, std::uint64_t(view.offset) + view.length,
+                 view.buffer, bytes.size());
+    return bytes.subspan(view.offset, view.length);
 }
 
 } // namespace cotan

@@ -57,7 +57,7 @@ struct GltfFile {
     std::map<std::filesystem::path, std::vector<std::byte>> bufferFiles; // each is read once
     std::vector<std::vector<std::byte>> bufferBytes;                     // decoded data URIs
     std::vector<std::vector<std::byte>> unpackedBytes;                   // of buffers that unpackGltf has made
-    std::size_t unpacked = 0;                                            // how many bytes those are
+    std::uint64_t unpacked = 0;                                          // how many bytes those are
     GltfPacked packed;                                                   // what they were made of
 };
 
@@ -77,6 +77,9 @@ bool isGltfFallback(const gltf::Json& buffer);
 
 // Fills GltfFile::buffers; those of isGltfFallback stay empty. The JSON must have passed checkGltfShape.
 void loadGltfBuffers(GltfFile& file, const LoadLimits& limits);
+
+// The bytes of a buffer view. field: for the message. Throws GltfProblem where it ends behind its buffer.
+std::span<const std::byte> gltfViewBytes(const GltfFile& file, const gltf::BufferView& view, const std::string& field);
 
 // What a URI of the model stands for. Data URIs are decoded. Files are looked up in the model's folder; schemes,
 // absolute paths and anything that leads out of the folder, be it by ".." or by a symbolic link, are refused. field:
@@ -99,12 +102,10 @@ void checkGltfAnimations(const gltf::Json& root);
 // Throws GltfProblem: damaged streams; ErrorKind::unavailable where this build lacks the decoder.
 void unpackGltf(GltfFile& file, const LoadLimits& limits);
 
-// Adds bytes to those that are taken already. Throws GltfProblem where they are more than `most` with it. what: the
-// message's subject and verb; fileBytes: the size of the file, for the message too.
-void takeBytes(std::size_t& taken, std::size_t bytes, std::size_t most, const char* what, std::size_t fileBytes,
+// Adds bytes to those that are taken already. Throws GltfProblem where they are more than `most`, or than std::size_t
+// holds, with it. what: the message's subject and verb; fileBytes: the size of the file, for the message too.
+void takeBytes(std::uint64_t& taken, std::uint64_t bytes, std::uint64_t most, const char* what, std::size_t fileBytes,
                const std::string& field);
-
-namespace gltf {
 
 // A buffer view as EXT_meshopt_compression has it.
 struct MeshoptView {
@@ -115,7 +116,5 @@ struct MeshoptView {
 
 // count * stride bytes. field: for messages. Throws GltfProblem.
 std::vector<std::byte> decodeMeshopt(const MeshoptView& view, const std::string& field);
-
-} // namespace gltf
 
 } // namespace cotan

@@ -71,7 +71,7 @@ struct GltfModel {
     std::vector<gltf::Elements> accessors; // all have been checked
     std::size_t verticesTaken = 0;         // against limits.vertices
     std::size_t trianglesTaken = 0;        // against limits.triangles
-    std::size_t bytesTaken = 0;            // by arrays of vertices and triangles, against gltfAllowance
+    std::uint64_t bytesTaken = 0;          // by arrays of vertices and triangles, against gltfAllowance
 };
 
 // Opens a file and reads what it holds: checks the JSON, loads the buffers, decodes compressed geometry, fills the
@@ -82,9 +82,9 @@ void readGltfModel(GltfModel& model, const std::filesystem::path& path, const Lo
 // its own size that only what is not in the file, or is read again and again, can go beyond it.
 // (Sixteen: a strip of bytes that becomes triangles with flat normals grows by the most. Four of what was
 // compressed, which has its own limit: bytes become floats.)
-inline std::size_t gltfAllowance(const GltfModel& model)
+inline std::uint64_t gltfAllowance(const GltfModel& model)
 {
-    return model.limits.geometryBytes + 16 * model.file.size + 4 * model.file.unpacked;
+    return model.limits.geometryBytes + 16 * std::uint64_t(model.file.size) + 4 * model.file.unpacked;
 }
 
 // The place in names of what is wanted, by its name, of several the first, or by its number. what: for the message, in
@@ -92,7 +92,7 @@ inline std::size_t gltfAllowance(const GltfModel& model)
 std::size_t findNamed(const std::vector<std::string>& names, const std::string& wanted, const char* what);
 
 // Counts bytes before they are allocated. field: for the message where they are too many.
-void takeGltfBytes(GltfModel& model, std::size_t bytes, const std::string& field);
+void takeGltfBytes(GltfModel& model, std::uint64_t bytes, const std::string& field);
 
 // The elements of an accessor. field: for messages, what the accessor is used as. An element type or
 // component type that cannot be used so is refused, and so is an array that goes over the allowance.
@@ -100,7 +100,7 @@ template<class Vector>
 std::vector<Vector> readGltfVectors(GltfModel& model, int accessor, const gltf::Choice& choice,
                                     const std::string& field)
 {
-    takeGltfBytes(model, choice.size() * sizeof(Vector), field);
+    takeGltfBytes(model, std::uint64_t(choice.size()) * sizeof(Vector), field);
     return gltf::readVectors<Vector>(model.accessors[std::size_t(accessor)], choice, {accessor, field});
 }
 

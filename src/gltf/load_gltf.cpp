@@ -32,7 +32,7 @@ std::vector<glm::mat4> readMatrices(GltfModel& model, int accessor, std::size_t 
                  gltf::nameOfComponent(a.componentType));
     if (a.count < count)
         failGltf("{}: expected {} matrices in accessors[{}], found {}", field, count, accessor, a.count);
-    takeGltfBytes(model, count * sizeof(glm::mat4), field);
+    takeGltfBytes(model, std::uint64_t(count) * sizeof(glm::mat4), field);
     std::vector<glm::mat4> matrices(count, glm::mat4(0));
     if (count > 0)
         gltf::readNumbers(elements, count, 16, &matrices[0][0].x);
@@ -69,11 +69,10 @@ private:
     {
         for (std::size_t i = 0; i < model_.structure.skins.size(); ++i) {
             const gltf::Skin& skin = model_.structure.skins[i];
-            const std::string field = fmt::format("skins[{}]", i);
+            const std::string field = fmt::format("skins[{}].inverseBindMatrices", i);
             std::vector<glm::mat4> bind(skin.joints.size(), glm::mat4(1));
             if (skin.inverseBindMatrices >= 0)
-                bind =
-                    readMatrices(model_, skin.inverseBindMatrices, skin.joints.size(), field + ".inverseBindMatrices");
+                bind = readMatrices(model_, skin.inverseBindMatrices, skin.joints.size(), field);
             std::vector<glm::dmat4>& joints = joints_.emplace_back();
             for (std::size_t j = 0; j < skin.joints.size(); ++j)
                 joints.push_back(nodes_.world[std::size_t(skin.joints[j])] * glm::dmat4(bind[j]));
@@ -200,7 +199,7 @@ struct AnimatedGltf::Work {
     // As they were when it was opened: a pose changes them.
     std::vector<gltf::Node> nodes;
     GltfWarnings warnings;
-    std::size_t bytesTaken = 0;
+    std::uint64_t bytesTaken = 0;
     std::vector<GltfAnimation> animations;
     std::map<std::string, std::vector<glm::vec3>> reached;
 };

@@ -93,13 +93,11 @@ std::size_t addItem(GltfDocument& document, const char* collection, Json item)
 
 void setExtra(Json& material, const char* key, std::string_view text)
 {
-    if (!text.empty()) {
-        if (!material.contains("extras") || !material["extras"].is_object())
-            material["extras"] = Json::object();
-        material["extras"][key] = text;
-    } else {
-        takeOut(material, "extras", key);
-    }
+    if (text.empty())
+        return takeOut(material, "extras", key);
+    if (!material.contains("extras") || !material["extras"].is_object())
+        material["extras"] = Json::object();
+    material["extras"][key] = text;
 }
 
 void setExpansion(Json& material, Expansion expansion)

@@ -13,68 +13,6 @@ namespace cotan {
 
 namespace fs = std::filesystem;
 
-Texture GltfMaterials::texture(const gltf::TextureUse& use, const Mesh& mesh, const std::string& field)
-{
-    Texture texture;
-    if (use.texture < 0)
-        return texture;
-    const gltf::Texture& source = model_.structure.textures[std::size_t(use.texture)];
-    // Its own, or the one that an extension gives it in another format.
-    const int image = source.image >= 0 || model_.limits.pixels == Pixels::all ? source.image : source.foreign;
-    if (image < 0) {
-        model_.warnings.add(fmt::format("textures[{}]", use.texture), "no PNG or JPEG image, the texture is left out");
-        return texture;
-    }
-    const int set = use.texcoord;
-    if (set < 0 || set > 1 || mesh.texcoords[std::size_t(set)].empty()) {
-        model_.warnings.add(
-            field,
-            fmt::format("it asks for TEXCOORD_{}, which is missing from a mesh that uses it; left out there", set));
-        return texture;
-    }
-    texture.texcoord = set;
-    if (source.sampler >= 0)
-        texture.sampler = model_.structure.samplers[std::size_t(source.sampler)];
-    texture.uRow = use.uRow;
-    texture.vRow = use.vRow;
-    const auto [slot, isNew] = slots_.emplace(firstEqual(image), int(scene_.images.size()));
-    if (isNew)
-        scene_.images.emplace_back();
-    texture.image = slot->second;
-    return texture;
-}
-
-Material GltfMaterials::make(int index, const Mesh& mesh)
-{
-    if (index < 0)
-        return {};
-    const gltf::Json& source = (*materials_)[std::size_t(index)];
-    std::optional<Frame> frame;
-    if (const std::string named = gltf::frameText(source); !named.empty()) {
-        frame = frameFromName(named);
-        if (!frame)
-            model_.warnings.add(fmt::format("materials[{}].extras.{}", index, gltf::kFrameExtra),
-                                fmt::format("expected the name of a frame, found '{}'; left out", oneLine(named)));
-    }
-    Material material = gltf::readMaterial(source, [&](const gltf::Json& owner, const char* slot) {
-        return texture(gltf::readTextureUse(gltf::member(owner, slot)), mesh,
-                       fmt::format("materials[{}].{}", index, slot));
-    });
-    material.normalFrame = frame;
-    return material;
-}
-
-int GltfMaterials::use(int material, const Mesh& mesh)
-{
-    const int sets = (mesh.texcoords[0].empty() ? 0 : 1) + (mesh.texcoords[1].empty() ? 0 : 2);
-    const auto [made, isNew] = made_.try_emplace({material, material < 0 ? 0 : sets}, int(scene_.materials.size()));
-    if (isNew)
-        scene_.materials.push_back(make(material, mesh));
-    return made->second;
-}
-
-// ---- images ---------------------------------------------------------------------------------
-
 namespace {
 
 struct ImageSource {
@@ -141,7 +79,91 @@ void takeFrom(std::atomic<std::size_t>& left, std::size_t bytes, std::size_t all
     } while (!left.compare_exchange_weak(rest, rest - bytes));
 }
 
+// What is wrong with an image as far as that shows without decoding it. Throws GltfProblem.
+void lookAt(const GltfModel& model, int image, bool used)
+{
+    // Signature, length and type, IHDR's 13 bytes, checksum.
+    constexpr std::size_t kPngHeader = 33;
+    ImageSource source = findImage(model, image, /*mayMiss*/ true);
+    if (!source.resource.file.empty()) {
+        if (model.file.readFile)
+            return; // nothing is fetched only to be looked at
+        std::error_code error;
+        const std::uintmax_t size = fs::file_size(source.resource.file, error);
+        if (error || size == 0 || size >= kPngHeader)
+            return;
+        source.bytes = source.resource.bytes =
+            valueOrFail(readGltfResource(model.file, source.resource.file, model.limits));
+    }
+    if (isPng(source.bytes) && source.bytes.size() < kPngHeader)
+        failGltf("{}: the PNG {} ends in its header", imageField(image), source.name);
+    if (used && !source.bytes.empty() && pictureFormat(source.bytes).empty())
+        failGltf("{}: expected PNG or JPEG data in {}", imageField(image), source.name);
+}
+
 } // namespace
+
+Texture GltfMaterials::texture(const gltf::TextureUse& use, const Mesh& mesh, const std::string& field)
+{
+    Texture texture;
+    if (use.texture < 0)
+        return texture;
+    const gltf::Texture& source = model_.structure.textures[std::size_t(use.texture)];
+    // Its own, or the one that an extension gives it in another format.
+    const int image = source.image >= 0 || model_.limits.pixels == Pixels::all ? source.image : source.foreign;
+    if (image < 0) {
+        model_.warnings.add(fmt::format("textures[{}]", use.texture), "no PNG or JPEG image, the texture is left out");
+        return texture;
+    }
+    const int set = use.texcoord;
+    if (set < 0 || set > 1 || mesh.texcoords[std::size_t(set)].empty()) {
+        model_.warnings.add(
+            field,
+            fmt::format("it asks for TEXCOORD_{}, which is missing from a mesh that uses it; left out there", set));
+        return texture;
+    }
+    texture.texcoord = set;
+    if (source.sampler >= 0)
+        texture.sampler = model_.structure.samplers[std::size_t(source.sampler)];
+    texture.uRow = use.uRow;
+    texture.vRow = use.vRow;
+    const auto [slot, isNew] = slots_.emplace(firstEqual(image), int(scene_.images.size()));
+    if (isNew)
+        scene_.images.emplace_back();
+    texture.image = slot->second;
+    return texture;
+}
+
+Material GltfMaterials::make(int index, const Mesh& mesh)
+{
+    if (index < 0)
+        return {};
+    const gltf::Json& source = (*materials_)[std::size_t(index)];
+    std::optional<Frame> frame;
+    if (const std::string named = gltf::frameText(source); !named.empty()) {
+        frame = frameFromName(named);
+        if (!frame)
+            model_.warnings.add(fmt::format("materials[{}].extras.{}", index, gltf::kFrameExtra),
+                                fmt::format("expected the name of a frame, found '{}'; left out", oneLine(named)));
+    }
+    Material material = gltf::readMaterial(source, [&](const gltf::Json& owner, const char* slot) {
+        return texture(gltf::readTextureUse(gltf::member(owner, slot)), mesh,
+                       fmt::format("materials[{}].{}", index, slot));
+    });
+    material.normalFrame = frame;
+    return material;
+}
+
+int GltfMaterials::use(int material, const Mesh& mesh)
+{
+    const int sets = (mesh.texcoords[0].empty() ? 0 : 1) + (mesh.texcoords[1].empty() ? 0 : 2);
+    const auto [made, isNew] = made_.try_emplace({material, material < 0 ? 0 : sets}, int(scene_.materials.size()));
+    if (isNew)
+        scene_.materials.push_back(make(material, mesh));
+    return made->second;
+}
+
+// ---- images ---------------------------------------------------------------------------------
 
 // Of the model with its buffers, and of the images beside it.
 std::uint64_t GltfMaterials::bytesOfFiles() const
@@ -208,32 +230,6 @@ void GltfMaterials::decodeImages()
         if (!foreign[i].empty())
             model_.warnings.add(imageField(jobs[i].first), fmt::format("{} is not read here", foreign[i]));
 }
-
-namespace {
-
-// What is wrong with an image as far as that shows without decoding it. Throws GltfProblem.
-void lookAt(const GltfModel& model, int image, bool used)
-{
-    // Signature, length and type, IHDR's 13 bytes, checksum.
-    constexpr std::size_t kPngHeader = 33;
-    ImageSource source = findImage(model, image, /*mayMiss*/ true);
-    if (!source.resource.file.empty()) {
-        if (model.file.readFile)
-            return; // nothing is fetched only to be looked at
-        std::error_code error;
-        const std::uintmax_t size = fs::file_size(source.resource.file, error);
-        if (error || size == 0 || size >= kPngHeader)
-            return;
-        source.bytes = source.resource.bytes =
-            valueOrFail(readGltfResource(model.file, source.resource.file, model.limits));
-    }
-    if (isPng(source.bytes) && source.bytes.size() < kPngHeader)
-        failGltf("{}: the PNG {} ends in its header", imageField(image), source.name);
-    if (used && !source.bytes.empty() && pictureFormat(source.bytes).empty())
-        failGltf("{}: expected PNG or JPEG data in {}", imageField(image), source.name);
-}
-
-} // namespace
 
 void GltfMaterials::checkUnusedImages() const
 {

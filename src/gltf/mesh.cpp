@@ -24,10 +24,8 @@ template<class T> void spread(std::vector<T>& values, const std::vector<std::uin
 {
     if (values.empty())
         return;
-    std::vector<T> copy;
-    copy.reserve(order.size());
-    for (const std::uint32_t i : order)
-        copy.push_back(values[i]);
+    std::vector<T> copy(order.size());
+    std::ranges::transform(order, copy.begin(), [&](std::uint32_t i) { return values[i]; });
     values = std::move(copy);
 }
 
@@ -142,7 +140,7 @@ struct Blend {
 Blend blend(const GltfPrimitive& primitive, std::size_t vertex, const std::vector<glm::dmat4>& joints)
 {
     Blend sum;
-    for (std::size_t set = 0; set < primitive.joints.size(); ++set) {
+    for (std::size_t set = 0; set < primitive.joints.size(); ++set)
         for (int k = 0; k < 4; ++k) {
             const double weight = primitive.weights[set][vertex][k];
             if (weight == 0)
@@ -154,7 +152,6 @@ Blend blend(const GltfPrimitive& primitive, std::size_t vertex, const std::vecto
             sum.matrix += joints[joint] * weight;
             sum.weight += weight;
         }
-    }
     return sum;
 }
 

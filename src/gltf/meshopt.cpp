@@ -4,7 +4,7 @@
 
 #include "gltf_file.hpp"
 
-namespace cotan::gltf {
+namespace cotan {
 
 namespace {
 
@@ -28,7 +28,7 @@ void checkSizes(const MeshoptView& view, const std::string& field)
         failGltf("{}.filter: COLOR is not read here; expected NONE, OCTAHEDRAL, QUATERNION or EXPONENTIAL", field);
 }
 
-int decode(const MeshoptView& view, std::vector<std::byte>& out)
+int decodeStream(const MeshoptView& view, std::vector<std::byte>& out)
 {
     const auto* const bytes = reinterpret_cast<const unsigned char*>(view.bytes.data());
     if (view.mode == "ATTRIBUTES")
@@ -44,7 +44,7 @@ std::vector<std::byte> decodeMeshopt(const MeshoptView& view, const std::string&
 {
     checkSizes(view, field);
     std::vector<std::byte> out(view.count * view.stride);
-    if (const int code = decode(view, out); code == -1)
+    if (const int code = decodeStream(view, out); code == -1)
         failGltf("{}: expected a stream that meshoptimizer 0.18 reads (codec version 0), found another", field);
     else if (code != 0)
         failGltf("{}: the compressed bytes are damaged, or not {} elements of {} bytes", field, view.count,
@@ -58,4 +58,4 @@ std::vector<std::byte> decodeMeshopt(const MeshoptView& view, const std::string&
     return out;
 }
 
-} // namespace cotan::gltf
+} // namespace cotan

@@ -2,11 +2,11 @@
 #include "core/not_built.hpp"
 #include "gltf/draco.hpp"
 
-namespace cotan::gltf {
+namespace cotan {
 
 Result<std::vector<DracoGeometry>> decodeDracoHere(const std::vector<DracoJob>&)
 {
     return notBuiltWith("Draco", "libdraco-dev");
 }
 
-} // namespace cotan::gltf
+} // namespace cotan

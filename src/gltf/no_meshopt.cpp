@@ -2,7 +2,7 @@
 #include "core/not_built.hpp"
 #include "gltf_file.hpp"
 
-namespace cotan::gltf {
+namespace cotan {
 
 std::vector<std::byte> decodeMeshopt(const MeshoptView&, const std::string& field)
 {
@@ -10,4 +10,4 @@ std::vector<std::byte> decodeMeshopt(const MeshoptView&, const std::string& fiel
     throw GltfProblem{reworded(missing, field + ": " + missing.message)};
 }
 
-} // namespace cotan::gltf
+} // namespace cotan

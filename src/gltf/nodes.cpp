@@ -41,14 +41,13 @@ glm::dmat4 localOf(GltfModel& model, int node)
 std::vector<int> findParents(const GltfModel& model)
 {
     std::vector<int> parents(model.structure.nodes.size(), -1);
-    for (int i = 0; i < int(parents.size()); ++i) {
+    for (int i = 0; i < int(parents.size()); ++i)
         for (const int child : nodeAt(model, i).children) {
             int& parent = parents[std::size_t(child)];
             if (parent >= 0)
                 failGltf("nodes[{}]: expected one parent, found nodes[{}] and nodes[{}]", child, parent, i);
             parent = i;
         }
-    }
     return parents;
 }
 
@@ -83,10 +82,9 @@ std::vector<int> rootsOf(const std::vector<int>& parents)
 
 std::vector<glm::dmat4> worldMatrices(GltfModel& model, const std::vector<int>& parents)
 {
-    const std::vector<int> order = withDescendants(model, rootsOf(parents));
     std::vector<bool> reached(parents.size(), false);
     std::vector<glm::dmat4> world(parents.size(), glm::dmat4(1));
-    for (const int node : order) {
+    for (const int node : withDescendants(model, rootsOf(parents))) {
         const auto i = std::size_t(node);
         const glm::dmat4 local = localOf(model, node);
         world[i] = parents[i] < 0 ? local : world[std::size_t(parents[i])] * local;
@@ -123,8 +121,6 @@ void warnIfFlat(GltfModel& model, const glm::dmat4& world, int node)
         model.warnings.add(nodeField(node), "its transform is singular (a scale of zero)");
 }
 
-// ---- instancing -----------------------------------------------------------------------------
-
 std::vector<glm::dmat4> instanceMatrices(GltfModel& model, const gltf::Attributes& instances, const std::string& field)
 {
     const int translations = gltf::accessorOf(instances, "TRANSLATION");
@@ -150,15 +146,19 @@ std::vector<glm::dmat4> instanceMatrices(GltfModel& model, const gltf::Attribute
     return matrices;
 }
 
+// A unit vector along an axis of a transform, or `otherwise` where its scale is zero.
+glm::vec3 axis(const glm::dvec4& column, const glm::vec3& otherwise)
+{
+    const double length = glm::length(glm::dvec3(column));
+    return length > 0 ? glm::vec3(glm::dvec3(column) / length) : otherwise;
+}
+
 } // namespace
 
 GltfNodes readGltfNodes(GltfModel& model)
 {
-    GltfNodes nodes;
     const std::vector<int> parents = findParents(model);
-    nodes.world = worldMatrices(model, parents);
-    nodes.visible = withDescendants(model, shownRoots(model, parents));
-    return nodes;
+    return {worldMatrices(model, parents), withDescendants(model, shownRoots(model, parents))};
 }
 
 std::vector<glm::mat4> gltfPlacements(GltfModel& model, const GltfNodes& nodes, int node)
@@ -176,19 +176,6 @@ std::vector<glm::mat4> gltfPlacements(GltfModel& model, const GltfNodes& nodes, 
     }
     return placements;
 }
-
-// ---- lights and cameras ---------------------------------------------------------------------
-
-namespace {
-
-// A unit vector along an axis of a transform, or `otherwise` where its scale is zero.
-glm::vec3 axis(const glm::dvec4& column, const glm::vec3& otherwise)
-{
-    const double length = glm::length(glm::dvec3(column));
-    return length > 0 ? glm::vec3(glm::dvec3(column) / length) : otherwise;
-}
-
-} // namespace
 
 void addGltfLightsAndCameras(const GltfModel& model, const GltfNodes& nodes, Scene& scene)
 {

@@ -1,6 +1,7 @@
 // Reads one primitive: attributes, morph targets, and any topology made into triangles.
 #include <algorithm>
 #include <array>
+#include <cstdint>
 #include <numeric>
 
 #include "cotan/vector.hpp"
@@ -42,7 +43,7 @@ const Accessor& accessorAt(const GltfModel& model, int accessor)
 template<class T>
 std::vector<T> makeArray(GltfModel& model, std::size_t count, const T& value, const std::string& field)
 {
-    takeGltfBytes(model, count * sizeof(T), field);
+    takeGltfBytes(model, std::uint64_t(count) * sizeof(T), field);
     return std::vector<T>(count, value);
 }
 
@@ -95,18 +96,6 @@ std::vector<std::uint32_t> readIndices(GltfModel& model, int accessor, std::size
 
 // ---- attributes -----------------------------------------------------------------------------
 
-void replaceUnusable(std::vector<glm::vec2>& texcoords, const std::string& field, GltfWarnings& warnings)
-{
-    std::size_t bad = 0;
-    for (glm::vec2& uv : texcoords) {
-        if (!isFinite(uv)) {
-            uv = glm::vec2(0);
-            ++bad;
-        }
-    }
-    warnings.add(field, "not a finite number, replaced by 0", bad, "vertices");
-}
-
 void readTexcoords(GltfModel& model, const gltf::Primitive& source, const Choice& choice, GltfPrimitive& out)
 {
     for (const auto& [name, accessor] : source.attributes) {
@@ -119,7 +108,13 @@ void readTexcoords(GltfModel& model, const gltf::Primitive& source, const Choice
         }
         std::vector<glm::vec2>& set = out.mesh.texcoords[name == "TEXCOORD_0" ? 0 : 1];
         set = readGltfVectors<glm::vec2>(model, accessor, choice, field);
-        replaceUnusable(set, field, model.warnings);
+        std::size_t bad = 0;
+        for (glm::vec2& uv : set)
+            if (!isFinite(uv)) {
+                uv = glm::vec2(0);
+                ++bad;
+            }
+        model.warnings.add(field, "not a finite number, replaced by 0", bad, "vertices");
     }
 }
 
@@ -160,7 +155,7 @@ void readAttributes(GltfModel& model, const gltf::Primitive& source, const Choic
 
 template<class Vector> void addScaled(std::vector<Vector>& to, const std::vector<glm::vec3>& delta, float weight)
 {
-    if (to.empty() || weight == 0)
+    if (weight == 0)
         return;
     for (std::size_t i = 0; i < to.size(); ++i) {
         to[i].x += weight * delta[i].x;
@@ -173,7 +168,7 @@ template<class Vector> void addScaled(std::vector<Vector>& to, const std::vector
 void morph(GltfModel& model, const gltf::Primitive& source, const std::vector<double>& weights, const Choice& choice,
            GltfPrimitive& out)
 {
-    const std::size_t kept = model.bytesTaken;
+    const std::uint64_t kept = model.bytesTaken;
     for (std::size_t t = 0; t < source.targets.size(); ++t) {
         const std::string field = fmt::format("{}.targets[{}]", out.field, t);
         takeVertices(model, choice.size(), field);
@@ -191,20 +186,14 @@ void morph(GltfModel& model, const gltf::Primitive& source, const std::vector<do
 
 // ---- topology -------------------------------------------------------------------------------
 
-// The corners of triangle i of a strip or fan, with the winding that the specification gives it.
-std::array<std::size_t, 3> cornersOf(int mode, std::size_t i)
-{
-    if (mode == gltf::kTriangleStrip)
-        return {i, i + 1 + i % 2, i + 2 - i % 2};
-    return {i + 1, i + 2, 0};
-}
-
 std::vector<std::uint32_t> unroll(int mode, const std::vector<std::uint32_t>& order)
 {
     std::vector<std::uint32_t> triangles;
     triangles.reserve(order.size() * 3);
     for (std::size_t i = 0; i + 2 < order.size(); ++i) {
-        const auto [a, b, c] = cornersOf(mode, i);
+        // With the winding that the specification gives to a strip or fan.
+        const auto [a, b, c] = mode == gltf::kTriangleStrip ? std::array{i, i + 1 + i % 2, i + 2 - i % 2}
+                                                            : std::array{i + 1, i + 2, std::size_t(0)};
         if (order[a] == order[b] || order[b] == order[c] || order[c] == order[a])
             continue;
         triangles.insert(triangles.end(), {order[a], order[b], order[c]});
@@ -239,13 +228,6 @@ std::vector<std::uint32_t> bySearch(std::vector<std::uint32_t>& corners)
     return used;
 }
 
-// What a corner of a mesh with flat normals holds at most.
-struct Corner {
-    glm::vec3 position, normal;
-    glm::vec2 texcoords[2];
-    glm::vec4 color;
-};
-
 std::vector<std::uint32_t> readTriangles(GltfModel& model, const gltf::Primitive& source, std::size_t vertices,
                                          const GltfPrimitive& out)
 {
@@ -263,7 +245,7 @@ std::vector<std::uint32_t> readTriangles(GltfModel& model, const gltf::Primitive
     } else if (source.mode == gltf::kTriangleStrip || source.mode == gltf::kTriangleFan) {
         takeTriangles(model, order.size(), out.field); // before the array grows by three
         model.trianglesTaken -= order.size();
-        takeGltfBytes(model, 3 * order.size() * sizeof order[0], out.field);
+        takeGltfBytes(model, 3 * std::uint64_t(order.size()) * sizeof order[0], out.field);
     } else {
         model.warnings.add(out.field, "points and lines are not drawn");
     }
@@ -284,8 +266,8 @@ std::vector<std::uint32_t> gltfTriangles(int mode, std::vector<std::uint32_t> or
 
 std::vector<std::uint32_t> takeUsedVertices(std::vector<std::uint32_t>& corners, std::size_t count)
 {
-    constexpr std::size_t kSparse = 8; // vertices a corner: about where the search is as fast
-    return count / kSparse < corners.size() ? byTable(corners, count) : bySearch(corners);
+    constexpr std::size_t kFewUsed = 8; // vertices a corner: about where the search is as fast
+    return count / kFewUsed < corners.size() ? byTable(corners, count) : bySearch(corners);
 }
 
 std::optional<GltfPrimitive> readGltfPrimitive(GltfModel& model, int mesh, std::size_t primitive,
@@ -317,7 +299,9 @@ std::optional<GltfPrimitive> readGltfPrimitive(GltfModel& model, int mesh, std::
         return std::nullopt;
     if (out.mesh.normals.empty()) { // flat normals need a vertex a corner
         takeVertices(model, out.mesh.indices.size(), out.field);
-        takeGltfBytes(model, out.mesh.indices.size() * sizeof(Corner), out.field);
+        // What a corner holds at most: position and normal, two sets of uv, a colour.
+        constexpr std::size_t kCornerBytes = 2 * sizeof(glm::vec3) + 2 * sizeof(glm::vec2) + sizeof(glm::vec4);
+        takeGltfBytes(model, std::uint64_t(out.mesh.indices.size()) * kCornerBytes, out.field);
     }
     return out;
 }

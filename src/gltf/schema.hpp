@@ -26,8 +26,9 @@ struct Field;
 using Fields = std::span<const Field>;
 
 inline constexpr double kMaxInt = 2147483647.0;
-// Offsets, lengths and counts up to here can be added and multiplied by a stride (at most 252) in 64 bits.
-inline constexpr double kMaxSize = 9007199254740992.0; // 2^53
+// Offsets, lengths and counts up to here can be added and multiplied by a stride (at most 252) in 64 bits: 2^53, or
+// what std::size_t holds.
+inline constexpr double kMaxSize = sizeof(std::size_t) < 8 ? 4294967295.0 : 9007199254740992.0;
 // No lamp or map is beyond these, and products with them stay finite in float.
 inline constexpr double kBrightest = 1e12;
 inline constexpr double kSteepest = 1e6;

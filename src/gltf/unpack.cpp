@@ -24,6 +24,40 @@ std::vector<std::byte> spaced(const std::vector<std::byte>& packed, std::size_t 
     return out;
 }
 
+// Whether an answer has the sizes that were asked for.
+bool fits(const std::vector<DracoGeometry>& meshes, const std::vector<DracoJob>& jobs)
+{
+    return std::ranges::equal(meshes, jobs, [](const DracoGeometry& mesh, const DracoJob& job) {
+        const auto sized = [&](const std::vector<std::byte>& values, const DracoAttribute& a) {
+            return values.size() == job.vertices * a.components * gltf::componentSize(a.componentType);
+        };
+        return mesh.indices.size() == job.indices * gltf::componentSize(job.indexType)
+            && std::ranges::equal(mesh.attributes, job.attributes, sized);
+    });
+}
+
+// In this process or, where the limits name a program, in its own.
+Result<std::vector<DracoGeometry>> decodeDraco(const std::vector<DracoJob>& jobs, const LoadLimits& limits)
+{
+    if (limits.sandbox.program.empty())
+        return decodeDracoHere(jobs);
+    std::size_t bytes = 0;
+    for (const DracoJob& job : jobs)
+        bytes += job.bytes.size();
+    auto process =
+        ReaderProcess::start({.kind = ReaderKind::draco, .name = kDracoExtension, .fileBytes = bytes, .limits = limits},
+                             [&](WireOut& question) { exchangeDracoJobs(question, jobs); });
+    if (!process)
+        return process.error();
+    std::vector<DracoGeometry> meshes;
+    exchangeDracoGeometry((*process)->answer(), meshes);
+    if ((*process)->answer().good() && !fits(meshes, jobs))
+        (*process)->answer().refuse();
+    if (!(*process)->answer().good())
+        return (*process)->failure();
+    return meshes;
+}
+
 class Unpacker {
 public:
     Unpacker(GltfFile& file, const LoadLimits& limits) : file_(file), limits_(limits) {}
@@ -44,10 +78,10 @@ public:
 
 private:
     // Counts bytes before they are decoded. Numbers are below 2^60.
-    void take(std::size_t bytes, const std::string& field)
+    void take(std::uint64_t bytes, const std::string& field)
     {
-        takeBytes(file_.unpacked, bytes, limits_.geometryBytes + 64 * file_.size, "decoded geometry takes", file_.size,
-                  field);
+        takeBytes(file_.unpacked, bytes, limits_.geometryBytes + 64 * std::uint64_t(file_.size),
+                  "decoded geometry takes", file_.size, field);
     }
 
     // A new buffer and a view of all of it; returns what the JSON of the view has to say.
@@ -58,16 +92,6 @@ private:
         buffers.push_back({{"byteLength", bytes.size()}});
         file_.buffers.push_back(file_.unpackedBytes.emplace_back(std::move(bytes)));
         return view;
-    }
-
-    std::span<const std::byte> bytesOf(std::size_t buffer, std::size_t offset, std::size_t length,
-                                       const std::string& field) const
-    {
-        const std::span<const std::byte> bytes = file_.buffers[buffer];
-        if (offset > bytes.size() || length > bytes.size() - offset)
-            failGltf("{}: it ends at byte {} of buffers[{}], which has {}", field, offset + length, buffer,
-                     bytes.size());
-        return bytes.subspan(offset, length);
     }
 
     void unpackViews(const std::string& name)
@@ -90,18 +114,16 @@ private:
     void unpackView(std::size_t index, const Json& packed, const std::string& field)
     {
         Json& view = file_.json["bufferViews"][index];
-        const std::size_t length = packed["byteLength"].get<std::size_t>();
-        gltf::MeshoptView from{bytesOf(packed["buffer"].get<std::size_t>(),
-                                       gltf::valueOr(packed, "byteOffset", std::size_t(0)), length, field),
-                               packed["count"].get<std::size_t>(), packed["byteStride"].get<std::size_t>(),
-                               packed["mode"].get<std::string>(), gltf::valueOr(packed, "filter", std::string("NONE"))};
-        const std::size_t decoded = from.count * from.stride;
-        if (decoded != view["byteLength"].get<std::size_t>())
+        const gltf::BufferView stored = gltf::readBufferView(packed); // has the same members
+        MeshoptView from{gltfViewBytes(file_, stored, field), packed["count"].get<std::size_t>(), stored.stride,
+                         packed["mode"].get<std::string>(), gltf::valueOr(packed, "filter", std::string("NONE"))};
+        const std::uint64_t decoded = std::uint64_t(from.count) * from.stride;
+        if (decoded != view["byteLength"].get<std::uint64_t>())
             failGltf("{}: expected {} bytes, as the view has, found {} elements of {} bytes", field,
-                     view["byteLength"].get<std::size_t>(), from.count, from.stride);
+                     view["byteLength"].get<std::uint64_t>(), from.count, from.stride);
         take(decoded, field);
         file_.packed.views.emplace(index, view);
-        const Json plain = viewOf(gltf::decodeMeshopt(from, field));
+        const Json plain = viewOf(decodeMeshopt(from, field));
         view["buffer"] = plain["buffer"];
         view.erase("byteOffset");
     }
@@ -124,7 +146,7 @@ private:
                 failGltf("{}: accessors[{}] has sparse values, which a compressed one must not", job.field, target);
             plain = plain && a.view >= 0;
             targets.push_back(target);
-            take(a.count * gltf::elementSize(a), job.field);
+            take(std::uint64_t(a.count) * gltf::elementSize(a), job.field);
             return a;
         };
         for (const auto& [name, id] : draco["attributes"].items()) {
@@ -156,7 +178,7 @@ private:
             return std::nullopt;
         const gltf::BufferView view =
             gltf::readBufferView(file_.json["bufferViews"][draco["bufferView"].get<std::size_t>()]);
-        const auto bytes = bytesOf(view.buffer, view.offset, view.length, job.field);
+        const auto bytes = gltfViewBytes(file_, view, job.field);
         job.bytes.assign(bytes.begin(), bytes.end());
         return job;
     }
@@ -187,7 +209,7 @@ private:
     {
         if (jobs_.empty())
             return;
-        auto meshes = decodeDraco(jobs_, "KHR_draco_mesh_compression", limits_);
+        auto meshes = decodeDraco(jobs_, limits_);
         if (!meshes)
             throw GltfProblem{meshes.error()};
         std::set<int> filled;
@@ -223,40 +245,7 @@ private:
     std::set<std::vector<int>> made_;       // those that have a job
 };
 
-// Whether an answer has the sizes that were asked for.
-bool fits(const std::vector<DracoGeometry>& meshes, const std::vector<DracoJob>& jobs)
-{
-    return std::ranges::equal(meshes, jobs, [](const DracoGeometry& mesh, const DracoJob& job) {
-        const auto sized = [&](const std::vector<std::byte>& values, const DracoAttribute& a) {
-            return values.size() == job.vertices * a.components * gltf::componentSize(a.componentType);
-        };
-        return mesh.indices.size() == job.indices * gltf::componentSize(job.indexType)
-            && std::ranges::equal(mesh.attributes, job.attributes, sized);
-    });
-}
-
 } // namespace
-
-Result<std::vector<DracoGeometry>> decodeDraco(const std::vector<DracoJob>& jobs, const std::string& name,
-                                               const LoadLimits& limits)
-{
-    if (limits.sandbox.program.empty())
-        return gltf::decodeDracoHere(jobs);
-    std::size_t bytes = 0;
-    for (const DracoJob& job : jobs)
-        bytes += job.bytes.size();
-    auto process = ReaderProcess::start({.kind = ReaderKind::draco, .name = name, .fileBytes = bytes, .limits = limits},
-                                        [&](WireOut& question) { exchangeDracoJobs(question, jobs); });
-    if (!process)
-        return process.error();
-    std::vector<DracoGeometry> meshes;
-    exchangeDracoGeometry((*process)->answer(), meshes);
-    if ((*process)->answer().good() && !fits(meshes, jobs))
-        (*process)->answer().refuse();
-    if (!(*process)->answer().good())
-        return (*process)->failure();
-    return meshes;
-}
 
 void unpackGltf(GltfFile& file, const LoadLimits& limits) { Unpacker(file, limits).run(); }
 

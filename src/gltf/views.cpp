@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 #include <map>
-#include <utility>
 
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
@@ -55,20 +54,13 @@ void applyTransform(const Json& transform, TextureUse& use)
     use.texcoord = valueOr(transform, "texCoord", use.texcoord);
 }
 
-constexpr std::pair<int, Wrap> kWrapCodes[] = {
-    {kRepeat, Wrap::repeat}, {kClampToEdge, Wrap::clamp}, {kMirroredRepeat, Wrap::mirror}};
-
 Wrap wrapOf(const Json& sampler, std::string_view name)
 {
-    const auto found = std::ranges::find(kWrapCodes, valueOr(sampler, name, kRepeat), &std::pair<int, Wrap>::first);
-    return found == std::end(kWrapCodes) ? Wrap::repeat : found->second;
+    const int code = valueOr(sampler, name, kRepeat);
+    return code == kClampToEdge ? Wrap::clamp : code == kMirroredRepeat ? Wrap::mirror : Wrap::repeat;
 }
 
-int codeOf(Wrap wrap)
-{
-    const auto found = std::ranges::find(kWrapCodes, wrap, &std::pair<int, Wrap>::second);
-    return found == std::end(kWrapCodes) ? kRepeat : found->first;
-}
+int codeOf(Wrap wrap) { return wrap == Wrap::clamp ? kClampToEdge : wrap == Wrap::mirror ? kMirroredRepeat : kRepeat; }
 
 struct MinifyCode {
     int code;
@@ -106,13 +98,9 @@ const Json* extension(const Json& object, std::string_view name)
 
 std::size_t componentSize(int componentType)
 {
-    switch (componentType) {
-    case kByte:
-    case kUnsignedByte: return 1;
-    case kShort:
-    case kUnsignedShort: return 2;
-    default: return 4;
-    }
+    std::size_t size = 0;
+    withType(componentType, [&](auto value) { size = sizeof value; });
+    return size;
 }
 
 std::size_t componentCount(ElementType type)
@@ -165,13 +153,11 @@ int accessorOf(const Attributes& attributes, std::string_view name)
 
 Primitive readPrimitive(const Json& primitive)
 {
-    Primitive read;
-    read.attributes = primitive["attributes"].get<Attributes>();
-    read.targets = listOf<Attributes>(primitive, "targets");
-    read.indices = indexOf(primitive, "indices");
-    read.material = indexOf(primitive, "material");
-    read.mode = valueOr(primitive, "mode", kTriangles);
-    return read;
+    return {.attributes = primitive["attributes"].get<Attributes>(),
+            .targets = listOf<Attributes>(primitive, "targets"),
+            .indices = indexOf(primitive, "indices"),
+            .material = indexOf(primitive, "material"),
+            .mode = valueOr(primitive, "mode", kTriangles)};
 }
 
 Mesh readMesh(const Json& mesh)

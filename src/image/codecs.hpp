@@ -1,9 +1,8 @@
 // The formats that are read and written here by their own libraries. What a build lacks the library for says so
-// (no_png.cpp and its like).
+// (missing_codecs.cpp).
 #pragma once
 
 #include <cstddef>
-#include <cstdio>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -15,6 +14,7 @@
 #include "cotan/image.hpp"
 #include "cotan/result.hpp"
 #include "cotan/scene.hpp"
+#include "files/bytes.hpp"
 
 namespace cotan {
 
@@ -30,13 +30,8 @@ Result<Image> readPng(std::span<const std::byte> bytes, const std::string& name,
 // reads back the same. `name` is for messages.
 Status writePng(const std::filesystem::path& file, const Image& image, const std::string& name);
 
-struct Close {
-    void operator()(std::FILE* f) const { std::fclose(f); }
-};
-using File = std::unique_ptr<std::FILE, Close>;
-
 // As openRows, from the start of the file. Nothing: it cannot be read by rows.
-std::optional<Result<std::unique_ptr<RowReader>>> openPngRows(const std::filesystem::path& file, File stream,
+std::optional<Result<std::unique_ptr<RowReader>>> openPngRows(const std::filesystem::path& file, OpenFile stream,
                                                               const LoadLimits& limits);
 
 // As createRows, for components of 8 or 16 bits; `file` is where to write and appears at once. name: for messages.
@@ -81,9 +76,8 @@ std::optional<Result<std::vector<std::byte>>> writeWebpLike(const Image& image, 
 // "BasisU (UASTC)", "ASTC", "ETC2"; empty otherwise.
 std::string foreignKtx2(std::span<const std::byte> bytes);
 
-// As decodeImage: the largest level. Blocks (BC1 to BC5, BC7) are decoded by `readDds`, which gets them as a DDS.
-Result<Image> readKtx2(std::span<const std::byte> bytes, const std::string& name, const LoadLimits& limits,
-                       Result<Image> (*readDds)(std::span<const std::byte>, const std::string&, const LoadLimits&));
+// As decodeImage: the largest level. Blocks (BC1 to BC5, BC7) are decoded by readOther, which gets them as a DDS.
+Result<Image> readKtx2(std::span<const std::byte> bytes, const std::string& name, const LoadLimits& limits);
 
 // Fills all of `out`. Errors: ErrorKind::input where the data are damaged or have another length,
 // ErrorKind::unavailable where this build lacks the library.

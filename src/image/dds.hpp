@@ -1,8 +1,10 @@
 // The header of DDS files.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <string_view>
 #include <vector>
 
@@ -18,6 +20,38 @@ struct DdsCode {
 
 // "DDS ", DDS_HEADER and, with "DX10", DDS_HEADER_DXT10 of a flat picture of one level and more; the levels come behind
 // it, the largest first.
-std::vector<std::byte> ddsHeader(const DdsCode& code, int width, int height, std::size_t levels);
+inline std::vector<std::byte> ddsHeader(const DdsCode& code, int width, int height, std::size_t levels)
+{
+    const bool blocks = !code.letters.empty();
+    std::array<std::uint32_t, 37> header{};
+    header[0] = 0x20534444; // "DDS "
+    header[1] = 124;
+    header[2] = 0x1 | 0x2 | 0x4 | (blocks ? 0x80000 : 0x8) | 0x1000; // caps, height, width, size or pitch, format
+    header[3] = std::uint32_t(height);
+    header[4] = std::uint32_t(width);
+    header[5] = blocks ? std::uint32_t((width + 3) / 4) * std::uint32_t((height + 3) / 4) * code.block
+                       : std::uint32_t(width) * 4;
+    header[19] = 32;     // the pixel format's own size
+    header[27] = 0x1000; // texture
+    if (levels > 1) {
+        header[2] |= 0x20000;
+        header[7] = std::uint32_t(levels);
+        header[27] |= 0x8 | 0x400000; // complex, mip map
+    }
+    if (blocks) {
+        header[20] = 0x4; // four letters
+        std::memcpy(&header[21], code.letters.data(), 4);
+        header[32] = code.dxgi;
+        header[33] = 3; // two dimensions
+        header[35] = 1; // of one
+    } else {
+        header[20] = 0x1 | 0x40; // alpha and RGB
+        header[22] = 32;
+        header[23] = 0x000000ff, header[24] = 0x0000ff00, header[25] = 0x00ff0000, header[26] = 0xff000000;
+    }
+    std::vector<std::byte> bytes(code.letters == "DX10" ? sizeof header : 128);
+    std::memcpy(bytes.data(), header.data(), bytes.size());
+    return bytes;
+}
 
 } // namespace cotan

@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 
 #include "core/named_values.hpp"
-#include "file_layout.hpp"
+#include "oiio.hpp"
 
 namespace cotan::oiio {
 
@@ -64,11 +64,11 @@ Problem checkExrAttribute(Numbers& numbers, std::uint64_t& at)
     const std::uint64_t size = numbers.at(at, 4);
     at += 4;
     if (numbers.past || type.size() >= kNoEnd || size > numbers.size() - at)
-        return fmt::format("an attribute of its header takes {} bytes, the file has {} left", size,
-                           numbers.size() - std::min(at, numbers.size()));
+        return inputError(fmt::format("an attribute of its header takes {} bytes, the file has {} left", size,
+                                      numbers.size() - std::min(at, numbers.size())));
     const std::uint64_t taken = exrValueBytes(numbers, at, type, size);
     if (numbers.past || taken != size)
-        return fmt::format("an attribute of its header has {} bytes, which its type does not take", size);
+        return inputError(fmt::format("an attribute of its header has {} bytes, which its type does not take", size));
     at += size;
     return std::nullopt;
 }
@@ -118,15 +118,15 @@ void readExrBlocks(Numbers& numbers, std::string_view name, std::uint64_t start,
 Problem checkExrBlocks(const ExrBlocks& blocks, const LoadLimits& limits)
 {
     if (blocks.width > limits.imageSide || blocks.height > limits.imageSide)
-        return tooMuchMemory(
+        return memoryError(
             fmt::format("{} x {} pixels, the limit is {} a side", blocks.width, blocks.height, limits.imageSide));
     const std::uint64_t row =
         std::uint64_t(std::max<std::int64_t>(blocks.width, 1)) * std::max<std::uint64_t>(blocks.rows, 1);
     const std::uint64_t tile = blocks.tileWidth * blocks.tileHeight;                  // of 32 bits each
     const std::uint64_t bytes = 4 * std::min<std::uint64_t>(blocks.channels, 0xffff); // of a pixel
     if (std::max(row, tile) > limits.imageBytes / std::max<std::uint64_t>(bytes, 1))
-        return tooMuchMemory(fmt::format("its blocks have {} pixels of {} bytes, the limit is {} bytes",
-                                         std::max(row, tile), bytes, limits.imageBytes));
+        return memoryError(fmt::format("its blocks have {} pixels of {} bytes, the limit is {} bytes",
+                                       std::max(row, tile), bytes, limits.imageBytes));
     return std::nullopt;
 }
 
@@ -137,7 +137,7 @@ Problem checkExrTable(Numbers& numbers, std::uint64_t table, bool several, const
     if (blocks.deep)
         return std::nullopt;
     if (blocks.width <= 0 || blocks.height <= 0 || blocks.rows == 0 || blocks.channels == 0)
-        return "its header lacks a data window, a compression or channels";
+        return inputError("its header lacks a data window, a compression or channels");
     const bool tiled = blocks.tileWidth > 0 && blocks.tileHeight > 0;
     const auto width = std::uint64_t(blocks.width), height = std::uint64_t(blocks.height);
     const std::uint64_t wide = tiled ? blocks.tileWidth : width, high = tiled ? blocks.tileHeight : blocks.rows;
@@ -146,15 +146,16 @@ Problem checkExrTable(Numbers& numbers, std::uint64_t table, bool several, const
     for (std::uint64_t i = 0; i < count; ++i) {
         const std::uint64_t at = numbers.at(table + 8 * i, 8);
         if (at == 0 || at > numbers.size() || numbers.past)
-            return fmt::format("block {} of {} is not in the file", i, count);
+            return inputError(fmt::format("block {} of {} is not in the file", i, count));
         const std::uint64_t stored = numbers.at(at + before, 4), begin = at + before + 4;
         const std::uint64_t pixels =
             std::min(wide, width - i % across * wide) * std::min(high, height - i / across * high);
         const std::uint64_t needed = std::max<std::uint64_t>(blocks.compressed ? 1 : pixels * blocks.pixelBytes, 1);
         if (stored < needed)
-            return fmt::format("block {} has {} bytes, expected {}", i, stored, needed);
+            return inputError(fmt::format("block {} has {} bytes, expected {}", i, stored, needed));
         if (begin > numbers.size() || stored > numbers.size() - begin)
-            return fmt::format("block {} takes {} bytes from {}, the file has {}", i, stored, begin, numbers.size());
+            return inputError(
+                fmt::format("block {} takes {} bytes from {}, the file has {}", i, stored, begin, numbers.size()));
     }
     return std::nullopt;
 }
@@ -175,7 +176,7 @@ Problem checkExr(File& file, const LoadLimits& limits)
         ExrBlocks blocks;
         for (std::string name = nameAt(numbers, at); !name.empty(); name = nameAt(numbers, at), empty = false) {
             if (name.size() >= kNoEnd)
-                return "an attribute of its header has a name without an end";
+                return inputError("an attribute of its header has a name without an end");
             const std::uint64_t start = at;
             std::uint64_t value = start;
             if (const Problem problem = checkExrAttribute(numbers, at))
@@ -186,7 +187,7 @@ Problem checkExr(File& file, const LoadLimits& limits)
         if (const Problem problem = checkExrBlocks(blocks, limits))
             return problem;
         if (numbers.past)
-            return "its header goes on behind the end of the file";
+            return inputError("its header goes on behind the end of the file");
         if (begins)
             first = blocks;
         more = several && !empty;

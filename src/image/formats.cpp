@@ -49,6 +49,12 @@ Result<const ImageFormats*> imageFormats(const std::string& name)
     return formats;
 }
 
+Result<Image> readOther(std::span<const std::byte> bytes, const std::string& name, const LoadLimits& limits)
+{
+    const auto formats = imageFormats(name);
+    return formats ? (*formats)->read(bytes, name, limits) : formats.error();
+}
+
 bool writesItself(const fs::path& file)
 {
     const ImageFormat* const format = imageFormatOf(file);

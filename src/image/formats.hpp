@@ -47,6 +47,9 @@ bool readsOtherFormats();
 // The module, for a file of that name. Errors: ErrorKind::unavailable where it is missing or does not load.
 Result<const ImageFormats*> imageFormats(const std::string& name);
 
+// ImageFormats::read of the module.
+Result<Image> readOther(std::span<const std::byte> bytes, const std::string& name, const LoadLimits& limits);
+
 // OpenImageIO's name of the format whose files begin in no way of their own: the name of the file says it.
 inline constexpr std::string_view kNoStart = "targa";
 

@@ -40,12 +40,6 @@ std::string foreignFormat(std::span<const std::byte> bytes)
 
 namespace {
 
-Result<Image> readOther(std::span<const std::byte> bytes, const std::string& name, const LoadLimits& limits)
-{
-    const auto formats = imageFormats(name);
-    return formats ? (*formats)->read(bytes, name, limits) : formats.error();
-}
-
 // Whether the bytes, or the extension of `name`, are of a format that the module reads. What is unknown is refused
 // without loading it.
 bool knownImage(std::span<const std::byte> bytes, const std::string& name)
@@ -112,7 +106,7 @@ Result<Image> decode(std::span<const std::byte> bytes, const std::string& name, 
     if (format == "WebP")
         return readWebp(bytes, name, limits);
     if (format == "KTX2")
-        return readKtx2(bytes, name, limits, readOther);
+        return readKtx2(bytes, name, limits);
     return readOther(bytes, name, limits);
 }
 
@@ -135,28 +129,24 @@ Result<EncodedLike> asPng(const Image& image, std::string whyNot)
 } // namespace
 
 Result<Image> decodeImage(std::span<const std::byte> bytes, const std::string& name, const LoadLimits& limits)
-{
-    try {
-        if (limits.decode)
-            return limits.decode(bytes, name);
-        LoadLimits own = limits;
-        own.imageBytes = std::min(limits.imageBytes, imageBudget(limits, bytes.size()));
-        return decode(bytes, name, own);
-    } catch (const std::bad_alloc&) {
-        return inputError(fmt::format("{}: not enough memory for the image", name));
-    }
+try {
+    if (limits.decode)
+        return limits.decode(bytes, name);
+    LoadLimits own = limits;
+    own.imageBytes = std::min(limits.imageBytes, imageBudget(limits, bytes.size()));
+    return decode(bytes, name, own);
+} catch (const std::bad_alloc&) {
+    return inputError(fmt::format("{}: not enough memory for the image", name));
 }
 
 Result<Image> readImage(const std::filesystem::path& file, const LoadLimits& limits)
-{
-    try {
-        const auto bytes = readFileBytes(file, limits.fileBytes);
-        if (!bytes)
-            return bytes.error();
-        return decodeImage(*bytes, file.string(), limits);
-    } catch (const std::bad_alloc&) {
-        return inputError(fmt::format("{}: not enough memory for the file", file.string()));
-    }
+try {
+    const auto bytes = readFileBytes(file, limits.fileBytes);
+    if (!bytes)
+        return bytes.error();
+    return decodeImage(*bytes, file.string(), limits);
+} catch (const std::bad_alloc&) {
+    return inputError(fmt::format("{}: not enough memory for the file", file.string()));
 }
 
 Result<OutputFile> writePending(const std::filesystem::path& file, const Image& image)

@@ -63,28 +63,9 @@ private:
     std::size_t next_ = 0;
 };
 
-Result<std::unique_ptr<RowReader>> openWhole(const fs::path& file, const LoadLimits& limits)
-{
-    auto image = readImage(file, limits);
-    if (!image)
-        return image.error();
-    return std::unique_ptr<RowReader>(std::make_unique<WholeRows>(*std::move(image)));
-}
-
 class SandboxedRows : public RowReader {
 public:
     explicit SandboxedRows(std::unique_ptr<ReaderProcess> process) : process_(std::move(process)) {}
-
-    Status readFacts(const std::string& file, const LoadLimits& limits)
-    {
-        name = file;
-        exchangeRowFacts(process_->answer(), *this);
-        frame = std::string(frameText(frame));
-        if (channels < 1 || channels > 4 || width <= 0 || height <= 0 || width > limits.imageSide
-            || height > limits.imageSide)
-            process_->answer().refuse();
-        return process_->answer().good() ? Status(Done{}) : process_->failure();
-    }
 
     Status read(Image& strip) override
     {
@@ -110,33 +91,44 @@ Result<std::unique_ptr<RowReader>> openRowsSandboxed(const std::filesystem::path
     auto process = ReaderProcess::start({.kind = ReaderKind::rows, .name = file.string(), .limits = limits});
     if (!process)
         return process.error();
+    ReaderProcess& reader = **process;
     auto rows = std::make_unique<SandboxedRows>(*std::move(process));
-    if (Status sound = rows->readFacts(file.string(), limits); !sound)
-        return sound.error();
+    rows->name = file.string();
+    exchangeRowFacts(reader.answer(), *rows);
+    rows->frame = std::string(frameText(rows->frame));
+    if (rows->channels < 1 || rows->channels > 4 || rows->width <= 0 || rows->height <= 0
+        || rows->width > limits.imageSide || rows->height > limits.imageSide)
+        reader.answer().refuse();
+    if (!reader.answer().good())
+        return reader.failure();
     return std::unique_ptr<RowReader>(std::move(rows));
 }
 
-// Rows that come to their place when they are complete.
-class PlacedRows : public RowWriter {
+// What is written to the path of an output, which comes to its place when it is complete.
+template<class Writer> class Placed : public Writer {
 public:
-    PlacedRows(OutputFile output, std::unique_ptr<RowWriter> writer)
-        : output_(std::move(output)), writer_(std::move(writer))
+    Placed(OutputFile output, std::unique_ptr<Writer> writer) : output_(std::move(output)), writer_(std::move(writer))
     {
     }
 
-    Status write(const Image& strip) override { return told(writer_->write(strip)); }
     Status finish() override
     {
-        if (Status finished = told(writer_->finish()); !finished)
-            return finished;
-        return output_.commit();
+        Status done = told(writer_->finish());
+        return done ? output_.commit() : done;
     }
 
-private:
-    Status told(Status written) const { return written ? written : Status(output_.failed(written.error())); }
+protected:
+    Status told(Status status) const { return status ? status : Status(output_.failed(status.error())); }
 
     OutputFile output_; // removed last
-    std::unique_ptr<RowWriter> writer_;
+    std::unique_ptr<Writer> writer_;
+};
+
+class PlacedRows : public Placed<RowWriter> {
+public:
+    using Placed::Placed;
+
+    Status write(const Image& strip) override { return told(writer_->write(strip)); }
 };
 
 // What may be read row by row of a file of so many bytes, in bytes of pixels: each takes its time.
@@ -153,7 +145,7 @@ Status checkRows(const RowReader& rows, std::size_t fileBytes, const LoadLimits&
 
 Result<std::unique_ptr<RowReader>> openAnyRows(const fs::path& file, const LoadLimits& limits)
 {
-    File stream(std::fopen(file.c_str(), "rb"));
+    OpenFile stream(std::fopen(file.c_str(), "rb"));
     if (!stream)
         return inputError(fmt::format("{}: cannot be opened for reading", file.string()));
     std::array<std::byte, 16> bytes{};
@@ -167,7 +159,10 @@ Result<std::unique_ptr<RowReader>> openAnyRows(const fs::path& file, const LoadL
         const auto formats = imageFormats(file.string());
         return formats ? (*formats)->openRows(file, head, limits) : formats.error();
     }
-    return openWhole(file, limits);
+    auto image = readImage(file, limits);
+    if (!image)
+        return image.error();
+    return std::unique_ptr<RowReader>(std::make_unique<WholeRows>(*std::move(image)));
 }
 
 } // namespace
@@ -216,11 +211,11 @@ bool isGif(const fs::path& file)
     return format && format->name == "GIF";
 }
 
-// Of 8 bits, whatever comes; writer: writes to the output's path.
-class EightBits : public AnimationWriter {
+// Of 8 bits, whatever comes.
+class EightBits : public Placed<AnimationWriter> {
 public:
     EightBits(OutputFile output, std::unique_ptr<AnimationWriter> writer, AnimationFormat format, std::string name)
-        : output_(std::move(output)), writer_(std::move(writer)), format_(format), name_(std::move(name))
+        : Placed(std::move(output), std::move(writer)), format_(format), name_(std::move(name))
     {
     }
 
@@ -232,17 +227,7 @@ public:
         return told(picture.type == PixelType::unorm8 ? writer_->add(picture) : writer_->add(toUnorm8(picture)));
     }
 
-    Status finish() override
-    {
-        Status done = told(writer_->finish());
-        return done ? output_.commit() : done;
-    }
-
 private:
-    Status told(Status status) const { return status ? status : Status(output_.failed(status.error())); }
-
-    OutputFile output_; // removed last
-    std::unique_ptr<AnimationWriter> writer_;
     AnimationFormat format_;
     std::string name_;
 };

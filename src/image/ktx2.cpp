@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 #include <glm/detail/type_half.hpp>
 
+#include "formats.hpp"
 #include "image/checks.hpp"
 #include "image/component_types.hpp"
 #include "image/dds.hpp"
@@ -70,9 +71,6 @@ constexpr Ktx2Format kVulkanFormats[] = {{9, 15, 1, 1},
                                          {145, 146, 4, 0, false, false, {"DX10", 98, 16}}};
 
 constexpr std::uint64_t kHeader = 80, kLevelEntry = 24;
-
-// The model of the colours in the data format descriptor: 163 is ETC1S, 166 UASTC.
-std::uint64_t colourModel(Numbers& file) { return file.at(file.at(48, 4) + 12, 1); }
 
 std::uint64_t storedBytes(const Ktx2Format& format, std::uint64_t width, std::uint64_t height)
 {
@@ -246,15 +244,14 @@ std::string foreignKtx2(std::span<const std::byte> bytes)
     const std::uint64_t format = file.at(12, 4);
     if (!file.says(0, "\xabKTX 20\xbb\r\n\x1a\n") || bytes.size() < kHeader)
         return "";
-    if (format == 0)
-        return colourModel(file) == 166 ? "BasisU (UASTC)" : "BasisU (ETC1S)";
+    if (format == 0) // the model of the colours in the data format descriptor: 163 is ETC1S, 166 UASTC
+        return file.at(file.at(48, 4) + 12, 1) == 166 ? "BasisU (UASTC)" : "BasisU (ETC1S)";
     if (format >= 147 && format <= 156)
         return "ETC2";
     return (format >= 157 && format <= 184) || (format >= 1000066000 && format <= 1000066013) ? "ASTC" : "";
 }
 
-Result<Image> readKtx2(std::span<const std::byte> bytes, const std::string& name, const LoadLimits& limits,
-                       Result<Image> (*readDds)(std::span<const std::byte>, const std::string&, const LoadLimits&))
+Result<Image> readKtx2(std::span<const std::byte> bytes, const std::string& name, const LoadLimits& limits)
 {
     const auto broken = [&](const Error& error) {
         return reworded(error,
@@ -281,7 +278,7 @@ Result<Image> readKtx2(std::span<const std::byte> bytes, const std::string& name
         plain = unpacked;
     }
     Result<Image> image =
-        format.bytes > 0 ? plainPixels(*picture, type, plain, name) : readDds(asDds(*picture, plain), name, limits);
+        format.bytes > 0 ? plainPixels(*picture, type, plain, name) : readOther(asDds(*picture, plain), name, limits);
     if (image) {
         arrange(*picture, *image);
         image->frame = picture->frame;

@@ -1,11 +1,16 @@
-// The module of image formats: OpenImageIO behind the functions of formats.hpp.
+// The module of image formats: OpenImageIO behind the functions of formats.hpp. Reading; oiio_write.cpp writes.
 #include "oiio.hpp"
 
 #include <algorithm>
 #include <cctype>
 #include <cstdint>
+#include <cstring>
 #include <exception>
+#include <optional>
+#include <span>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -13,19 +18,9 @@
 #include "formats.hpp"
 #include "image/checks.hpp"
 #include "image/component_types.hpp"
+#include "image/format_table.hpp"
 
-namespace cotan {
-
-namespace oiio {
-
-namespace {
-
-Error broken(const std::string& name, const std::string& format, const std::string& why)
-{
-    return inputError(fmt::format("{}: broken {} image: {}", name, format, oneLine(why)));
-}
-
-} // namespace
+namespace cotan::oiio {
 
 std::string oneLine(std::string text)
 {
@@ -35,6 +30,28 @@ std::string oneLine(std::string text)
     return text;
 }
 
+OIIO::TypeDesc typeDesc(PixelType type)
+{
+    if (type == PixelType::unorm8)
+        return OIIO::TypeDesc::UINT8;
+    return type == PixelType::unorm16 ? OIIO::TypeDesc::UINT16 : OIIO::TypeDesc::FLOAT;
+}
+
+namespace {
+
+Error broken(const std::string& name, const std::string& format, const std::string& why)
+{
+    return inputError(fmt::format("{}: broken {} image: {}", name, format, oneLine(why)));
+}
+
+// The library's words within a sentence of ours.
+Error brokenToOiio(const std::string& name, const std::string& format, const std::string& words)
+{
+    return broken(name, format, "expected data that OpenImageIO can read, it found: " + words);
+}
+
+// OpenImageIO's name of the format of something that knownImage() accepted. The contents decide,
+// as extensions are often wrong.
 std::string formatOf(std::span<const std::byte> bytes)
 {
     const ImageFormat* const known = imageFormatOf(bytes);
@@ -48,13 +65,7 @@ PixelType pixelType(OIIO::TypeDesc format)
     return format == OIIO::TypeDesc::UINT16 ? PixelType::unorm16 : PixelType::float32;
 }
 
-OIIO::TypeDesc typeDesc(PixelType type)
-{
-    if (type == PixelType::unorm8)
-        return OIIO::TypeDesc::UINT8;
-    return type == PixelType::unorm16 ? OIIO::TypeDesc::UINT16 : OIIO::TypeDesc::FLOAT;
-}
-
+// Spreads the first `channels` components of every pixel over red, green, blue and alpha.
 void completeChannels(Image& image, int channels)
 {
     withComponents(image, [count = image.pixelCount(), channels]<class T>(T* pixel, T, T one) {
@@ -69,46 +80,7 @@ void completeChannels(Image& image, int channels)
     });
 }
 
-std::optional<Error> checkLayers(const OIIO::ImageSpec& spec, const std::string& name)
-{
-    if (spec.depth > 1 || spec.deep)
-        return inputError(fmt::format("{}: expected a flat picture, found a volume", name));
-    if (spec.nchannels < 1)
-        return inputError(fmt::format("{}: the image has no channels", name));
-    return std::nullopt;
-}
-
-OIIO::ImageSpec readConfig()
-{
-    OIIO::ImageSpec config;
-    config.attribute("oiio:UnassociatedAlpha", 1); // as stored: not multiplied by alpha
-    config.attribute("oiio:reorient", 0);
-    return config;
-}
-
-OIIO::TypeDesc typeToWrite(const ImageFormat& format, PixelType type)
-{
-    if (!format.bits16 && !format.floats)
-        return OIIO::TypeDesc::UINT8;
-    return format.bits8 ? typeDesc(type) : OIIO::TypeDesc::FLOAT;
-}
-
-OIIO::ImageSpec outputSpec(int width, int height, int channels, OIIO::TypeDesc type, const ImageFormat& format,
-                           const std::string& frame)
-{
-    OIIO::ImageSpec spec(width, height, channels, type);
-    spec.attribute("oiio:UnassociatedAlpha", 1); // the values are written as they are
-    // The same picture gives the same bytes: no time of writing.
-    spec.attribute("DateTime", "1970:01:01 00:00:00");
-    if (format.openImageIo == "openexr" || format.openImageIo == "tiff")
-        spec.attribute("compression", "zip");
-    if (format.openImageIo == "jpeg")
-        spec.attribute("CompressionQuality", 95);
-    if (format.frame && !frame.empty())
-        spec.attribute(std::string(kFrameKey), frame);
-    return spec;
-}
-
+// Image::frame of a file.
 std::string frameOf(const OIIO::ImageSpec& spec, const std::string& format)
 {
     if (format != "openexr")
@@ -117,11 +89,20 @@ std::string frameOf(const OIIO::ImageSpec& spec, const std::string& format)
     return std::string(frameText(value));
 }
 
-Error brokenToOiio(const std::string& name, const std::string& format, const std::string& words)
+// How values are to be read: as they are stored.
+OIIO::ImageSpec readConfig()
 {
-    return broken(name, format, "expected data that OpenImageIO can read, it found: " + words);
+    OIIO::ImageSpec config;
+    config.attribute("oiio:UnassociatedAlpha", 1); // as stored: not multiplied by alpha
+    config.attribute("oiio:reorient", 0);
+    return config;
 }
 
+// ---- checks --------------------------------------------------------------------------------
+
+// Compares what the headers of TIFF, OpenEXR, DDS and BMP files promise with the size of the file: every
+// strip, tile, attribute and level that will be read, and blocks of OpenEXR with the limits. Their readers take memory
+// by those numbers, or hand out what it held. format: of formatOf().
 std::optional<Error> checkFileLayout(File& file, const std::string& name, const std::string& format,
                                      const LoadLimits& limits)
 {
@@ -129,41 +110,21 @@ std::optional<Error> checkFileLayout(File& file, const std::string& name, const 
     constexpr Named<Check> kChecks[] = {
         {"tiff", checkTiff}, {"openexr", checkExr}, {"dds", checkDds}, {"bmp", checkBmp}};
     const auto check = valueOf(kChecks, format);
-    const Problem problem = check ? (*check)(file, limits) : Problem();
-    if (!problem)
-        return std::nullopt;
-    Error error = broken(name, format, *problem);
-    error.memory = problem.memory;
-    return error;
+    Problem problem = check ? (*check)(file, limits) : Problem();
+    if (problem)
+        problem->message = broken(name, format, problem->message).message;
+    return problem;
 }
 
-// TIFF row by row: of a whole strip OpenImageIO does not notice what libtiff or zlib cannot decode, and hands out what
-// its memory held.
-bool readScanlines(OIIO::ImageInput& input, int first, int channels, Image& to)
+// What a header may claim beside its size.
+std::optional<Error> checkLayers(const OIIO::ImageSpec& spec, const std::string& name)
 {
-    const OIIO::ImageSpec& spec = input.spec();
-    const OIIO::TypeDesc type = typeDesc(to.type);
-    const auto stride = OIIO::stride_t(to.bytesPerPixel());
-    if (input.format_name() != std::string_view("tiff"))
-        return input.read_scanlines(0, 0, spec.y + first, spec.y + first + to.height, 0, 0, channels, type,
-                                    to.data.data(), stride);
-    const std::size_t used = std::size_t(channels) * type.size(), each = std::size_t(spec.nchannels) * type.size();
-    std::vector<std::byte> row(std::size_t(to.width) * each);
-    std::byte* out = to.data.data();
-    for (int y = 0; y < to.height; ++y) {
-        if (!input.read_scanline(spec.y + first + y, 0, type, row.data()))
-            return false;
-        for (std::size_t x = 0; x < std::size_t(to.width); ++x, out += stride)
-            std::copy_n(row.data() + x * each, used, out);
-    }
-    return true;
+    if (spec.depth > 1 || spec.deep)
+        return inputError(fmt::format("{}: expected a flat picture, found a volume", name));
+    if (spec.nchannels < 1)
+        return inputError(fmt::format("{}: the image has no channels", name));
+    return std::nullopt;
 }
-
-} // namespace oiio
-
-using namespace oiio;
-
-namespace {
 
 // What a header may claim beyond the size of the picture: channels that we do not use and the
 // blocks that a reader allocates.
@@ -181,6 +142,27 @@ std::optional<Error> checkSpec(const OIIO::ImageSpec& spec, const std::string& n
                                        limits.imageBytes));
     return std::nullopt;
 }
+
+// What one row, or one row of tiles, may take.
+std::optional<Error> checkRows(const OIIO::ImageSpec& spec, const std::string& name, const LoadLimits& limits)
+{
+    if (spec.width <= 0 || spec.height <= 0)
+        return inputError(fmt::format("{}: the image size is {} x {}", name, spec.width, spec.height));
+    if (auto error = checkLayers(spec, name))
+        return error;
+    const double rows = std::max(spec.tile_height, 1);
+    const double stored = std::max(double(spec.width), double(spec.tile_width)) * rows
+        * std::max(double(spec.pixel_bytes(/*native=*/true)), 16.0);
+    if (spec.width > limits.imageSide || spec.height > limits.imageSide || stored > double(limits.imageBytes))
+        return memoryError(
+            fmt::format("{}: {} x {} pixels in rows of {:.0f} bytes, the limit is {} a side and {} bytes", name,
+                        spec.width, spec.height, stored, limits.imageSide, limits.imageBytes));
+    if (limits.expect)
+        limits.expect(std::size_t(stored));
+    return std::nullopt;
+}
+
+// ---- whole images --------------------------------------------------------------------------
 
 // Two channels of a DDS (BC5) are red and green, not grey and alpha. They are 8 bits.
 void spreadTwo(Image& image)
@@ -221,75 +203,149 @@ private:
     std::span<const std::byte> bytes_;
 };
 
+// Rows of a file without tiles, from `first` on: those of `to`, the first `channels` components of each pixel. False:
+// input says why.
+// TIFF row by row: of a whole strip OpenImageIO does not notice what libtiff or zlib cannot decode, and hands out what
+// its memory held.
+bool readScanlines(OIIO::ImageInput& input, int first, int channels, Image& to)
+{
+    const OIIO::ImageSpec& spec = input.spec();
+    const OIIO::TypeDesc type = typeDesc(to.type);
+    const auto stride = OIIO::stride_t(to.bytesPerPixel());
+    if (input.format_name() != std::string_view("tiff"))
+        return input.read_scanlines(0, 0, spec.y + first, spec.y + first + to.height, 0, 0, channels, type,
+                                    to.data.data(), stride);
+    const std::size_t used = std::size_t(channels) * type.size(), each = std::size_t(spec.nchannels) * type.size();
+    std::vector<std::byte> row(std::size_t(to.width) * each);
+    std::byte* out = to.data.data();
+    for (int y = 0; y < to.height; ++y) {
+        if (!input.read_scanline(spec.y + first + y, 0, type, row.data()))
+            return false;
+        for (std::size_t x = 0; x < std::size_t(to.width); ++x, out += stride)
+            std::copy_n(row.data() + x * each, used, out);
+    }
+    return true;
+}
+
 Result<Image> readWithOiio(std::span<const std::byte> bytes, const std::string& name, const LoadLimits& limits)
-{
+try {
     const std::string format = formatOf(bytes);
-    try {
-        MemoryFile memory(bytes);
-        if (auto error = checkFileLayout(memory, name, format, limits))
-            return *error;
-        const auto input = OIIO::ImageInput::create(format);
-        if (!input)
-            return brokenToOiio(name, format, OIIO::geterror());
-        input->threads(1); // callers decode images side by side
-        input->set_ioproxy(&memory);
-        OIIO::ImageSpec spec;
-        if (!input->open("image." + format, spec, readConfig()))
-            return brokenToOiio(name, format, input->geterror());
-        if (auto error = checkSpec(spec, name, limits))
-            return *error;
+    MemoryFile memory(bytes);
+    if (auto error = checkFileLayout(memory, name, format, limits))
+        return *error;
+    const auto input = OIIO::ImageInput::create(format);
+    if (!input)
+        return brokenToOiio(name, format, OIIO::geterror());
+    input->threads(1); // callers decode images side by side
+    input->set_ioproxy(&memory);
+    OIIO::ImageSpec spec;
+    if (!input->open("image." + format, spec, readConfig()))
+        return brokenToOiio(name, format, input->geterror());
+    if (auto error = checkSpec(spec, name, limits))
+        return *error;
 
-        Image image = makeImage(spec.width, spec.height, pixelType(spec.format), name);
-        const int channels = std::min(spec.nchannels, 4);
-        const bool done = spec.tile_width > 0
-            ? input->read_image(0, 0, 0, channels, typeDesc(image.type), image.data.data(),
-                                OIIO::stride_t(image.bytesPerPixel()))
-            : readScanlines(*input, 0, channels, image);
-        if (!done)
-            return brokenToOiio(name, format, input->geterror());
-        if (format == "dds" && channels == 2)
-            spreadTwo(image);
-        else
-            completeChannels(image, channels);
-        image.frame = frameOf(spec, format);
-        image.channels = channels;
-        return image;
-    } catch (const std::exception& e) {
-        return brokenToOiio(name, format, e.what());
-    }
+    Image image = makeImage(spec.width, spec.height, pixelType(spec.format), name);
+    const int channels = std::min(spec.nchannels, 4);
+    const bool done = spec.tile_width > 0 ? input->read_image(0, 0, 0, channels, typeDesc(image.type),
+                                                              image.data.data(), OIIO::stride_t(image.bytesPerPixel()))
+                                          : readScanlines(*input, 0, channels, image);
+    if (!done)
+        return brokenToOiio(name, format, input->geterror());
+    if (format == "dds" && channels == 2)
+        spreadTwo(image);
+    else
+        completeChannels(image, channels);
+    image.frame = frameOf(spec, format);
+    image.channels = channels;
+    return image;
+} catch (const std::exception& e) {
+    return brokenToOiio(name, formatOf(bytes), e.what());
 }
 
-Status writeWithOiio(const std::filesystem::path& file, const Image& image, const std::string& name)
-{
-    const ImageFormat& format = *imageFormatOf(name); // which checkImageName accepted
-    const OIIO::TypeDesc type = typeToWrite(format, image.type);
-    if (type == OIIO::TypeDesc::UINT8 && image.type != PixelType::unorm8)
-        return writeWithOiio(file, toUnorm8(image), name);
-    try {
-        const auto output = OIIO::ImageOutput::create(std::string(format.openImageIo));
-        if (!output)
-            return notWritten(name, OIIO::geterror());
-        output->threads(1);
-        CheckedFile checked(file);
-        output->set_ioproxy(&checked);
-        const OIIO::ImageSpec spec =
-            outputSpec(image.width, image.height, format.alpha ? 4 : 3, type, format, image.frame);
-        const bool done = output->open(file.string(), spec)
-            && output->write_image(typeDesc(image.type), image.data.data(), OIIO::stride_t(image.bytesPerPixel()))
-            && output->close();
-        if (Status whole = checked.finish(name); !whole)
-            return whole;
-        if (!done)
-            return notWritten(name, output->geterror());
-    } catch (const std::exception& e) {
-        return notWritten(name, e.what());
+// ---- rows ----------------------------------------------------------------------------------
+
+using Input = std::unique_ptr<OIIO::ImageInput>;
+
+class Reader : public RowReader {
+public:
+    Reader(Input input, const OIIO::ImageSpec& spec, std::string format, const std::string& file)
+        : input_(std::move(input)), spec_(spec), format_(std::move(format))
+    {
+        name = file;
+        width = spec.width;
+        height = spec.height;
+        type = pixelType(spec.format);
+        alpha = spec.nchannels == 2 || spec.nchannels >= 4;
+        frame = frameOf(spec, format_);
+        channels = std::min(spec.nchannels, 4);
     }
-    return Done{};
+
+    Status read(Image& strip) override
+    try {
+        const bool done = spec_.tile_height > 0 ? fromTiles(strip) : readScanlines(*input_, next_, channels, strip);
+        if (!done)
+            return brokenToOiio(name, format_, input_->geterror());
+        next_ += strip.height;
+        completeChannels(strip, channels);
+        return Done{};
+    } catch (const std::exception& e) {
+        return brokenToOiio(name, format_, e.what());
+    }
+
+private:
+    // Files of tiles: a row of tiles is kept, and rows are taken from it.
+    bool fromTiles(Image& strip)
+    {
+        const std::size_t rowBytes = std::size_t(width) * strip.bytesPerPixel();
+        for (int y = 0; y < strip.height; ++y) {
+            const int row = next_ + y, first = row / spec_.tile_height * spec_.tile_height;
+            if (first != tileRow_) {
+                const int rows = std::min(spec_.tile_height, height - first);
+                if (tiles_.height != rows)
+                    tiles_ = makeImage(width, rows, type);
+                if (!input_->read_tiles(0, 0, spec_.x, spec_.x + width, spec_.y + first, spec_.y + first + rows, 0, 1,
+                                        0, channels, typeDesc(type), tiles_.data.data(),
+                                        OIIO::stride_t(strip.bytesPerPixel())))
+                    return false;
+                tileRow_ = first;
+            }
+            std::memcpy(strip.data.data() + std::size_t(y) * rowBytes,
+                        tiles_.data.data() + std::size_t(row - first) * rowBytes, rowBytes);
+        }
+        return true;
+    }
+
+    Input input_;
+    OIIO::ImageSpec spec_;
+    std::string format_;
+    int next_ = 0;
+    Image tiles_;
+    int tileRow_ = -1;
+};
+
+Result<std::unique_ptr<RowReader>> openRows(const std::filesystem::path& file, std::span<const std::byte> head,
+                                            const LoadLimits& limits)
+try {
+    const std::string name = file.string(), format = formatOf(head);
+    OIIO::Filesystem::IOFile layout(name, OIIO::Filesystem::IOProxy::Read);
+    if (auto error = checkFileLayout(layout, name, format, limits))
+        return *error;
+    Input input = OIIO::ImageInput::create(format);
+    if (!input)
+        return brokenToOiio(name, format, OIIO::geterror());
+    OIIO::ImageSpec spec;
+    if (!input->open(name, spec, readConfig()))
+        return brokenToOiio(name, format, input->geterror());
+    if (auto error = checkRows(spec, name, limits))
+        return *error;
+    return std::unique_ptr<RowReader>(std::make_unique<Reader>(std::move(input), spec, format, name));
+} catch (const std::exception& e) {
+    return brokenToOiio(file.string(), formatOf(head), e.what());
 }
 
-constexpr ImageFormats kFormats{COTAN_MODULE_VERSION, readWithOiio, writeWithOiio, openRows, createRows, createGif};
+constexpr ImageFormats kFormats{COTAN_MODULE_VERSION, readWithOiio, write, openRows, createRows, createGif};
 
 } // namespace
-} // namespace cotan
+} // namespace cotan::oiio
 
-extern "C" const void* cotanImageFormats() { return &cotan::kFormats; }
+extern "C" const void* cotanImageFormats() { return &cotan::oiio::kFormats; }

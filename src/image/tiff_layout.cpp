@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include "file_layout.hpp"
+#include "oiio.hpp"
 
 namespace cotan::oiio {
 
@@ -21,17 +21,8 @@ struct Tag {
 // Bytes of the whole numbers of TIFF 6.0, section 2, and of BigTIFF, with and without sign; 0: another type.
 std::size_t wholeNumberBytes(std::uint64_t type)
 {
-    switch (type) {
-    case 1:
-    case 6: return 1;
-    case 3:
-    case 8: return 2;
-    case 4:
-    case 9: return 4;
-    case 16:
-    case 17: return 8;
-    default: return 0;
-    }
+    constexpr std::array<std::size_t, 18> kBytes = {0, 1, 0, 2, 4, 0, 1, 0, 2, 4, 0, 0, 0, 0, 0, 0, 8, 8}; // by type
+    return type < kBytes.size() ? kBytes[type] : 0;
 }
 
 class TiffDirectory {
@@ -100,13 +91,6 @@ std::uint64_t partsOf(std::uint64_t whole, std::uint64_t each)
     return std::max<std::uint64_t>(1, (std::min(whole, kMax) + each - 1) / each);
 }
 
-// What libtiff decodes. Of a picture compressed otherwise OpenImageIO hands out what the memory held.
-bool knownTiffCompression(std::uint64_t method)
-{
-    constexpr std::array<std::uint64_t, 12> kKnown = {1, 2, 3, 4, 5, 7, 8, 32773, 32946, 34925, 50000, 50001};
-    return std::ranges::find(kKnown, method) != kKnown.end();
-}
-
 } // namespace
 
 // TIFF 6.0, sections 3, 7 and 15. The first picture only: it is the only one that is read.
@@ -125,32 +109,34 @@ Problem checkTiff(File& file, const LoadLimits& limits)
     const std::uint64_t rowBytes = plainRowBytes(tiff, tiled, planes);
     const char* const part = tiled ? "tile" : "strip";
     if (tiff.past())
-        return "its directory lies behind the end of the file";
+        return inputError("its directory lies behind the end of the file");
     if (tiff.find(258).count == 0) // 1 by the format; OpenImageIO takes it for 8
-        return "its directory does not state the bits per sample";
-    if (!knownTiffCompression(tiff.valueOr(259, 1)))
-        return fmt::format("its compression {} is not read here", tiff.valueOr(259, 1));
+        return inputError("its directory does not state the bits per sample");
+    // What libtiff decodes. Of a picture compressed otherwise OpenImageIO hands out what the memory held.
+    constexpr std::array<std::uint64_t, 12> kKnown = {1, 2, 3, 4, 5, 7, 8, 32773, 32946, 34925, 50000, 50001};
+    if (const std::uint64_t method = tiff.valueOr(259, 1); std::ranges::find(kKnown, method) == kKnown.end())
+        return inputError(fmt::format("its compression {} is not read here", method));
     // OpenImageIO takes memory for all rows of a strip, 4 channels each. The largest number means: all in one strip.
     const std::uint64_t sampleBytes = 4 * std::clamp<std::uint64_t>(tiff.valueOr(258, 1) / 8, 1, 16);
     const std::uint64_t width = std::clamp<std::uint64_t>(tiff.valueOr(256, 0), 1, 0xffffffff);
     if (!tiled && rows > height && rows != 0xffffffff && rows > limits.imageBytes / sampleBytes / width)
-        return fmt::format("its strips have {} rows, the picture {}", rows, height);
+        return inputError(fmt::format("its strips have {} rows, the picture {}", rows, height));
     if (offsets.count < expected)
-        return fmt::format("its directory lists {} {}s, expected {}", offsets.count, part, expected);
+        return inputError(fmt::format("its directory lists {} {}s, expected {}", offsets.count, part, expected));
     for (std::uint64_t i = 0; i < offsets.count; ++i) {
         const std::uint64_t offset = tiff.value(offsets, i), stored = i < counts.count ? tiff.value(counts, i) : 0;
         const std::uint64_t rowsHere = tiled ? rows : std::min(rows, height - std::min(height, i % strips * rows));
         const std::uint64_t plain = std::min(rowBytes * rowsHere, std::uint64_t(1) << 62);
         if (tiff.past())
-            return "the list of its strips or tiles lies behind the end of the file";
+            return inputError("the list of its strips or tiles lies behind the end of the file");
         if (counts.count > 0 && stored == 0) // without any list the sizes follow from the picture's
-            return fmt::format("{} {} has no bytes", part, i);
+            return inputError(fmt::format("{} {} has no bytes", part, i));
         if (stored > 0 && stored < plain)
-            return fmt::format("{} {} has {} bytes, expected {}", part, i, stored, plain);
+            return inputError(fmt::format("{} {} has {} bytes, expected {}", part, i, stored, plain));
         const std::uint64_t needed = std::max<std::uint64_t>({stored, plain, 1});
         if (offset > tiff.fileSize() || needed > tiff.fileSize() - offset)
-            return fmt::format("{} {} takes {} bytes from {}, the file has {}", part, i, needed, offset,
-                               tiff.fileSize());
+            return inputError(
+                fmt::format("{} {} takes {} bytes from {}, the file has {}", part, i, needed, offset, tiff.fileSize()));
     }
     return std::nullopt;
 }

@@ -63,7 +63,6 @@ template<class Color> Image colored(const Image& source, Color color)
     return image;
 }
 
-// Over the range that occurs, near is white and far dark.
 Image depthAsColor(const Image& depth)
 {
     float nearest = 1e30f, farthest = 0;
@@ -85,9 +84,8 @@ std::vector<float> anglesBetween(const Image& a, const Image& b)
     std::vector<float> degrees(a.pixelCount(), -1.0f);
     for (std::size_t i = 0; i < degrees.size(); ++i) {
         const glm::dvec3 u = directionAt(a, i), v = directionAt(b, i);
-        if (u == glm::dvec3(0) || v == glm::dvec3(0))
-            continue;
-        degrees[i] = float(angleBetween(u, v) * 180 / std::numbers::pi);
+        if (u != glm::dvec3(0) && v != glm::dvec3(0))
+            degrees[i] = float(angleBetween(u, v) * 180 / std::numbers::pi);
     }
     return degrees;
 }
@@ -116,11 +114,8 @@ std::vector<float> interiorAngles(const Image& a, const Image& b)
 
 double shareOpposed(const std::vector<float>& degrees)
 {
-    std::size_t compared = 0, opposed = 0;
-    for (float d : degrees) {
-        compared += d >= 0;
-        opposed += d > 90;
-    }
+    const auto compared = std::ranges::count_if(degrees, [](float d) { return d >= 0; });
+    const auto opposed = std::ranges::count_if(degrees, [](float d) { return d > 90; });
     return compared > 0 ? double(opposed) / double(compared) : kOfNothing;
 }
 

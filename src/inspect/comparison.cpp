@@ -9,7 +9,6 @@
 
 #include "inspect/angles.hpp"
 #include "scene/geometry.hpp"
-#include "scene/normal_maps.hpp"
 
 namespace cotan {
 

@@ -87,14 +87,6 @@ void paintTriangles(Mesh& mesh, const std::vector<glm::vec3>& shown, bool shaped
     mesh = std::move(flat);
 }
 
-glm::dmat3 linearOf(const Scene& scene, std::size_t mesh)
-{
-    for (const Instance& instance : scene.instances)
-        if (std::size_t(instance.mesh) == mesh)
-            return glm::dmat3(glm::mat3(instance.toWorld));
-    return glm::dmat3(1);
-}
-
 // The map whose texels count: the normal map, else the colours.
 const Texture& mapOf(const Material& m) { return m.normalMap.present() ? m.normalMap : m.baseColorMap; }
 
@@ -110,15 +102,17 @@ using Values = std::vector<std::vector<float>>; // a mesh, a triangle
 
 Values degreesOf(const Scene& scene, Inspection inspection)
 {
-    constexpr float kNone = -1;
+    const float none = inspection == Inspection::mirrored ? 0.0f : -1.0f; // where the uv have no area
     Values values(scene.meshes.size());
     std::vector<double> densities;
     for (std::size_t m = 0; m < scene.meshes.size(); ++m) {
         const Mesh& mesh = scene.meshes[m];
         const Material& material = scene.materials[std::size_t(mesh.material)];
         const std::shared_ptr<const Mesh> held(std::shared_ptr<void>(), &mesh); // the scene outlives the surface
-        const MappedSurface surface = makeSurface(held, mapOf(material), linearOf(scene, m), {});
-        values[m].assign(mesh.triangleCount(), kNone);
+        const auto first = std::ranges::find(scene.instances, int(m), &Instance::mesh);
+        const glm::mat3 toWorld = first == scene.instances.end() ? glm::mat3(1) : glm::mat3(first->toWorld);
+        const MappedSurface surface = makeSurface(held, mapOf(material), glm::dmat3(toWorld), {});
+        values[m].assign(mesh.triangleCount(), none);
         for (std::size_t i = 0; surface.hasUv() && i < mesh.triangleCount(); ++i) {
             const TriangleUv t = triangleUv(surface, i, edgesOf(surface, i));
             if (!t.usable || t.degenerate)
@@ -152,10 +146,8 @@ void showTriangles(Scene& scene, Inspection inspection)
                 values[m].push_back(mesh.tangents.empty() ? 0.0f : mesh.tangents[mesh.indices[3 * i]].w);
         std::vector<glm::vec3> colors;
         if (twoColors)
-            for (std::size_t i = 0; i < mesh.triangleCount(); ++i) {
-                const bool none = inspection == Inspection::mirrored && scene.meshes[m].texcoords[0].empty();
-                colors.push_back(none || values[m][i] == 0 ? kGrey : values[m][i] > 0 ? kBlue : kOrange);
-            }
+            for (const float side : values[m])
+                colors.push_back(side == 0 ? kGrey : side > 0 ? kBlue : kOrange);
         else
             colors = heatColors(values[m]);
         paintTriangles(mesh, colors, twoColors);

@@ -14,6 +14,7 @@
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 
+#include "scene/geometry.hpp"
 #include "scene/texture_sample.hpp"
 
 namespace cotan {
@@ -22,8 +23,7 @@ namespace {
 
 using glm::dvec3;
 
-struct Eye {
-    dvec3 at, right, up, forward;
+struct Eye : CameraAxes {
     double high;  // of the picture, at depth 1 or orthographic
     double scale; // pixels per unit there
     bool orthographic;
@@ -32,17 +32,9 @@ struct Eye {
 
 Eye eyeOf(const Camera& camera, int width, int height)
 {
-    Eye e;
-    e.at = camera.eye;
-    e.forward = glm::normalize(dvec3(camera.target) - e.at);
-    e.right = glm::normalize(glm::cross(e.forward, dvec3(camera.up)));
-    e.up = glm::cross(e.right, e.forward);
-    e.orthographic = camera.orthographic;
-    e.high = camera.orthographic ? double(camera.verticalExtent) : 2 * std::tan(double(camera.verticalFieldOfView) / 2);
-    e.scale = height / e.high;
-    e.width = width;
-    e.height = height;
-    return e;
+    const double high =
+        camera.orthographic ? double(camera.verticalExtent) : 2 * std::tan(double(camera.verticalFieldOfView) / 2);
+    return {cameraAxes(camera), high, height / high, camera.orthographic, double(width), double(height)};
 }
 
 // ---- edges ---------------------------------------------------------------------------------
@@ -114,7 +106,7 @@ void drawEdge(Image& picture, const Image& depth, const Eye& e, const SurfaceEdg
 {
     constexpr double kNear = 1e-6, kSlack = 1.003;
     const auto inEye = [&](const glm::vec3& p) {
-        const dvec3 d = dvec3(p) - e.at;
+        const dvec3 d = dvec3(p) - e.eye;
         return dvec3(glm::dot(d, e.right), glm::dot(d, e.up), glm::dot(d, e.forward));
     };
     dvec3 a = inEye(edge.a), b = inEye(edge.b);
@@ -207,7 +199,7 @@ Ray rayAt(const Camera& camera, glm::ivec2 size, glm::vec2 place)
     const double x = (double(place.x) - size.x * 0.5) * e.high / size.y,
                  y = (size.y * 0.5 - double(place.y)) * e.high / size.y;
     const dvec3 aside = e.right * x + e.up * y;
-    return camera.orthographic ? Ray{e.at + aside, e.forward} : Ray{e.at, e.forward + aside};
+    return camera.orthographic ? Ray{e.eye + aside, e.forward} : Ray{e.eye, e.forward + aside};
 }
 
 // Moeller and Trumbore. positive determinants: the front is seen.

@@ -8,6 +8,7 @@
 
 #include "cotan/vector.hpp"
 #include "maps/texels.hpp"
+#include "scene/texture_sample.hpp"
 
 namespace cotan::maps {
 
@@ -80,12 +81,8 @@ private:
 // The mask's red at the nearest texel, [0,1]; not a number is 0.
 float maskAt(const Image& mask, int x, int y, int width, int height)
 {
-    const std::size_t mx = std::size_t(double(x) * mask.width / width);
-    const std::size_t my = std::size_t(double(y) * mask.height / height);
-    const std::size_t i = 4 * (my * std::size_t(mask.width) + mx);
-    const float value = mask.type == PixelType::unorm8 ? float(mask.bytes8()[i]) / 255
-        : mask.type == PixelType::unorm16              ? float(mask.words()[i]) / 65535
-                                                       : mask.floats()[i];
+    const float value = atTexel(mask, int(double(x) * mask.width / width), int(double(y) * mask.height / height),
+                                [](const auto* c, int most) { return float(c[0]) / float(most); });
     return value > 0 ? std::min(value, 1.0f) : 0.0f;
 }
 

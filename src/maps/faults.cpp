@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <utility>
 
 #include "core/named_values.hpp"
 
@@ -39,27 +40,25 @@ std::vector<Fault> faultsOf(const NormalStatistics& s, const GreenVerdict* green
 {
     using Kind = Fault::Kind;
     std::vector<Fault> faults;
+    const auto add = [&](bool found, Kind kind, std::string text) {
+        if (found)
+            faults.push_back({kind, std::move(text)});
+    };
     const bool normals = s.content != Content::other && s.content != Content::grey;
-    if (normals && s.transfer == Transfer::srgb)
-        faults.push_back(
-            {Kind::srgb, "it was saved as a colour, through the sRGB curve: flat is near 188 instead of 128"});
-    if (normals && s.transfer == Transfer::linearised)
-        faults.push_back({Kind::linearised,
-                          "the sRGB curve was undone on values that never had it: flat is near 55 instead of 128"});
-    if (normals && s.redIsZ)
-        faults.push_back(
-            {Kind::redAndBlue, "red and blue are exchanged: red points outwards everywhere, blue does not"});
+    add(normals && s.transfer == Transfer::srgb, Kind::srgb,
+        "it was saved as a colour, through the sRGB curve: flat is near 188 instead of 128");
+    add(normals && s.transfer == Transfer::linearised, Kind::linearised,
+        "the sRGB curve was undone on values that never had it: flat is near 55 instead of 128");
+    add(normals && s.redIsZ, Kind::redAndBlue,
+        "red and blue are exchanged: red points outwards everywhere, blue does not");
     const bool tangentSpace = s.content == Content::tangentSpace && s.transfer == Transfer::linear && !s.redIsZ;
-    if (tangentSpace && s.meanLength < kShort)
-        faults.push_back({Kind::tooShort, "washed out: vectors are " + longOnAverage(s.meanLength)});
-    if (tangentSpace && s.meanLength > kLong)
-        faults.push_back({Kind::tooLong, "too strong: vectors are " + longOnAverage(s.meanLength)});
-    if (s.eightBits)
-        faults.push_back({Kind::eightBitsIn16, "its 16 bits hold steps of 8 bits only"});
-    if (green && green->swapped == Swapped::yes)
-        faults.push_back({Kind::redAndGreen, "red and green are exchanged"});
-    if (green && green->green == Green::down)
-        faults.push_back({Kind::greenDown, "green points down (DirectX), which glTF and OpenGL read as dents"});
+    add(tangentSpace && s.meanLength < kShort, Kind::tooShort,
+        "washed out: vectors are " + longOnAverage(s.meanLength));
+    add(tangentSpace && s.meanLength > kLong, Kind::tooLong, "too strong: vectors are " + longOnAverage(s.meanLength));
+    add(s.eightBits, Kind::eightBitsIn16, "its 16 bits hold steps of 8 bits only");
+    add(green && green->swapped == Swapped::yes, Kind::redAndGreen, "red and green are exchanged");
+    add(green && green->green == Green::down, Kind::greenDown,
+        "green points down (DirectX), which glTF and OpenGL read as dents");
     return faults;
 }
 

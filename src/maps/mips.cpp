@@ -94,8 +94,7 @@ double roughnessOf(const Moments& m, const MipSettings& s)
     if (!(m.share > 0))
         return s.roughness;
     if (s.model != VarianceModel::lean)
-        return roughnessFromLength(s.roughness, std::min(1.0, double(glm::length(m.normal)) / double(m.share)),
-                                   s.model);
+        return roughnessFromLength(s.roughness, std::min(1.0, double(glm::length(m.normal)) / m.share), s.model);
     const double bx = double(m.bx / m.share), by = double(m.by / m.share), bb = double(m.bb / m.share);
     return roughnessFromVariance(s.roughness, std::max(0.0, bb - bx * bx - by * by));
 }
@@ -104,8 +103,7 @@ double roughnessOf(const Moments& m, const MipSettings& s)
 template<class RowOf> MipLevel encoded(int width, int height, const MipSettings& s, RowOf rowOf)
 {
     MipLevel out{makeImage(width, height, s.type), makeImage(width, height, s.type)};
-    std::vector<double> lengths(std::size_t(height), 0), roughness(std::size_t(height), 0),
-        counts(std::size_t(height), 0);
+    std::vector<double> lengths(std::size_t(height), 0), roughness(lengths), counts(lengths);
     forRowBands(height, [&](int first, int last) {
         std::vector<Moments> row(std::size_t(width), Moments{});
         std::vector<glm::vec4> normals(row.size()), rough(row.size());

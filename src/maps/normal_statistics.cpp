@@ -2,6 +2,7 @@
 #include "cotan/vector.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstring>
 #include <numbers>
@@ -282,43 +283,41 @@ struct MapSurvey::State {
     Image texel; // the first one, while all are alike; no data afterwards
     bool two = false, constantAll = false, between = false;
 
-    void afterFirst();
+    // What the first pass has told, for the second to read by.
+    void afterFirst()
+    {
+        between = true;
+        s.swizzle = sums.range.swizzle();
+        std::array<double, 4> range{};
+        for (std::size_t c = 0; c < 4; ++c)
+            range[c] = sums.finite ? sums.highest[c] - sums.lowest[c] : 0;
+        for (std::size_t c = 0; c < 3 && sums.finite; ++c) {
+            s.lowest[c] = sums.lowest[c];
+            s.highest[c] = sums.highest[c];
+        }
+        s.eightBits = type == PixelType::unorm16 && sums.finite > 0 && sums.between == 0;
+        // z points outwards nearly everywhere, x to both sides.
+        s.redIsZ = share(sums.above[0], sums.finite) > 0.99 && share(sums.above[2], sums.finite) < 0.9;
+        two = s.swizzle != Swizzle::rg || range[2] <= kConstant;
+        constantAll = range[0] <= kConstant && range[1] <= kConstant && range[2] <= kConstant && range[3] <= kConstant;
+        s.signedStored = type == PixelType::float32 && sums.finite
+            && (std::min(s.lowest[0], s.lowest[1]) < -0.01
+                || (!two && share(sums.signedUnit, sums.finite) > 0.9 && rms(sums, 1) > 0.2));
+        if (!two && !s.signedStored && !constantAll) {
+            s.rmsExact = rms(sums, 0);
+            s.rmsBiased = rms(sums, 1);
+            s.transfer = transferOf(sums);
+            if (s.transfer == Transfer::linear)
+                s.centre = centreOf(sums);
+        }
+        read.expansion =
+            s.centre == Centre::biased || s.transfer != Transfer::linear ? Expansion::biased : Expansion::exact;
+        if (s.signedStored)
+            read.expansion = Expansion::signedValues;
+        if (two && !constantAll)
+            read.channels = Channels::orthographic;
+    }
 };
-
-// What the first pass has told, for the second to read by.
-void MapSurvey::State::afterFirst()
-{
-    between = true;
-    s.swizzle = sums.range.swizzle();
-    std::array<double, 4> range{};
-    for (std::size_t c = 0; c < 4; ++c)
-        range[c] = sums.finite ? sums.highest[c] - sums.lowest[c] : 0;
-    for (std::size_t c = 0; c < 3 && sums.finite; ++c) {
-        s.lowest[c] = sums.lowest[c];
-        s.highest[c] = sums.highest[c];
-    }
-    s.eightBits = type == PixelType::unorm16 && sums.finite > 0 && sums.between == 0;
-    // z points outwards nearly everywhere, x to both sides.
-    s.redIsZ = share(sums.above[0], sums.finite) > 0.99 && share(sums.above[2], sums.finite) < 0.9;
-    two = s.swizzle != Swizzle::rg || range[2] <= kConstant;
-    constantAll = range[0] <= kConstant && range[1] <= kConstant && range[2] <= kConstant && range[3] <= kConstant;
-    s.signedStored = type == PixelType::float32 && sums.finite
-        && (std::min(s.lowest[0], s.lowest[1]) < -0.01
-            || (!two && share(sums.signedUnit, sums.finite) > 0.9 && rms(sums, 1) > 0.2));
-    if (!two && !s.signedStored && !constantAll) {
-        s.rmsExact = rms(sums, 0);
-        s.rmsBiased = rms(sums, 1);
-        s.transfer = transferOf(sums);
-        if (s.transfer == Transfer::linear)
-            s.centre = centreOf(sums);
-    }
-    read.expansion =
-        s.centre == Centre::biased || s.transfer != Transfer::linear ? Expansion::biased : Expansion::exact;
-    if (s.signedStored)
-        read.expansion = Expansion::signedValues;
-    if (two && !constantAll)
-        read.channels = Channels::orthographic;
-}
 
 MapSurvey::MapSurvey() : state_(std::make_unique<State>()) {}
 MapSurvey::~MapSurvey() = default;

@@ -41,25 +41,17 @@ glm::vec3 decode(const glm::vec4& t, const f32::cotan_normal_format& format)
 // The stored components from a texel on, row by row.
 void loadTexels(const Image& image, std::size_t first, std::span<glm::vec4> texels)
 {
-    const std::size_t start = first * 4;
+    const std::size_t start = first * 4, count = texels.size() * 4;
     float* out = &texels[0].x;
-    const std::size_t count = texels.size() * 4;
-    if (image.type == PixelType::unorm8) {
-        for (std::size_t i = 0; i < count; ++i)
-            out[i] = float(image.bytes8()[start + i]) * (1.0f / 255);
-    } else if (image.type == PixelType::unorm16) {
-        for (std::size_t i = 0; i < count; ++i)
-            out[i] = float(image.words()[start + i]) * (1.0f / 65535);
-    } else {
+    const auto load = [&](const auto* codes, float unit) {
+        std::transform(codes, codes + count, out, [unit](auto code) { return float(code) * unit; });
+    };
+    if (image.type == PixelType::unorm8)
+        load(image.bytes8() + start, 1.0f / 255);
+    else if (image.type == PixelType::unorm16)
+        load(image.words() + start, 1.0f / 65535);
+    else
         std::copy_n(image.floats() + start, count, out);
-    }
-}
-
-template<class T> T quantise(float value, float most)
-{
-    if (!(value > 0))
-        return 0;
-    return static_cast<T>(std::min(value, 1.0f) * most + 0.5f);
 }
 
 } // namespace
@@ -122,18 +114,16 @@ void loadRow(const Image& image, int row, std::span<glm::vec4> texels)
 void storeRow(Image& image, int row, std::span<const glm::vec4> texels)
 {
     const std::size_t start = std::size_t(row) * std::size_t(image.width) * 4;
-    const float* in = &texels[0].x;
-    const std::size_t count = texels.size() * 4;
-    if (image.type == PixelType::unorm8) {
-        for (std::size_t i = 0; i < count; ++i)
-            image.bytes8()[start + i] = quantise<std::uint8_t>(in[i], 255);
-    } else if (image.type == PixelType::unorm16) {
-        for (std::size_t i = 0; i < count; ++i)
-            image.words()[start + i] = quantise<std::uint16_t>(in[i], 65535);
-    } else {
-        for (std::size_t i = 0; i < count; ++i)
-            image.floats()[start + i] = std::isfinite(in[i]) ? in[i] : 0.0f;
-    }
+    const std::span<const float> in(&texels[0].x, texels.size() * 4);
+    const auto store = [&]<class T>(T* to, float most) {
+        std::ranges::transform(in, to, [most](float x) { return x > 0 ? T(std::min(x, 1.0f) * most + 0.5f) : T(0); });
+    };
+    if (image.type == PixelType::unorm8)
+        store(image.bytes8() + start, 255);
+    else if (image.type == PixelType::unorm16)
+        store(image.words() + start, 65535);
+    else
+        std::ranges::transform(in, image.floats() + start, [](float x) { return std::isfinite(x) ? x : 0.0f; });
 }
 
 glm::vec3 decodeTexel(const glm::vec4& texel, const Convention& convention, PixelType type)

@@ -4,7 +4,6 @@
 // map of any convention decodes into it; which way v runs does not matter here.
 #pragma once
 
-#include <array>
 #include <functional>
 #include <span>
 #include <vector>
@@ -21,16 +20,6 @@ namespace cotan::maps {
 
 // Where slopes of normals are counted, steeper ones are taken as this: half a degree from lying down.
 constexpr float kSteepestSlope = 128;
-
-// The share of the neighbours on one side, in the middle and on the other, that a kernel takes across its derivative.
-constexpr std::array<float, 3> sharesAcross(Kernel kernel)
-{
-    if (kernel == Kernel::sobel)
-        return {0.25f, 0.5f, 0.25f};
-    if (kernel == Kernel::scharr)
-        return {3.0f / 16, 10.0f / 16, 3.0f / 16};
-    return {0, 1, 0};
-}
 
 // Grey pixels with an alpha that varies: greyAlpha. Red constant with an alpha that varies, green
 // varying: alphaGreen. Otherwise rg.

@@ -44,7 +44,7 @@ namespace {
 
 // The model on its way through the reader.
 struct Job {
-    fs::path file; // as passed, for messages
+    fs::path file; // as passed
     const LoadLimits& limits;
     fs::path canonical{};
     fs::path folder{};       // canonical
@@ -53,8 +53,6 @@ struct Job {
     std::vector<std::string> outside{};  // files that were asked for and refused: out of the model's folder
     std::vector<std::string> tooLarge{}; // the same: over the limit
     Scene scene{};
-
-    std::string name() const { return file.string(); }
 };
 
 // ---- files -----------------------------------------------------------------------------------
@@ -129,7 +127,7 @@ Status openModel(Job& job)
     std::error_code error;
     job.canonical = fs::canonical(job.file, error);
     if (error)
-        return inputError(fmt::format("{}: {}", job.name(), error.message()));
+        failModel("{}", error.message());
     // A link to a model elsewhere: its textures lie beside the model. The name decides the format.
     job.folder = job.canonical.parent_path();
     job.extension = lowerExtension(job.file);
@@ -144,16 +142,6 @@ std::size_t bytesToConvert(const aiScene& source)
     for (unsigned m = 0; m < source.mNumMeshes; ++m)
         bytes += 64 * std::size_t(source.mMeshes[m]->mNumVertices) + 128 * std::size_t(source.mMeshes[m]->mNumFaces);
     return bytes;
-}
-
-// What can be checked in the bytes before Assimp trusts them.
-Status checkBytes(Job& job)
-{
-    if (job.extension == ".ply")
-        return checkPly(job.bytes, job.name(), job.limits);
-    if (job.extension == ".dae")
-        return checkCollada(job.bytes, job.name());
-    return Done{};
 }
 
 // Leaves only the reader of this extension: no guessing by contents.
@@ -183,26 +171,24 @@ const aiScene* import(Job& job, Assimp::Importer& importer)
 }
 
 // Assimp's own steps trust the indices, and that what is counted is there.
-Status checkIndices(const aiScene& source, const Job& job)
+void checkIndices(const aiScene& source)
 {
     for (unsigned m = 0; m < source.mNumMeshes; ++m) {
         const aiMesh& mesh = *source.mMeshes[m];
+        const char* const name = mesh.mName.C_Str();
         if ((mesh.mNumVertices > 0 && !mesh.mVertices) || (mesh.mNumFaces > 0 && !mesh.mFaces))
-            return inputError(fmt::format("{}: mesh {}: expected {} vertices and {} faces, found none", job.name(),
-                                          mesh.mName.C_Str(), mesh.mNumVertices, mesh.mNumFaces));
+            failModel("mesh {}: expected {} vertices and {} faces, found none", name, mesh.mNumVertices,
+                      mesh.mNumFaces);
         for (unsigned f = 0; f < mesh.mNumFaces; ++f) {
             const aiFace& face = mesh.mFaces[f];
             if (face.mNumIndices > 0 && !face.mIndices)
-                return inputError(fmt::format("{}: mesh {}: face {}: expected {} indices, found none", job.name(),
-                                              mesh.mName.C_Str(), f, face.mNumIndices));
+                failModel("mesh {}: face {}: expected {} indices, found none", name, f, face.mNumIndices);
             for (unsigned i = 0; i < face.mNumIndices; ++i)
                 if (face.mIndices[i] >= mesh.mNumVertices)
-                    return inputError(fmt::format("{}: mesh {}: face {}: expected an index below {}, found {}",
-                                                  job.name(), mesh.mName.C_Str(), f, mesh.mNumVertices,
-                                                  face.mIndices[i]));
+                    failModel("mesh {}: face {}: expected an index below {}, found {}", name, f, mesh.mNumVertices,
+                              face.mIndices[i]);
         }
     }
-    return Done{};
 }
 
 // Assimp takes a face without corners for a polygon, and counts it in front of its table where other kinds are beside
@@ -224,7 +210,7 @@ void removeEmptyFaces(const aiScene& source, Job& job)
     }
 }
 
-Status checkCounts(const aiScene& source, const Job& job)
+void checkCounts(const aiScene& source, const LoadLimits& limits)
 {
     std::size_t vertices = 0, triangles = 0;
     for (unsigned i = 0; i < source.mNumMeshes; ++i) {
@@ -232,11 +218,10 @@ Status checkCounts(const aiScene& source, const Job& job)
         triangles += source.mMeshes[i]->mNumFaces;
     }
     // Before equal vertices are merged every corner has its own: three times the limit.
-    if (vertices / 3 > job.limits.vertices)
-        return inputError(fmt::format("{}: over the limit of {} vertices", job.name(), job.limits.vertices));
-    if (triangles > job.limits.triangles)
-        return inputError(fmt::format("{}: over the limit of {} triangles", job.name(), job.limits.triangles));
-    return Done{};
+    if (vertices / 3 > limits.vertices)
+        failModel("over the limit of {} vertices", limits.vertices);
+    if (triangles > limits.triangles)
+        failModel("over the limit of {} triangles", limits.triangles);
 }
 
 std::optional<Result<std::span<const std::byte>>> embeddedImage(const aiScene& source, const std::string& path)
@@ -274,22 +259,20 @@ int defaultMaterial(Scene& scene, int& cached)
     return cached;
 }
 
-Result<std::vector<int>> convertMeshes(const aiScene& source, Job& job)
+std::vector<int> convertMeshes(const aiScene& source, Job& job)
 {
     const bool regenerateNormals = job.extension == ".stl";
     std::vector<int> indexOf(source.mNumMeshes, -1);
     int fallback = -1;
     for (unsigned i = 0; i < source.mNumMeshes; ++i) {
-        auto mesh = convertMesh(*source.mMeshes[i], job.name(), regenerateNormals, job.scene);
-        if (!mesh)
-            return mesh.error();
-        if (mesh->indices.empty())
+        Mesh mesh = convertMesh(*source.mMeshes[i], regenerateNormals, job.scene);
+        if (mesh.indices.empty())
             continue;
         const unsigned material = source.mMeshes[i]->mMaterialIndex;
-        mesh->material = material < source.mNumMaterials ? int(material) : defaultMaterial(job.scene, fallback);
-        warnAboutTexcoords(*mesh, job.scene);
+        mesh.material = material < source.mNumMaterials ? int(material) : defaultMaterial(job.scene, fallback);
+        warnAboutTexcoords(mesh, job.scene);
         indexOf[i] = int(job.scene.meshes.size());
-        job.scene.meshes.push_back(*std::move(mesh));
+        job.scene.meshes.push_back(std::move(mesh));
     }
     return indexOf;
 }
@@ -305,59 +288,50 @@ void warnAboutSource(const aiScene& source, Job& job)
         warnings.push_back(fmt::format("{} lights are left out: this format gives them no unit", source.mNumLights));
 }
 
-Result<Scene> load(Job& job)
-{
+} // namespace
+
+Result<Scene> loadWithAssimp(const fs::path& file, const LoadLimits& limits)
+try {
+    Job job{.file = file, .limits = limits};
     if (Status ok = openModel(job); !ok)
         return ok.error();
-    if (Status ok = checkBytes(job); !ok)
-        return ok.error();
+    // What can be checked in the bytes before Assimp trusts them.
+    if (job.extension == ".ply")
+        checkPly(job.bytes, job.limits);
+    if (job.extension == ".dae")
+        checkCollada(job.bytes);
 
     Assimp::Importer importer;
     if (!keepOneReader(importer, job.extension))
-        return inputError(fmt::format("{}: no reader for the extension \"{}\"", job.name(), job.extension));
+        failModel("no reader for the extension \"{}\"", job.extension);
     const aiScene* source = import(job, importer);
     if (!source || !source->mRootNode)
-        return inputError(fmt::format("{}: expected a model that Assimp can read, it found: {}", job.name(),
-                                      withoutBreaks(importer.GetErrorString())));
-    if (Status ok = checkIndices(*source, job); !ok)
-        return ok.error();
+        failModel("expected a model that Assimp can read, it found: {}", withoutBreaks(importer.GetErrorString()));
+    checkIndices(*source);
     removeEmptyFaces(*source, job);
     if (job.limits.expect)
         job.limits.expect(bytesToConvert(*source));
     source = importer.ApplyPostProcessing(aiProcess_Triangulate | aiProcess_SortByPType);
     if (!source || source->mNumMeshes == 0)
-        return inputError(fmt::format("{}: expected triangles, found none", job.name()));
-    if (Status ok = checkCounts(*source, job); !ok)
-        return ok.error();
+        failModel("expected triangles, found none");
+    checkCounts(*source, job.limits);
 
     warnAboutSource(*source, job);
     convertMaterials(*source, job);
-    auto meshes = convertMeshes(*source, job);
-    if (!meshes)
-        return meshes.error();
-    if (Status ok = convertNodes(*source, job.name(), *meshes, job.limits, job.scene); !ok)
-        return ok.error();
+    convertNodes(*source, convertMeshes(*source, job), job.limits, job.scene);
     if (job.scene.instances.empty())
-        return inputError(fmt::format("{}: expected triangles, found none", job.name()));
-    if (Status sound = checkScene(job.scene, job.name()); !sound)
+        failModel("expected triangles, found none");
+    if (Status sound = checkScene(job.scene, file.string()); !sound)
         return sound.error();
     return std::move(job.scene);
-}
-
-} // namespace
-
-Result<Scene> loadWithAssimp(const fs::path& file, const LoadLimits& limits)
-{
-    Job job{.file = file, .limits = limits};
-    try {
-        return load(job);
-    } catch (const std::bad_alloc&) {
-        return inputError(fmt::format("{}: not enough memory for the model", file.string()));
-    } catch (const std::exception& e) {
-        return inputError(fmt::format("{}: {}", file.string(), withoutBreaks(e.what())));
-    } catch (...) {
-        return inputError(fmt::format("{}: the reader failed", file.string()));
-    }
+} catch (const Error& problem) {
+    return inputError(fmt::format("{}: {}", file.string(), problem.message));
+} catch (const std::bad_alloc&) {
+    return inputError(fmt::format("{}: not enough memory for the model", file.string()));
+} catch (const std::exception& e) {
+    return inputError(fmt::format("{}: {}", file.string(), withoutBreaks(e.what())));
+} catch (...) {
+    return inputError(fmt::format("{}: the reader failed", file.string()));
 }
 
 } // namespace cotan

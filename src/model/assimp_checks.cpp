@@ -4,7 +4,6 @@
 #include <charconv>
 #include <cstdint>
 #include <map>
-#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -18,8 +17,6 @@
 namespace cotan {
 
 namespace {
-
-using Problem = std::optional<std::string>; // expected and found, without file and line
 
 // ---- PLY: the header -------------------------------------------------------------------------
 
@@ -64,79 +61,69 @@ struct Header {
     std::string unknownRows; // the first element that has rows and a name that Assimp does not know
 };
 
-// Assimp reads the count of an element that it does not know from the name: as 0 where the name has letters, so that
-// what comes behind is read in the wrong place.
-Problem checkElementName(const Header& header, std::string_view name)
+void checkElement(Header& header, std::string_view name, std::string_view word, std::size_t fileBytes,
+                  const LoadLimits& limits)
 {
+    // Assimp reads the count of an element that it does not know from the name: as 0 where the name has letters, so
+    // that what comes behind is read in the wrong place.
     if (name.front() >= '0' && name.front() <= '9')
-        return fmt::format("expected a name that starts with a letter, found \"{}\"", name.substr(0, 40));
+        failModel("expected a name that starts with a letter, found \"{}\"", name.substr(0, 40));
     const bool geometry = name == "vertex" || name == "face" || name == "tristrips";
     if (geometry && !header.unknownRows.empty())
-        return fmt::format("expected the element \"{}\" before the element \"{}\"", name, header.unknownRows);
-    return std::nullopt;
-}
-
-Problem checkElement(Header& header, std::string_view name, std::string_view word, std::size_t fileBytes,
-                     const LoadLimits& limits)
-{
-    if (Problem problem = checkElementName(header, name))
-        return problem;
+        failModel("expected the element \"{}\" before the element \"{}\"", name, header.unknownRows);
     std::uint64_t count = 0;
     if (!parseNumber(word, count))
-        return "expected a count at the end";
+        failModel("expected a count at the end");
     if (count > fileBytes || count > limits.vertices)
-        return fmt::format("it counts {} elements, more than the file can hold or the limit allows", count);
+        failModel("it counts {} elements, more than the file can hold or the limit allows", count);
     constexpr std::array<std::string_view, 5> kRead = {"vertex", "face", "tristrips", "edge", "material"};
     if (count > 0 && header.unknownRows.empty() && std::ranges::find(kRead, name) == kRead.end())
         header.unknownRows = name.substr(0, 40);
     header.elements.push_back({count, {}});
-    return std::nullopt;
 }
 
-Problem checkProperty(Header& header, const std::vector<std::string_view>& words)
+void checkProperty(Header& header, const std::vector<std::string_view>& words)
 {
     const bool list = words.size() == 5 && words[1] == "list";
     const bool known =
         list ? typeSize(words[2]) > 0 && typeSize(words[3]) > 0 : words.size() == 3 && typeSize(words[1]) > 0;
     if (!known || header.elements.empty())
-        return "expected a type and a name, behind an element";
+        failModel("expected a type and a name, behind an element");
     if (list && (words[2].starts_with("float") || words[2].starts_with("double")))
-        return "expected a whole number as the count of a list";
+        failModel("expected a whole number as the count of a list");
     header.elements.back().properties.push_back(list ? Property{words[2], words[3]} : Property{{}, words[1]});
-    return std::nullopt;
 }
 
-Problem checkLine(Header& header, std::string_view line, std::size_t fileBytes, const LoadLimits& limits)
+void checkLine(Header& header, std::string_view line, std::size_t fileBytes, const LoadLimits& limits)
 {
     const std::vector<std::string_view> words = split(line);
     if (words.empty())
-        return "expected a header line, found none";
+        failModel("expected a header line, found none");
     const std::string_view keyword = words[0];
     if (keyword == "comment" || keyword == "obj_info")
-        return std::nullopt;
+        return;
     if (keyword == "format") {
         header.hasFormat = words.size() == 3
             && (words[1] == "ascii" || words[1] == "binary_little_endian" || words[1] == "binary_big_endian");
         header.ascii = header.hasFormat && words[1] == "ascii";
         header.bigEndian = header.hasFormat && words[1] == "binary_big_endian";
         if (!header.hasFormat || !header.elements.empty())
-            return "expected ascii, binary_little_endian or binary_big_endian and a version";
-        return std::nullopt;
+            failModel("expected ascii, binary_little_endian or binary_big_endian and a version");
+        return;
     }
     if (!header.hasFormat)
-        return "expected the format line first";
+        failModel("expected the format line first");
     if (keyword == "element" && words.size() == 3)
         return checkElement(header, words[1], words[2], fileBytes, limits);
     if (keyword == "property")
         return checkProperty(header, words);
     if (line == "end_header") {
         header.ended = true;
-        return std::nullopt;
+        return;
     }
     // Old exporters forget the word "comment" in front of their name.
     if (!header.elements.empty() || keyword.starts_with("e"))
-        return "expected element, property, comment or end_header";
-    return std::nullopt;
+        failModel("expected element, property, comment or end_header");
 }
 
 // ---- PLY: behind the header ------------------------------------------------------------------
@@ -153,7 +140,7 @@ std::uint64_t readCount(std::string_view bytes, std::string_view type, bool bigE
 }
 
 // Walks over an element's rows; `rest` is what is left of the file.
-Problem walkBinary(const Element& element, bool bigEndian, std::string_view& rest)
+void walkBinary(const Element& element, bool bigEndian, std::string_view& rest)
 {
     for (std::uint64_t row = 0; row < element.count; ++row) {
         for (const Property& property : element.properties) {
@@ -161,29 +148,28 @@ Problem walkBinary(const Element& element, bool bigEndian, std::string_view& res
             if (!property.countType.empty()) {
                 const std::size_t size = typeSize(property.countType);
                 if (size > rest.size())
-                    return "the file ends in the middle of its elements";
+                    failModel("the file ends in the middle of its elements");
                 values = readCount(rest, property.countType, bigEndian);
                 rest.remove_prefix(size);
             }
             const std::size_t size = typeSize(property.type);
             if (values > rest.size() / size)
-                return fmt::format("{} values are promised, the file has {} bytes left", values, rest.size());
+                failModel("{} values are promised, the file has {} bytes left", values, rest.size());
             rest.remove_prefix(values * size);
         }
         if (element.properties.empty())
             break;
     }
-    return std::nullopt;
 }
 
 // In text every row has a line.
-Problem walkText(const Element& element, std::string_view& rest)
+void walkText(const Element& element, std::string_view& rest)
 {
     for (std::uint64_t row = 0; row < element.count && !element.properties.empty(); ++row) {
         std::vector<std::string_view> words;
         while (words.empty()) {
             if (rest.empty())
-                return "the file ends in the middle of its elements";
+                failModel("the file ends in the middle of its elements");
             const std::size_t end = std::min(rest.find_first_of("\r\n"), rest.size());
             words = split(rest.substr(0, end));
             rest.remove_prefix(std::min(end + 1, rest.size()));
@@ -194,34 +180,40 @@ Problem walkText(const Element& element, std::string_view& rest)
             if (!property.countType.empty() && at < words.size()) {
                 const std::string_view word = words[at++];
                 if (std::from_chars(word.data(), word.data() + word.size(), values).ec != std::errc{})
-                    return fmt::format("expected the count of a list, found \"{}\"", word.substr(0, 40));
+                    failModel("expected the count of a list, found \"{}\"", word.substr(0, 40));
             }
             if (values > words.size() - at)
-                return fmt::format("{} values are promised, their line has {}", values, words.size() - at);
+                failModel("{} values are promised, their line has {}", values, words.size() - at);
             at += values;
         }
     }
-    return std::nullopt;
+}
+
+// Calls check(); what it finds wrong, it finds in the part of that number.
+void checkPart(const char* part, std::size_t number, const auto& check)
+try {
+    check();
+} catch (const Error& problem) {
+    failModel("{} {}: {}", part, number, problem.message);
 }
 
 // ---- COLLADA ---------------------------------------------------------------------------------
 
 bool space(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\n'; }
 
-Problem checkAttribute(std::string_view text, std::string_view attribute)
+void checkAttribute(std::string_view text, std::string_view attribute)
 {
     for (std::size_t at = text.find(attribute); at != text.npos; at = text.find(attribute, at)) {
         at = text.find_first_of("\"'", at + attribute.size());
         if (at == text.npos)
-            return std::nullopt;
+            return;
         const std::string_view digits = text.substr(at + 1, 20);
         std::uint64_t count = 0;
         const auto error = std::from_chars(digits.begin(), digits.end(), count).ec;
         if (error == std::errc::result_out_of_range || count > text.size())
-            return fmt::format("expected a {} that fits the file, found {}", attribute,
-                               digits.substr(0, digits.find_first_of("\"' >\n")));
+            failModel("expected a {} that fits the file, found {}", attribute,
+                      digits.substr(0, digits.find_first_of("\"' >\n")));
     }
-    return std::nullopt;
 }
 
 // The value of an attribute in the text of a tag; empty if it is not there.
@@ -263,21 +255,17 @@ template<class F> void eachTag(std::string_view text, std::string_view name, F f
     }
 }
 
-Problem checkNumbers(std::string_view text, std::string_view element)
+void checkNumbers(std::string_view text, std::string_view element)
 {
-    Problem problem;
     eachTag(text, element, [&](std::string_view, std::size_t close) {
-        if (problem)
-            return;
         const std::size_t end = text.find_first_not_of("0123456789+- \t\r\n", close + 1);
         if (text[close - 1] != '/' && (end == text.npos || !text.substr(end).starts_with("</")))
-            problem = fmt::format("expected nothing but whole numbers in <{}>", element);
+            failModel("expected nothing but whole numbers in <{}>", element);
     });
-    return problem;
 }
 
 // Accessors read from arrays of numbers; no further than these reach.
-Problem checkAccessors(std::string_view text)
+void checkAccessors(std::string_view text)
 {
     std::map<std::string_view, std::uint64_t> counts;
     eachTag(text, "float_array", [&](std::string_view tag, std::size_t) {
@@ -287,12 +275,11 @@ Problem checkAccessors(std::string_view text)
         const auto entry = counts.try_emplace(attributeOf(tag, "id"), count).first;
         entry->second = std::min(entry->second, count);
     });
-    Problem problem;
     eachTag(text, "accessor", [&](std::string_view tag, std::size_t end) {
         const std::string_view source = attributeOf(tag, "source");
         const auto array = counts.find(source.substr(std::min<std::size_t>(source.size(), 1)));
         const std::uint64_t count = numberOf(tag, "count", 0);
-        if (problem || array == counts.end() || count == 0)
+        if (array == counts.end() || count == 0)
             return;
         std::uint64_t params = 0;
         const std::string_view inside = text.substr(end, text.find("</accessor", end) - end);
@@ -301,10 +288,9 @@ Problem checkAccessors(std::string_view text)
         const std::uint64_t needed =
             numberOf(tag, "offset", 0) + (count - 1) * numberOf(tag, "stride", 1) + std::max<std::uint64_t>(params, 1);
         if (needed > array->second)
-            problem = fmt::format("accessor of {}: expected an array of {} numbers or more, found {}",
-                                  withoutBreaks(std::string(source)), needed, array->second);
+            failModel("accessor of {}: expected an array of {} numbers or more, found {}",
+                      withoutBreaks(std::string(source)), needed, array->second);
     });
-    return problem;
 }
 
 } // namespace
@@ -315,7 +301,7 @@ std::string withoutBreaks(std::string text)
     return text;
 }
 
-Status checkPly(std::span<const std::byte> bytes, const std::string& name, const LoadLimits& limits)
+void checkPly(std::span<const std::byte> bytes, const LoadLimits& limits)
 {
     const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
     Header header;
@@ -323,43 +309,36 @@ Status checkPly(std::span<const std::byte> bytes, const std::string& name, const
     for (std::size_t number = 1; !header.ended; ++number) {
         const std::size_t end = text.find('\n', at);
         if (end == std::string_view::npos)
-            return inputError(fmt::format("{}: expected end_header, found the end of the file", name));
+            failModel("expected end_header, found the end of the file");
         std::string_view line = text.substr(at, end - at);
         at = end + 1;
         while (!line.empty() && (line.back() == '\r' || line.back() == ' ' || line.back() == '\t'))
             line.remove_suffix(1);
         if (number == 1 && line != "ply")
-            return inputError(fmt::format("{}: expected \"ply\" at the start, found other data", name));
-        if (number == 1)
-            continue;
-        if (Problem problem = checkLine(header, line, bytes.size(), limits))
-            return inputError(fmt::format("{}: header line {}: {}", name, number, *problem));
+            failModel("expected \"ply\" at the start, found other data");
+        if (number > 1)
+            checkPart("header line", number, [&] { checkLine(header, line, bytes.size(), limits); });
     }
     std::string_view rest = text.substr(at);
     // Assimp takes a 0 for the end of the file, and leaves the faces behind it as memory was.
     if (header.ascii && rest.find('\0') != std::string_view::npos)
-        return inputError(fmt::format("{}: expected text, found a byte of value 0 at {}", name, at + rest.find('\0')));
+        failModel("expected text, found a byte of value 0 at {}", at + rest.find('\0'));
     for (std::size_t e = 0; e < header.elements.size(); ++e)
-        if (Problem problem = header.ascii ? walkText(header.elements[e], rest)
-                                           : walkBinary(header.elements[e], header.bigEndian, rest))
-            return inputError(fmt::format("{}: element {}: {}", name, e, *problem));
-    return Done{};
+        checkPart("element", e, [&] {
+            header.ascii ? walkText(header.elements[e], rest) : walkBinary(header.elements[e], header.bigEndian, rest);
+        });
 }
 
-Status checkCollada(std::span<const std::byte> bytes, const std::string& name)
+void checkCollada(std::span<const std::byte> bytes)
 {
     const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
     if (text.find('\0') != text.npos)
-        return inputError(fmt::format("{}: expected UTF-8 text, found a zero byte", name));
+        failModel("expected UTF-8 text, found a zero byte");
     for (const std::string_view attribute : {"count", "offset", "stride"})
-        if (Problem problem = checkAttribute(text, attribute))
-            return inputError(fmt::format("{}: {}", name, *problem));
+        checkAttribute(text, attribute);
     for (const std::string_view element : {"p", "h", "v", "vcount", "int_array"})
-        if (Problem problem = checkNumbers(text, element))
-            return inputError(fmt::format("{}: {}", name, *problem));
-    if (Problem problem = checkAccessors(text))
-        return inputError(fmt::format("{}: {}", name, *problem));
-    return Done{};
+        checkNumbers(text, element);
+    checkAccessors(text);
 }
 
 } // namespace cotan

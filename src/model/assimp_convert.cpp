@@ -95,20 +95,18 @@ SourceMap findMap(const aiMaterial& source, std::initializer_list<aiTextureType>
 // Whatever is not over 0, NaN too, is black.
 float linearFromSrgb(float c) { return f32::cotan_srgb_to_linear(c > 0 ? std::min(c, 1.0f) : 0.0f); }
 
-Status copyPositions(const aiMesh& source, const std::string& file, Mesh& mesh)
+void copyPositions(const aiMesh& source, Mesh& mesh)
 {
     mesh.positions.reserve(source.mNumVertices);
     for (unsigned i = 0; i < source.mNumVertices; ++i) {
         const glm::vec3 p = toGlm(source.mVertices[i]);
         if (!isFinite(p))
-            return inputError(fmt::format("{}: mesh {}: position {}: expected finite numbers, found {} {} {}", file,
-                                          mesh.name, i, p.x, p.y, p.z));
+            failModel("mesh {}: position {}: expected finite numbers, found {} {} {}", mesh.name, i, p.x, p.y, p.z);
         mesh.positions.push_back(p);
     }
-    return Done{};
 }
 
-Status copyTriangles(const aiMesh& source, const std::string& file, Mesh& mesh)
+void copyTriangles(const aiMesh& source, Mesh& mesh)
 {
     mesh.indices.reserve(std::size_t(source.mNumFaces) * 3);
     for (unsigned f = 0; f < source.mNumFaces; ++f) {
@@ -117,12 +115,11 @@ Status copyTriangles(const aiMesh& source, const std::string& file, Mesh& mesh)
             continue; // points and lines
         for (unsigned c = 0; c < 3; ++c) {
             if (face.mIndices[c] >= source.mNumVertices)
-                return inputError(fmt::format("{}: mesh {}: triangle {}: expected an index below {}, found {}", file,
-                                              mesh.name, f, source.mNumVertices, face.mIndices[c]));
+                failModel("mesh {}: triangle {}: expected an index below {}, found {}", mesh.name, f,
+                          source.mNumVertices, face.mIndices[c]);
             mesh.indices.push_back(face.mIndices[c]);
         }
     }
-    return Done{};
 }
 
 void copyTexcoords(const aiMesh& source, Mesh& mesh, Scene& scene)
@@ -188,15 +185,6 @@ struct Visit {
     glm::mat4 toWorld;
 };
 
-void addInstances(const Visit& visit, const std::vector<int>& meshes, Scene& scene)
-{
-    for (unsigned i = 0; i < visit.node->mNumMeshes; ++i) {
-        const unsigned mesh = visit.node->mMeshes[i];
-        if (mesh < meshes.size() && meshes[mesh] >= 0)
-            scene.instances.push_back({visit.node->mName.C_Str(), meshes[mesh], visit.toWorld});
-    }
-}
-
 } // namespace
 
 Material convertMaterial(const aiMaterial& source, TextureReader& textures, Scene& scene)
@@ -221,31 +209,28 @@ Material convertMaterial(const aiMaterial& source, TextureReader& textures, Scen
     return makeMaterial(out, textures, scene);
 }
 
-Result<Mesh> convertMesh(const aiMesh& source, const std::string& file, bool regenerateNormals, Scene& scene)
+Mesh convertMesh(const aiMesh& source, bool regenerateNormals, Scene& scene)
 {
     Mesh mesh;
     mesh.name = source.mName.length ? source.mName.C_Str() : "unnamed";
     if (!source.mVertices || !source.mFaces)
         return mesh;
-    if (Status ok = copyTriangles(source, file, mesh); !ok)
-        return ok.error();
+    copyTriangles(source, mesh);
     if (mesh.indices.empty())
         return mesh;
-    if (Status ok = copyPositions(source, file, mesh); !ok)
-        return ok.error();
+    copyPositions(source, mesh);
     copyTexcoords(source, mesh, scene);
     copyColors(source, mesh);
     if (source.mNormals && !regenerateNormals) {
-        mesh.normals.resize(source.mNumVertices);
-        std::transform(source.mNormals, source.mNormals + source.mNumVertices, mesh.normals.begin(),
-                       [](const aiVector3D& n) { return toGlm(n); });
+        mesh.normals.reserve(source.mNumVertices);
+        for (unsigned i = 0; i < source.mNumVertices; ++i)
+            mesh.normals.push_back(toGlm(source.mNormals[i]));
     }
     finishMesh(mesh, "not finite", scene);
     return mesh;
 }
 
-Status convertNodes(const aiScene& source, const std::string& file, const std::vector<int>& meshes,
-                    const LoadLimits& limits, Scene& scene)
+void convertNodes(const aiScene& source, const std::vector<int>& meshes, const LoadLimits& limits, Scene& scene)
 {
     std::map<std::string, const aiCamera*> cameras; // by the name of their node
     for (unsigned i = 0; i < source.mNumCameras; ++i)
@@ -256,17 +241,18 @@ Status convertNodes(const aiScene& source, const std::string& file, const std::v
         Visit visit = open.back();
         open.pop_back();
         if (visited >= limits.nodes)
-            return inputError(fmt::format("{}: over the limit of {} nodes", file, limits.nodes));
+            failModel("over the limit of {} nodes", limits.nodes);
         visit.toWorld = visit.toWorld * toGlm(visit.node->mTransformation);
         if (!isFinite(visit.toWorld))
-            return inputError(fmt::format("{}: node {}: expected a finite transform", file, visit.node->mName.C_Str()));
-        addInstances(visit, meshes, scene);
+            failModel("node {}: expected a finite transform", visit.node->mName.C_Str());
+        for (unsigned i = 0; i < visit.node->mNumMeshes; ++i)
+            if (const unsigned mesh = visit.node->mMeshes[i]; mesh < meshes.size() && meshes[mesh] >= 0)
+                scene.instances.push_back({visit.node->mName.C_Str(), meshes[mesh], visit.toWorld});
         if (const auto camera = cameras.find(visit.node->mName.C_Str()); camera != cameras.end())
             addCamera(*camera->second, visit.toWorld, scene);
         for (unsigned i = visit.node->mNumChildren; i-- > 0;) // the first child is next
             open.push_back({visit.node->mChildren[i], visit.toWorld});
     }
-    return Done{};
 }
 
 } // namespace cotan

@@ -23,14 +23,14 @@ Material convertMaterial(const aiMaterial& source, TextureReader& textures, Scen
 
 // Checks every index, count and position before it is used. A mesh without triangles comes back
 // empty. regenerateNormals: the format's normals are those of faces only.
-// Errors: what a broken or hostile file can make Assimp deliver.
-Result<Mesh> convertMesh(const aiMesh& source, const std::string& file, bool regenerateNormals, Scene& scene);
+// Throws (failModel): what a broken or hostile file can make Assimp deliver.
+Mesh convertMesh(const aiMesh& source, bool regenerateNormals, Scene& scene);
 
 // Instances and cameras from the tree of nodes. meshes: for every mesh of the source its index in the scene, or -1.
-Status convertNodes(const aiScene& source, const std::string& file, const std::vector<int>& meshes,
-                    const LoadLimits& limits, Scene& scene);
+// Throws likewise.
+void convertNodes(const aiScene& source, const std::vector<int>& meshes, const LoadLimits& limits, Scene& scene);
 
-// ---- checks ----------------------------------------------------------------------------------
+// ---- checks, which throw likewise ------------------------------------------------------------
 
 // Spaces for line breaks: for messages of one line.
 std::string withoutBreaks(std::string text);
@@ -38,11 +38,11 @@ std::string withoutBreaks(std::string text);
 // Checks the header of a PLY file line by line, and walks over what it counts: every row of every
 // element, and every value of every list, has to be there, as memory is taken by those counts.
 // Source: the PLY description of G. Turk (1994), with the sized type names that are common now.
-Status checkPly(std::span<const std::byte> bytes, const std::string& name, const LoadLimits& limits);
+void checkPly(std::span<const std::byte> bytes, const LoadLimits& limits);
 
 // Checks three things of COLLADA that Assimp 5.2 does not: counts, offsets and strides, by which memory is taken, are
 // no larger than the file; lists of indices hold nothing but whole numbers (at anything else the parser repeats the
 // last number until memory ends); and accessors reach no further than the array of numbers that they read.
-Status checkCollada(std::span<const std::byte> bytes, const std::string& name);
+void checkCollada(std::span<const std::byte> bytes);
 
 } // namespace cotan

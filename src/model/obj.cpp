@@ -1,12 +1,16 @@
-// Wavefront OBJ files to Scene.
+// Wavefront OBJ files, with their material libraries, to Scene.
 #include <algorithm>
+#include <array>
 #include <map>
 #include <new>
 #include <system_error>
+#include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 #include <glm/common.hpp>
 
+#include "core/named_values.hpp"
 #include "cotan/model.hpp"
 #include "cotan/portable.hpp"
 #include "files/bytes.hpp"
@@ -27,7 +31,150 @@ Result<std::string> readText(const fs::path& file, const LoadLimits& limits)
     return std::string(reinterpret_cast<const char*>(bytes->data()), bytes->size());
 }
 
-// ---- materials ------------------------------------------------------------------------------
+// ---- material libraries ---------------------------------------------------------------------
+
+// How many numbers stand behind an option of a map at most, of which only the first has to be there; 0: one word.
+constexpr Named<std::size_t> kMapOptions[] = {
+    {"-blendu", 0}, {"-blendv", 0}, {"-cc", 0}, {"-clamp", 0}, {"-imfchan", 0}, {"-type", 0}, {"-colorspace", 0},
+    {"-texres", 0}, {"-boost", 1},  {"-bm", 1}, {"-mm", 2},    {"-o", 3},       {"-s", 3},    {"-t", 3}};
+
+constexpr Named<SourceMap SourceMaterial::*> kMaps[] = {
+    {"map_kd", &SourceMaterial::colorMap},          {"map_ke", &SourceMaterial::emissionMap},
+    {"map_emissive", &SourceMaterial::emissionMap}, {"map_d", &SourceMaterial::opacityMap},
+    {"map_pr", &SourceMaterial::roughnessMap},      {"map_pm", &SourceMaterial::metalnessMap},
+    {"norm", &SourceMaterial::normalMap},           {"map_kn", &SourceMaterial::normalMap}};
+
+// Options, then a file name, which may hold spaces.
+SourceMap readMap(Words words)
+{
+    SourceMap map;
+    glm::vec2 scale(1), offset(0);
+    for (std::string_view word = words.peek(); word.starts_with('-'); word = words.peek()) {
+        const auto most = valueOf(kMapOptions, word);
+        if (!most)
+            break; // a file name that begins so
+        words.next();
+        std::array<float, 3> numbers{};
+        std::size_t count = 0;
+        while (count < *most)
+            if (const auto number = finiteNumber(words.peek())) {
+                numbers[count++] = *number;
+                words.next();
+            } else {
+                break;
+            }
+        if (word == "-bm" && count == 1)
+            map.strength = numbers[0];
+        if (word == "-s" && count > 0)
+            scale = {numbers[0], count > 1 ? numbers[1] : 1.0f};
+        if (word == "-o" && count > 0)
+            offset = {numbers[0], numbers[1]};
+        if (*most == 0 && words.next() == "on" && word == "-clamp")
+            map.use.sampler.wrapU = map.use.sampler.wrapV = Wrap::clamp;
+    }
+    // u and v of the file, whose v runs up, are scaled and shifted; ours has v down.
+    map.use.uRow = {scale.x, 0, offset.x};
+    map.use.vRow = {0, scale.y, 1 - scale.y - offset.y};
+    map.path = words.all();
+    return map;
+}
+
+// value: a float, or an optional one.
+template<class Value> bool readNumber(Words words, Value& value)
+{
+    while (words.peek().starts_with("-halo"))
+        words.next();
+    const auto number = finiteNumber(words.next());
+    if (number)
+        value = *number;
+    return number.has_value();
+}
+
+// A single number is a grey.
+bool readColor(Words words, glm::vec3& value)
+{
+    glm::vec3 color;
+    for (int c = 0; c < 3; ++c) {
+        const std::string_view word = words.next();
+        const auto number = c > 0 && word.empty() ? color[0] : finiteNumber(word);
+        if (!number)
+            return false;
+        color[c] = std::max(*number, 0.0f);
+    }
+    value = color;
+    return true;
+}
+
+// False: the numbers cannot be read.
+bool readStatement(const std::string& keyword, Words words, SourceMaterial& m)
+{
+    if (keyword == "kd")
+        return readColor(words, m.color);
+    if (keyword == "ke")
+        return readColor(words, m.emission);
+    if (keyword == "ns")
+        return readNumber(words, m.shininess);
+    if (keyword == "d")
+        return readNumber(words, m.opacity);
+    if (keyword == "tr") {
+        const bool good = readNumber(words, m.opacity);
+        m.opacity = good ? 1 - m.opacity : m.opacity;
+        return good;
+    }
+    if (keyword == "pr")
+        return readNumber(words, m.roughness);
+    if (keyword == "pm")
+        return readNumber(words, m.metallic);
+    if (const auto map = valueOf(kMaps, keyword))
+        m.** map = readMap(words);
+    return true;
+}
+
+// Reads newmtl, Kd, Ke, Ns, d, Tr, Pr, Pm and the maps map_Kd, map_Ke, map_d, map_Pr, map_Pm,
+// bump (map_Bump) and norm (map_Kn), upper or lower case, with the options -bm, -clamp, -o and -s.
+// All other statements are passed over; those before the first newmtl, and those whose numbers
+// cannot be read, are left out with a warning. Nothing in a library is an error.
+// Source: the MTL specification of the Advanced Visualizer manual; Pr, Pm, norm as in the PBR
+// extension of exocortex.com.
+std::vector<SourceMaterial> parseMtl(std::string source, const std::string& name, Scene& scene)
+{
+    const TextLines lines(std::move(source));
+    const std::string& text = lines.text();
+    std::vector<SourceMaterial> materials; // in the order of the file
+    std::vector<SourceMap> bumps;          // of each material: a map under "norm" goes before it
+    std::size_t early = 0, broken = 0, brokenLine = 0;
+    for (std::size_t offset = 0; offset < text.size();) {
+        const std::size_t end = std::min(text.find('\n', offset), text.size());
+        Words words{std::string_view(text).substr(offset, end - offset)};
+        const std::string keyword = lowerCase(std::string(words.next()));
+        const std::size_t begin = std::exchange(offset, end + 1);
+        if (keyword.empty() || keyword.starts_with('#'))
+            continue;
+        if (keyword == "newmtl") {
+            SourceMaterial& material = materials.emplace_back();
+            material.name = words.all();
+            material.color = glm::vec3(0.6f); // where there is no Kd
+            bumps.emplace_back();
+        } else if (materials.empty()) {
+            ++early;
+        } else if (keyword == "bump" || keyword == "map_bump") {
+            bumps.back() = readMap(words);
+        } else if (!readStatement(keyword, words, materials.back())) {
+            brokenLine = broken++ == 0 ? lines.number(begin) : brokenLine;
+        }
+    }
+    for (std::size_t i = 0; i < bumps.size(); ++i)
+        if (materials[i].normalMap.path.empty())
+            materials[i].normalMap = bumps[i];
+    if (early > 0)
+        scene.warnings.push_back(
+            fmt::format("material library {}: {} lines before the first newmtl are left out", name, early));
+    if (broken > 0)
+        scene.warnings.push_back(
+            fmt::format("material library {}: {} lines whose numbers cannot be read are left out, the first is line {}",
+                        name, broken, brokenLine));
+    return materials;
+}
 
 // The materials of the libraries that the model names; the first of a name counts.
 class Library {
@@ -81,10 +228,7 @@ private:
             return;
         }
         any_ = true;
-        MtlText parsed = parseMtl(*std::move(text));
-        for (const std::string& warning : parsed.warnings)
-            scene_.warnings.push_back(fmt::format("material library {}: {}", name, warning));
-        for (SourceMaterial& material : parsed.materials)
+        for (SourceMaterial& material : parseMtl(*std::move(text), name, scene_))
             materials_.try_emplace(material.name, std::move(material));
     }
 
@@ -152,8 +296,10 @@ Mesh makeMesh(const ObjText& obj, const ObjPart& part, Scene& scene)
     return mesh;
 }
 
-Result<Scene> load(const fs::path& file, const LoadLimits& limits)
-{
+} // namespace
+
+Result<Scene> loadObj(const fs::path& file, const LoadLimits& limits)
+try {
     auto text = readText(file, limits);
     if (!text)
         return text.error();
@@ -185,17 +331,8 @@ Result<Scene> load(const fs::path& file, const LoadLimits& limits)
         scene.meshes.push_back(std::move(mesh));
     }
     return scene;
-}
-
-} // namespace
-
-Result<Scene> loadObj(const fs::path& file, const LoadLimits& limits)
-{
-    try {
-        return load(file, limits);
-    } catch (const std::bad_alloc&) {
-        return inputError(fmt::format("{}: not enough memory for the model", file.string()));
-    }
+} catch (const std::bad_alloc&) {
+    return inputError(fmt::format("{}: not enough memory for the model", file.string()));
 }
 
 } // namespace cotan

@@ -1,6 +1,7 @@
 #include "obj_text.hpp"
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <cstdlib>
@@ -9,6 +10,8 @@
 #include <utility>
 
 #include <fmt/format.h>
+
+#include "source_material.hpp"
 
 namespace cotan {
 
@@ -32,8 +35,6 @@ std::string quotedWord(std::string_view word)
         shown, [](unsigned char c) { return c < 32 || c > 126; }, '?');
     return fmt::format("\"{}\"", shown);
 }
-
-using Problem = std::optional<std::string>; // expected and found, without file and line
 
 constexpr std::array<std::string_view, 3> kAttributeName = {"position", "texture coordinate", "normal"};
 
@@ -65,101 +66,98 @@ struct Parser {
     std::vector<Polygon> polygons;
     std::vector<ObjCorner> corners; // of the polygons, one after the other
     std::size_t triangles = 0;
+    std::size_t offset = 0; // of the line that is looked at
 };
 
 // x y z, with a weight, with a colour, or with a colour and alpha.
-Problem addPosition(ObjText& out, const std::array<float, 7>& n, std::size_t count)
+void addPosition(ObjText& out, const std::array<float, 7>& n, std::size_t count)
 {
     if (count != 3 && count != 4 && count != 6 && count != 7)
-        return fmt::format("expected 3, 4, 6 or 7 numbers, found {}", count);
+        failModel("expected 3, 4, 6 or 7 numbers, found {}", count);
     glm::vec3 position(n[0], n[1], n[2]);
     if (count == 4) {
         if (n[3] == 0)
-            return "expected a weight other than 0";
+            failModel("expected a weight other than 0");
         position /= n[3];
         if (!(glm::abs(position.x) + glm::abs(position.y) + glm::abs(position.z) < 1e38f))
-            return "expected a position within the range of float";
+            failModel("expected a position within the range of float");
     }
     if (count >= 6 || !out.colors.empty()) {
         out.colors.resize(out.positions.size(), glm::vec4(1));
         out.colors.push_back(count >= 6 ? glm::vec4(n[3], n[4], n[5], count == 7 ? n[6] : 1.0f) : glm::vec4(1));
     }
     out.positions.push_back(position);
-    return std::nullopt;
 }
 
 // attribute: 0 position, 1 texture coordinate, 2 normal.
-Problem readAttribute(Parser& parser, std::size_t attribute, Words words)
+void readAttribute(Parser& parser, std::size_t attribute, Words words)
 {
     std::array<float, 7> n{};
     std::size_t count = 0;
     for (std::string_view word = words.next(); !word.empty(); word = words.next(), ++count) {
         const auto number = finiteNumber(word);
         if (!number)
-            return fmt::format("expected a finite number, found {}", quotedWord(word));
+            failModel("expected a finite number, found {}", quotedWord(word));
         if (count < n.size())
             n[count] = *number;
     }
     if (attribute == 0) {
-        if (Problem problem = addPosition(parser.out, n, count))
-            return problem;
+        addPosition(parser.out, n, count);
     } else if (attribute == 1) {
         if (count < 1 || count > 3)
-            return fmt::format("expected 1 to 3 numbers, found {}", count);
+            failModel("expected 1 to 3 numbers, found {}", count);
         parser.out.texcoords.emplace_back(n[0], n[1]);
     } else {
         if (count != 3)
-            return fmt::format("expected 3 numbers, found {}", count);
+            failModel("expected 3 numbers, found {}", count);
         parser.out.normals.emplace_back(n[0], n[1], n[2]);
     }
     if (std::size_t(++parser.counts[attribute]) > parser.limits.vertices)
-        return fmt::format("over the limit of {} vertices", parser.limits.vertices);
-    return std::nullopt;
+        failModel("over the limit of {} vertices", parser.limits.vertices);
 }
 
 // The place in the array. What is above the totals is refused at the end, before it is used.
-Problem readIndex(Parser& parser, std::size_t attribute, std::int64_t index, std::size_t offset, std::uint32_t& place)
+std::uint32_t readIndex(Parser& parser, std::size_t attribute, std::int64_t index)
 {
     if (index == 0)
-        return "expected an index from 1 or a negative one, found 0";
+        failModel("expected an index from 1 or a negative one, found 0");
     if (index < 0 && index + parser.counts[attribute] < 0)
-        return fmt::format("expected a {} index down to -{}, found {}", kAttributeName[attribute],
-                           parser.counts[attribute], index);
+        failModel("expected a {} index down to -{}, found {}", kAttributeName[attribute], parser.counts[attribute],
+                  index);
     if (index < 0)
         index += parser.counts[attribute] + 1;
     HighestIndex& highest = parser.highest[attribute];
     if (index > highest.value)
-        highest = {index, offset};
-    place = std::uint32_t(index - 1);
-    return std::nullopt;
+        highest = {index, parser.offset};
+    return std::uint32_t(index - 1);
 }
 
 // A corner is v, v/vt, v//vn or v/vt/vn.
-Problem readCorner(Parser& parser, std::string_view text, std::size_t offset, ObjCorner& corner)
+ObjCorner readCorner(Parser& parser, std::string_view text)
 {
+    ObjCorner corner;
     const std::array<std::uint32_t*, 3> places = {&corner.position, &corner.texcoord, &corner.normal};
     const char* at = text.data();
     const char* const end = at + text.size();
     for (std::size_t attribute = 0; at != end; ++attribute) {
         std::int64_t index = 0;
         if (attribute > 2)
-            return fmt::format("expected a corner v/vt/vn, found {}", quotedWord(text));
+            failModel("expected a corner v/vt/vn, found {}", quotedWord(text));
         if (*at != '/') {
             if (*at == '+')
                 ++at;
             const auto [after, error] = std::from_chars(at, end, index);
             if (error != std::errc{} || (after != end && *after != '/'))
-                return fmt::format("expected a corner v/vt/vn, found {}", quotedWord(text));
-            if (Problem problem = readIndex(parser, attribute, index, offset, *places[attribute]))
-                return problem;
+                failModel("expected a corner v/vt/vn, found {}", quotedWord(text));
+            *places[attribute] = readIndex(parser, attribute, index);
             at = after;
         }
         if (at != end) // the slash
             ++at;
     }
     if (corner.position == kObjNone)
-        return fmt::format("expected a corner with a position, found {}", quotedWord(text));
-    return std::nullopt;
+        failModel("expected a corner with a position, found {}", quotedWord(text));
+    return corner;
 }
 
 std::size_t currentPart(Parser& parser)
@@ -173,38 +171,35 @@ std::size_t currentPart(Parser& parser)
     return *parser.part;
 }
 
-Problem readFace(Parser& parser, Words words, std::size_t offset)
+void readFace(Parser& parser, Words words)
 {
     const std::size_t before = parser.corners.size();
     for (std::string_view word = words.next(); !word.empty(); word = words.next()) {
-        ObjCorner corner;
-        if (Problem problem = readCorner(parser, word, offset, corner))
-            return problem;
+        const ObjCorner corner = readCorner(parser, word);
         const ObjCorner& first = parser.corners.size() > before ? parser.corners[before] : corner;
         if ((corner.texcoord == kObjNone) != (first.texcoord == kObjNone)
             || (corner.normal == kObjNone) != (first.normal == kObjNone))
-            return "expected every corner of a face to name the same attributes, found a mixture";
+            failModel("expected every corner of a face to name the same attributes, found a mixture");
         parser.corners.push_back(corner);
     }
     const std::size_t corners = parser.corners.size() - before;
     if (corners == 0)
-        return "expected the corners of a face, found none";
+        failModel("expected the corners of a face, found none");
     if (corners < 3) { // a line or a point
         parser.corners.resize(before);
-        return std::nullopt;
+        return;
     }
     ++parser.out.polygons;
     parser.out.polygonsWithoutUv += parser.corners[before].texcoord == kObjNone ? 1 : 0;
     parser.triangles += corners - 2;
     if (parser.triangles > parser.limits.triangles)
-        return fmt::format("over the limit of {} triangles", parser.limits.triangles);
-    parser.polygons.push_back({currentPart(parser), corners, offset});
+        failModel("over the limit of {} triangles", parser.limits.triangles);
+    parser.polygons.push_back({currentPart(parser), corners, parser.offset});
     if (parser.out.parts.size() > parser.limits.nodes)
-        return fmt::format("over the limit of {} nodes: groups with a material each", parser.limits.nodes);
-    return std::nullopt;
+        failModel("over the limit of {} nodes: groups with a material each", parser.limits.nodes);
 }
 
-Problem readLine(Parser& parser, std::string_view line, std::size_t offset)
+void readLine(Parser& parser, std::string_view line)
 {
     Words words{line};
     const std::string_view keyword = words.next();
@@ -216,7 +211,7 @@ Problem readLine(Parser& parser, std::string_view line, std::size_t offset)
     if (keyword == "vn")
         return readAttribute(parser, 2, data);
     if (keyword == "f" || keyword == "fo") // the older name
-        return readFace(parser, data, offset);
+        return readFace(parser, data);
     if (keyword == "mtllib" && !words.all().empty())
         parser.out.libraries.emplace_back(words.all());
     if (keyword == "g" || keyword == "o")
@@ -225,33 +220,30 @@ Problem readLine(Parser& parser, std::string_view line, std::size_t offset)
         parser.material = words.all();
     if (keyword == "g" || keyword == "o" || keyword == "usemtl")
         parser.part.reset();
-    return std::nullopt;
 }
 
-Problem readLines(Parser& parser, const std::string& text, std::size_t& offset)
+void readLines(Parser& parser, const std::string& text)
 {
     if (const std::size_t zero = text.find('\0'); zero != std::string::npos) {
-        offset = zero;
-        return "expected text, found a zero byte";
+        parser.offset = zero;
+        failModel("expected text, found a zero byte");
     }
-    for (offset = 0; offset < text.size();) {
-        const std::size_t end = std::min(text.find('\n', offset), text.size());
-        if (Problem problem = readLine(parser, std::string_view(text).substr(offset, end - offset), offset))
-            return problem;
-        offset = end + 1;
+    while (parser.offset < text.size()) {
+        const std::size_t end = std::min(text.find('\n', parser.offset), text.size());
+        readLine(parser, std::string_view(text).substr(parser.offset, end - parser.offset));
+        parser.offset = end + 1;
     }
     for (std::size_t attribute = 0; attribute < 3; ++attribute) {
         const HighestIndex& highest = parser.highest[attribute];
         if (highest.value > parser.counts[attribute]) {
-            offset = highest.offset;
-            return fmt::format("expected a {} index up to {}, found {}", kAttributeName[attribute],
-                               parser.counts[attribute], highest.value);
+            parser.offset = highest.offset;
+            failModel("expected a {} index up to {}, found {}", kAttributeName[attribute], parser.counts[attribute],
+                      highest.value);
         }
     }
-    return std::nullopt;
 }
 
-Problem cutPolygons(Parser& parser, std::size_t& offset)
+void cutPolygons(Parser& parser)
 {
     std::size_t stepsLeft = kCuttingSteps, first = 0;
     std::vector<glm::vec3> positions;
@@ -264,14 +256,13 @@ Problem cutPolygons(Parser& parser, std::size_t& offset)
         for (std::size_t i = 0; i < polygon.corners; ++i)
             positions.push_back(parser.out.positions[corners[i].position]);
         if (!cutPolygon(positions, triangles, stepsLeft)) {
-            offset = polygon.offset;
-            return fmt::format("over the limit of {} steps to cut polygons into triangles, here one of {} corners",
-                               kCuttingSteps, polygon.corners);
+            parser.offset = polygon.offset;
+            failModel("over the limit of {} steps to cut polygons into triangles, here one of {} corners",
+                      kCuttingSteps, polygon.corners);
         }
         for (const std::uint32_t corner : triangles)
             parser.out.parts[polygon.part].corners.push_back(corners[corner]);
     }
-    return std::nullopt;
 }
 
 } // namespace
@@ -346,15 +337,15 @@ std::optional<float> finiteNumber(std::string_view word)
 Result<ObjText> parseObj(std::string text, const std::string& name, const LoadLimits& limits)
 {
     const TextLines lines(std::move(text));
-    Parser parser{limits, {}, {}, {}, {}, {}, {}, {}, {}, {}, 0};
-    std::size_t offset = 0;
-    Problem problem = readLines(parser, lines.text(), offset);
-    if (!problem && parser.polygons.empty())
-        return inputError(fmt::format("{}: expected faces, found none", name));
-    if (!problem)
-        problem = cutPolygons(parser, offset);
-    if (problem)
-        return inputError(fmt::format("{}: line {}: {}", name, lines.number(offset), *problem));
+    Parser parser{limits, {}, {}, {}, {}, {}, {}, {}, {}, {}, 0, 0};
+    try {
+        readLines(parser, lines.text());
+        if (parser.polygons.empty())
+            return inputError(fmt::format("{}: expected faces, found none", name));
+        cutPolygons(parser);
+    } catch (const Error& problem) {
+        return inputError(fmt::format("{}: line {}: {}", name, lines.number(parser.offset), problem.message));
+    }
     return std::move(parser.out);
 }
 

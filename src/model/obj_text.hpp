@@ -1,4 +1,4 @@
-// Wavefront OBJ and its material libraries: their text to arrays, triangles and materials.
+// Wavefront OBJ: its text to arrays and triangles.
 #pragma once
 
 #include <cstddef>
@@ -15,7 +15,6 @@
 
 #include "cotan/model.hpp"
 #include "cotan/result.hpp"
-#include "source_material.hpp"
 
 namespace cotan {
 
@@ -98,20 +97,5 @@ Result<ObjText> parseObj(std::string text, const std::string& name, const LoadLi
 // stepsLeft: comparisons of a corner with a triangle that may still be made, one budget for a
 // model: many corners that turn inwards take the square of their number. False: it is used up.
 bool cutPolygon(std::span<const glm::vec3> corners, std::vector<std::uint32_t>& triangles, std::size_t& stepsLeft);
-
-// ---- materials -------------------------------------------------------------------------------
-
-struct MtlText {
-    std::vector<SourceMaterial> materials; // in the order of the file
-    std::vector<std::string> warnings;     // without the file's name
-};
-
-// Reads newmtl, Kd, Ke, Ns, d, Tr, Pr, Pm and the maps map_Kd, map_Ke, map_d, map_Pr, map_Pm,
-// bump (map_Bump) and norm (map_Kn), upper or lower case, with the options -bm, -clamp, -o and -s.
-// All other statements are passed over; those before the first newmtl, and those whose numbers
-// cannot be read, are left out with a warning. Nothing in a library is an error.
-// Source: the MTL specification of the Advanced Visualizer manual; Pr, Pm, norm as in the PBR
-// extension of exocortex.com.
-MtlText parseMtl(std::string text);
 
 } // namespace cotan

@@ -117,7 +117,7 @@ private:
         std::vector<DracoJob> jobs;
         exchangeDracoJobs(question_, jobs);
         if (question_.good())
-            say(decodeDraco(jobs, request_.name, request_.limits),
+            say(decodeDracoHere(jobs),
                 [&](const std::vector<DracoGeometry>& meshes) { exchangeDracoGeometry(answer_, meshes); });
     }
 

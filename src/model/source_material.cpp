@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
-#include <span>
 #include <vector>
 
 #include <fmt/format.h>
@@ -21,8 +20,6 @@
 namespace cotan {
 
 namespace {
-
-constexpr float kCreaseDegrees = 60; // where the normals of a mesh are made
 
 // ---- images ----------------------------------------------------------------------------------
 
@@ -305,7 +302,7 @@ void finishMesh(Mesh& mesh, std::string_view unusable, Scene& scene)
             scene.warnings.push_back(
                 fmt::format("mesh {}: some normals are zero or {}; all are made anew", mesh.name, unusable));
         mesh.normals.clear();
-        generateNormals(mesh, kCreaseDegrees);
+        generateNormals(mesh, /*creaseDegrees*/ 60);
     }
     weldVertices(mesh);
 }
@@ -315,7 +312,7 @@ void warnAboutTexcoords(const Mesh& mesh, Scene& scene)
     const Material& material = scene.materials[std::size_t(mesh.material)];
     const Texture* const all[] = {&material.baseColorMap, &material.metallicRoughnessMap, &material.normalMap,
                                   &material.occlusionMap, &material.emissiveMap};
-    for (const Texture* texture : all) {
+    for (const Texture* texture : all)
         if (texture->present() && mesh.texcoords[std::size_t(texture->texcoord)].empty()) {
             scene.warnings.push_back(
                 fmt::format("mesh {}: it has no texture coordinates {}, which material {} needs; textures and "
@@ -323,7 +320,6 @@ void warnAboutTexcoords(const Mesh& mesh, Scene& scene)
                             mesh.name, texture->texcoord, material.name));
             return;
         }
-    }
 }
 
 } // namespace cotan

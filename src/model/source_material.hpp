@@ -11,7 +11,9 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 
+#include <fmt/format.h>
 #include <glm/vec3.hpp>
 
 #include "cotan/model.hpp"
@@ -19,6 +21,12 @@
 #include "cotan/scene.hpp"
 
 namespace cotan {
+
+// Throws what is wrong with a file, without its name: what reads the file catches that and puts the name in front.
+template<class... Args> [[noreturn]] void failModel(fmt::format_string<Args...> text, Args&&... args)
+{
+    throw inputError(fmt::format(text, std::forward<Args>(args)...));
+}
 
 // The image file that a model holds under a path; nothing where it holds none, and a file beside the model is meant.
 using EmbeddedImage = std::function<std::optional<Result<std::span<const std::byte>>>(const std::string& path)>;

@@ -26,14 +26,6 @@ Background backgroundOf(const PictureOptions& o)
                                     : Background::blurred;
 }
 
-Backdrop backdropOf(Background background)
-{
-    return background == Background::blurred ? Backdrop::blurred
-        : background == Background::sharp    ? Backdrop::sharp
-        : background == Background::paper    ? Backdrop::paper
-                                             : Backdrop::gradient;
-}
-
 // What lights models in a built-in environment beside the environment itself, turned with it: in the studio a lamp in
 // front of the large box on the left, in the evening the sun. An overcast sky casts no shadow, nor is anything known of
 // the lamps in a file.
@@ -48,14 +40,12 @@ std::vector<Light> lampsOf(const PictureOptions& o)
     const auto lamp = valueOf(kLamps, o.environment);
     if (!lamp)
         return {};
-    Light light;
-    light.intensity = lamp->intensity * o.environmentIntensity;
-    light.color = lamp->color;
     const glm::vec3 d = glm::normalize(lamp->direction);
     const float c = float(std::cos(o.environmentRotation * kRadians)),
                 s = float(std::sin(o.environmentRotation * kRadians));
-    light.direction = {c * d.x + s * d.z, d.y, c * d.z - s * d.x};
-    return {light};
+    return {Light{.color = lamp->color,
+                  .intensity = lamp->intensity * o.environmentIntensity,
+                  .direction = {c * d.x + s * d.z, d.y, c * d.z - s * d.x}}};
 }
 
 } // namespace
@@ -64,9 +54,7 @@ std::vector<Light> lightsOf(const PictureOptions& o, const Scene& scene)
 {
     if (!scene.lights.empty())
         return scene.lights;
-    if (!surrounded(o))
-        return defaultLights();
-    return lampsOf(o);
+    return surrounded(o) ? lampsOf(o) : defaultLights();
 }
 
 std::shared_ptr<const GroundMap> groundOf(const PictureOptions& options, const Scene& scene, const View& view)
@@ -122,7 +110,10 @@ Status lightPicture(const PictureOptions& options, View& view)
     view.shadowSoftness = float(std::tan(shadowSoftnessOf(options) * kRadians / 2));
     view.background = background != Background::none;
     if (view.background)
-        view.backdrop = backdropOf(background);
+        view.backdrop = background == Background::blurred ? Backdrop::blurred
+            : background == Background::sharp             ? Backdrop::sharp
+            : background == Background::paper             ? Backdrop::paper
+                                                          : Backdrop::gradient;
     return Done{};
 }
 

@@ -16,20 +16,15 @@ namespace cotan {
 
 namespace {
 
-// Whether a mesh with one of the chosen materials has the uv set that the picture is read with.
-bool anyMeshShows(const Scene& scene, Texture Material::*slot, int material)
-{
-    return std::any_of(scene.meshes.begin(), scene.meshes.end(), [&](const Mesh& mesh) {
-        const Texture& map = scene.materials[std::size_t(mesh.material)].*slot;
-        return (material < 0 || mesh.material == material)
-            && !mesh.texcoords[std::size_t(map.present() ? map.texcoord : 0)].empty();
-    });
-}
-
 Result<Image> readFor(const OwnMaps& maps, const std::string& file, Texture Material::*slot, int memory,
                       const Scene& scene)
 {
-    if (!anyMeshShows(scene, slot, maps.material))
+    // Whether a mesh with one of the chosen materials has the uv set that the picture is read with.
+    const bool shown = std::ranges::any_of(scene.meshes, [&](const Mesh& mesh) {
+        const Texture& map = scene.materials[std::size_t(mesh.material)].*slot;
+        return (maps.material < 0 || mesh.material == maps.material) && !mesh.texcoords[uvSetOf(map)].empty();
+    });
+    if (!shown)
         return inputError(
             fmt::format("{}: expected a mesh with texture coordinates to show {} on; found none", scene.name, file));
     return readImage(file, limitsFor(memory));

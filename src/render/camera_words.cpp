@@ -19,16 +19,13 @@ namespace {
 
 constexpr double kRadians = std::numbers::pi / 180;
 
-std::vector<std::string_view> between(std::string_view text, char mark)
+std::vector<std::string_view> splitAtCommas(std::string_view text)
 {
     std::vector<std::string_view> parts;
-    for (std::size_t start = 0;;) {
-        const std::size_t end = text.find(mark, start);
-        parts.push_back(text.substr(start, end == std::string_view::npos ? end : end - start));
-        if (end == std::string_view::npos)
-            return parts;
-        start = end + 1;
-    }
+    for (std::size_t end = 0; (end = text.find(',')) != std::string_view::npos; text.remove_prefix(end + 1))
+        parts.push_back(text.substr(0, end));
+    parts.push_back(text);
+    return parts;
 }
 
 bool finite(std::string_view text, float& value) { return parseNumber(text, value) && std::isfinite(value); }
@@ -48,22 +45,20 @@ bool lensOf(std::string_view text, Camera& camera)
 
 Result<Camera> lookingFromTo(const std::string& text)
 {
-    const std::vector<std::string_view> parts = between(text, ',');
-    std::array<float, 6> v{};
-    bool good = parts.size() == 6 || parts.size() == 7 || parts.size() == 10;
-    for (std::size_t i = 0; good && i < v.size(); ++i)
-        good = finite(parts[i], v[i]);
+    const std::vector<std::string_view> parts = splitAtCommas(text);
+    std::array<float, 10> v{}; // but for the seventh, a lens
     Camera camera;
-    if (good && parts.size() > 6)
-        good = lensOf(parts[6], camera);
-    for (std::size_t i = 7; good && i < parts.size(); ++i)
-        good = finite(parts[i], camera.up[int(i) - 7]);
+    bool good = parts.size() == 6 || parts.size() == 7 || parts.size() == 10;
+    for (std::size_t i = 0; good && i < parts.size(); ++i)
+        good = i == 6 ? lensOf(parts[i], camera) : finite(parts[i], v[i]);
     if (!good)
         return usageError("expected front, left, right, top, bottom, back, fit, orbit:AZ,EL, the number of a camera, "
                           "or six numbers ex,ey,ez,tx,ty,tz and perhaps a lens and a direction up; found '"
                           + text + "'");
     camera.eye = {v[0], v[1], v[2]};
     camera.target = {v[3], v[4], v[5]};
+    if (parts.size() == 10)
+        camera.up = {v[7], v[8], v[9]};
     const glm::vec3 forward = camera.target - camera.eye;
     if (glm::length(forward) == 0)
         return usageError("the eye and the target are the same point");
@@ -83,7 +78,7 @@ constexpr std::string_view kOrbit = "orbit:";
 
 Result<Camera> orbiting(const std::string& text, const Scene& scene, int width, int height)
 {
-    const std::vector<std::string_view> parts = between(std::string_view(text).substr(kOrbit.size()), ',');
+    const std::vector<std::string_view> parts = splitAtCommas(std::string_view(text).substr(kOrbit.size()));
     double azimuth = 0, elevation = 0;
     if (parts.size() != 2 || !parseNumber(parts[0], azimuth) || !parseNumber(parts[1], elevation)
         || !(std::abs(azimuth) <= 360 && std::abs(elevation) <= 90))

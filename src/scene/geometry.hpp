@@ -122,9 +122,7 @@ template<class Work> void forEachPlacedPoint(const Scene& scene, const Work& wor
         if (!b)
             b = bounds(*mesh);
         for (int corner = 0; corner < 8 && !b->empty(); ++corner)
-            work(instance.toWorld,
-                 glm::vec3(corner & 1 ? b->high.x : b->low.x, corner & 2 ? b->high.y : b->low.y,
-                           corner & 4 ? b->high.z : b->low.z));
+            work(instance.toWorld, glm::mix(b->low, b->high, glm::bvec3(corner & 1, corner & 2, corner & 4)));
     }
 }
 

@@ -12,7 +12,7 @@
 
 #include <glm/geometric.hpp>
 
-#include "core/joined_groups.hpp"
+#include "core/groups.hpp"
 #include "core/tangents_mesh.hpp"
 #include "cotan/tangents.hpp"
 #include "cotan/vector.hpp"
@@ -170,12 +170,6 @@ std::vector<glm::vec3> groupNormals(JoinedGroups& groups, const std::vector<Inde
     return normals;
 }
 
-Index duplicateVertex(Mesh& mesh, Index vertex)
-{
-    eachAttribute(mesh, [&](auto& attribute) { attribute.push_back(attribute[vertex]); });
-    return Index(mesh.positions.size() - 1);
-}
-
 // Gives every corner a vertex that carries its normal.
 void assignNormals(Mesh& mesh, JoinedGroups& groups, const std::vector<glm::vec3>& normals)
 {
@@ -191,7 +185,8 @@ void assignNormals(Mesh& mesh, JoinedGroups& groups, const std::vector<glm::vec3
         } else if (groupOfVertex[vertex] != group && mesh.normals[vertex] != normals[group]) {
             const auto [found, isNew] = splits.try_emplace(std::uint64_t(vertex) << 32 | group, 0);
             if (isNew) {
-                found->second = duplicateVertex(mesh, vertex);
+                found->second = Index(mesh.vertexCount());
+                eachAttribute(mesh, [vertex](auto& attribute) { attribute.push_back(attribute[vertex]); });
                 mesh.normals[found->second] = normals[group];
             }
             mesh.indices[corner] = found->second;

@@ -8,7 +8,7 @@
 
 #include <glm/geometric.hpp>
 
-#include "core/joined_groups.hpp"
+#include "core/groups.hpp"
 #include "scene/geometry.hpp"
 #include "scene/texture_sample.hpp"
 

@@ -200,8 +200,19 @@ private:
 
 constexpr float kHalfTurn = 3.14159274f; // radians
 
-Problem cameraProblem(const Camera& c)
+Problem problemOfView(const View& view)
 {
+    if (view.width < 1 || view.height < 1)
+        return joined("view: expected a width and a height from 1 on; found ", view.width, "x", view.height);
+    if (!isFrame(int(view.frame)))
+        return joined("view.frame: expected 0 to ", kFrameCount - 1, "; found ", int(view.frame));
+    if (view.samples != 1 && view.samples != 4 && view.samples != 16)
+        return joined("view.samples: expected 1, 4 or 16; found ", view.samples);
+    if (!std::isfinite(view.exposure))
+        return joined("view.exposure: expected a finite number; found ", view.exposure);
+    if (!(view.shadowSoftness >= 0) || !std::isfinite(view.shadowSoftness))
+        return joined("view.shadowSoftness: expected a number from 0 on; found ", view.shadowSoftness);
+    const Camera& c = view.camera;
     if (!isFinite(c.eye) || !isFinite(c.target) || !isFinite(c.up))
         return "view.camera: expected finite numbers";
     const glm::dvec3 along = glm::dvec3(c.target) - glm::dvec3(c.eye), up(c.up);
@@ -217,21 +228,6 @@ Problem cameraProblem(const Camera& c)
     return std::nullopt;
 }
 
-Problem numberProblem(const View& view)
-{
-    if (view.width < 1 || view.height < 1)
-        return joined("view: expected a width and a height from 1 on; found ", view.width, "x", view.height);
-    if (!isFrame(int(view.frame)))
-        return joined("view.frame: expected 0 to ", kFrameCount - 1, "; found ", int(view.frame));
-    if (view.samples != 1 && view.samples != 4 && view.samples != 16)
-        return joined("view.samples: expected 1, 4 or 16; found ", view.samples);
-    if (!std::isfinite(view.exposure))
-        return joined("view.exposure: expected a finite number; found ", view.exposure);
-    if (!(view.shadowSoftness >= 0) || !std::isfinite(view.shadowSoftness))
-        return joined("view.shadowSoftness: expected a number from 0 on; found ", view.shadowSoftness);
-    return std::nullopt;
-}
-
 } // namespace
 
 Status checkScene(const Scene& scene, const std::string& name, const SceneRules& rules)
@@ -243,9 +239,8 @@ Status checkScene(const Scene& scene, const std::string& name, const SceneRules&
 
 Status checkView(const View& view)
 {
-    for (const Problem& problem : {numberProblem(view), cameraProblem(view.camera)})
-        if (problem)
-            return usageError(*problem);
+    if (const Problem problem = problemOfView(view))
+        return usageError(*problem);
     return Done{};
 }
 

@@ -1,5 +1,5 @@
 # Writes the parts of the portable text as C++ strings: SHADERS (folder), PARTS, OUT.
-set(text "// Written by embed.cmake.\n#include \"parse.hpp\"\n\nnamespace cotan::shader_text {\n\n")
+set(text "// Written by embed.cmake.\n#include \"syntax.hpp\"\n\nnamespace cotan::shader_text {\n\n")
 string(APPEND text "std::span<const PortablePart> portableParts()\n{\n    static constexpr PortablePart kParts[] = {\n")
 foreach(part ${PARTS})
   file(READ ${SHADERS}/${part}.h content)

@@ -22,8 +22,7 @@ std::string entryOf(Frame frame);
 // And for a choice, which may leave that one out.
 std::string entryOf(const Choice& choice);
 
-// The entry, and with screen derivatives where the choice and the language have them the short
-// function over it.
+// The entry, and with screen derivatives where the choice and the language have them the short function over it.
 std::string entryText(const Choice& choice, Form form);
 
 // Whether the choice has the function that takes derivatives itself.

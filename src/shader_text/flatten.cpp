@@ -1,7 +1,7 @@
 #include <map>
 #include <stdexcept>
 
-#include "specialise.hpp"
+#include "syntax.hpp"
 
 namespace cotan::shader_text {
 

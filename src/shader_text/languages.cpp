@@ -1,6 +1,6 @@
 #include "languages.hpp"
 
-#include <array>
+#include <algorithm>
 
 #include "core/named_values.hpp"
 
@@ -152,76 +152,58 @@ constexpr Word kWords[] = {
 };
 
 // In the order of Language.
-constexpr std::array<LanguageInfo, std::size(kLanguages)> kInfos = [] {
-    LanguageInfo glsl;
-    glsl.name = "glsl";
-    glsl.title = "GLSL 3.30 and later";
-    glsl.titleWithHalfs = "GLSL 4.20 and later"; // packHalf2x16
-    glsl.sample = "texture(normal_map, uv).xyz";
-    glsl.grammar.words = &Word::glsl;
-
-    LanguageInfo essl = glsl;
-    essl.name = "essl";
-    essl.title = "GLSL ES 3.00 (WebGL 2)";
-    essl.titleWithHalfs = {};
-    essl.cornersIn = "data textures";
-    essl.limits = "//   The shader must say: precision highp float; precision highp int;\n";
-
-    LanguageInfo hlsl;
-    hlsl.name = "hlsl";
-    hlsl.title = "HLSL, shader model 5 and later";
-    hlsl.sample = "normal_map.Sample(map_sampler, uv).xyz";
-    hlsl.halfs = kHlslHalfs;
-    hlsl.grammar.words = &Word::hlsl;
-
-    LanguageInfo wgsl;
-    wgsl.name = "wgsl";
-    wgsl.title = "WGSL";
-    wgsl.sample = "textureSample(normal_map, map_sampler, uv).xyz";
-    wgsl.limits = "//   WGSL lets an implementation assume that no number is NaN or infinite: the guards against\n"
-                  "//   non-finite input are then not sure to hold. Those against zeros and empty areas do.\n";
-    wgsl.grammar.words = &Word::wgsl;
-    wgsl.grammar.typesAfterNames = true;
-
-    LanguageInfo msl;
-    msl.name = "msl";
-    msl.title = "Metal shading language";
-    msl.sample = "normal_map.sample(map_sampler, uv).xyz";
-    msl.limits = "//   Fast mathematics, Metal's default, may drop the guards against non-finite input; compile\n"
-                 "//   with -fno-fast-math where these matter. Those against zeros and empty areas stay.\n";
-    msl.prelude = kMslPrelude;
-    msl.halfs = kMslHalfs;
-    msl.grammar.words = &Word::msl;
-    msl.grammar.floatSuffix = "f";
-    msl.grammar.functionPrefix = "inline ";
-
-    LanguageInfo cpp;
-    cpp.name = "cpp";
-    cpp.title = "C++17";
-    cpp.branch = "COTAN_LANG_CPP";
-    cpp.sample = "texel";
-    cpp.scope = "cotan_shader::";
-    cpp.limits = "//   Change cotan_real to double for double precision.\n";
-    cpp.prelude = kCppPrelude;
-    cpp.halfs = kCppHalfs;
-    cpp.postlude = "\n} // namespace cotan_shader\n";
-    cpp.grammar.functionPrefix = "inline ";
-    cpp.grammar.realCalls = cpp.grammar.braces = true;
-
+constexpr LanguageInfo kInfos[] = {
+    {.name = "glsl",
+     .title = "GLSL 3.30 and later",
+     .titleWithHalfs = "GLSL 4.20 and later", // packHalf2x16
+     .sample = "texture(normal_map, uv).xyz",
+     .grammar = {.words = &Word::glsl}},
+    {.name = "essl",
+     .title = "GLSL ES 3.00 (WebGL 2)",
+     .sample = "texture(normal_map, uv).xyz",
+     .cornersIn = "data textures",
+     .limits = "//   The shader must say: precision highp float; precision highp int;\n",
+     .grammar = {.words = &Word::glsl}},
+    {.name = "hlsl",
+     .title = "HLSL, shader model 5 and later",
+     .sample = "normal_map.Sample(map_sampler, uv).xyz",
+     .halfs = kHlslHalfs,
+     .grammar = {.words = &Word::hlsl}},
+    {.name = "wgsl",
+     .title = "WGSL",
+     .sample = "textureSample(normal_map, map_sampler, uv).xyz",
+     .limits = "//   WGSL lets an implementation assume that no number is NaN or infinite: the guards against\n"
+               "//   non-finite input are then not sure to hold. Those against zeros and empty areas do.\n",
+     .grammar = {.words = &Word::wgsl, .typesAfterNames = true}},
+    {.name = "msl",
+     .title = "Metal shading language",
+     .sample = "normal_map.sample(map_sampler, uv).xyz",
+     .limits = "//   Fast mathematics, Metal's default, may drop the guards against non-finite input; compile\n"
+               "//   with -fno-fast-math where these matter. Those against zeros and empty areas stay.\n",
+     .prelude = kMslPrelude,
+     .halfs = kMslHalfs,
+     .grammar = {.words = &Word::msl, .floatSuffix = "f", .functionPrefix = "inline "}},
+    {.name = "cpp",
+     .title = "C++17",
+     .branch = "COTAN_LANG_CPP",
+     .sample = "texel",
+     .scope = "cotan_shader::",
+     .limits = "//   Change cotan_real to double for double precision.\n",
+     .prelude = kCppPrelude,
+     .halfs = kCppHalfs,
+     .postlude = "\n} // namespace cotan_shader\n",
+     .grammar = {.functionPrefix = "inline ", .realCalls = true, .braces = true}},
     // What Godot 3 and 4 share: GLSL's words, but no structs; and in OpenGL ES 2 no bits of floats, which lang.h sees
     // to.
-    LanguageInfo godot = glsl;
-    godot.name = "godot";
-    godot.title = "Godot 3.2 and later and Godot 4";
-    godot.titleWithHalfs = {};
-    godot.branch = "COTAN_LANG_GODOT";
-    godot.limits =
-        "//   GLES2 on phones may compute with 16 bits, which is too little for positions: use GLES3 there.\n"
-        "//   Whether guards against non-finite input hold is up to the driver.\n";
-    godot.grammar.structs = false;
-
-    return std::array{glsl, essl, hlsl, wgsl, msl, cpp, godot};
-}();
+    {.name = "godot",
+     .title = "Godot 3.2 and later and Godot 4",
+     .branch = "COTAN_LANG_GODOT",
+     .sample = "texture(normal_map, uv).xyz",
+     .limits = "//   GLES2 on phones may compute with 16 bits, which is too little for positions: use GLES3 there.\n"
+               "//   Whether guards against non-finite input hold is up to the driver.\n",
+     .grammar = {.words = &Word::glsl, .structs = false}},
+};
+static_assert(std::size(kInfos) == std::size(kLanguages));
 
 } // namespace
 
@@ -239,10 +221,8 @@ std::string languageNames()
 
 std::optional<Language> languageFromName(std::string_view text)
 {
-    for (Language l : kLanguages)
-        if (name(l) == text)
-            return l;
-    return std::nullopt;
+    const auto found = std::ranges::find(kLanguages, text, [](Language l) { return name(l); });
+    return found == std::end(kLanguages) ? std::nullopt : std::optional(*found);
 }
 
 std::string_view name(Stage stage)
@@ -253,10 +233,8 @@ std::string_view name(Stage stage)
 
 std::optional<Stage> stageFromName(std::string_view text)
 {
-    for (Stage s : kStages)
-        if (name(s) == text)
-            return s;
-    return std::nullopt;
+    const auto found = std::ranges::find(kStages, text, [](Stage s) { return name(s); });
+    return found == std::end(kStages) ? std::nullopt : std::optional(*found);
 }
 
 std::string wordOf(Language language, const std::string& portable)

@@ -5,8 +5,6 @@
 
 #include "entry.hpp"
 #include "languages.hpp"
-#include "parse.hpp"
-#include "specialise.hpp"
 
 namespace cotan::shader_text {
 
@@ -31,16 +29,17 @@ void bindConvention(Module& module, const Convention& c)
     bindArgument(module, "cotan_decode", "format", "channels", std::to_string(int(c.channels)));
     bindArgument(module, "cotan_decode", "format", "green", greenAlongV(c) ? "1.0" : "-1.0");
     bindArgument(module, "cotan_decode", "format", "strength", "1.0");
-    dropParameter(module, "cotan_decode", "format");
     bindArgument(module, "cotan_expand", "expansion", "", std::to_string(int(c.expansion)));
     for (Function& f : module.functions) {
-        if (f.name == "cotan_expand")
+        if (f.name == "cotan_expand") {
             f.comments = {"// The signed number that a stored component stands for, in [-1,1]."};
-        else if (f.name == "cotan_decode")
+        } else if (f.name == "cotan_decode") {
             f.comments = {"// The decoded texel: normal along (+u, +v, outwards). Not unit in general.",
                           "// texel: as sampled; two-channel maps use x and y only."};
-        else
+            std::erase_if(f.parameters, [](const Variable& p) { return p.name == "format"; }); // all of it is bound
+        } else {
             continue;
+        }
         simplify(f);
     }
 }

@@ -1,4 +1,4 @@
-#include "parse.hpp"
+#include "syntax.hpp"
 
 #include <algorithm>
 #include <cctype>
@@ -107,21 +107,14 @@ public:
     void parse(Module& module)
     {
         while (!peek().text.empty()) {
-            const std::vector<std::string> comments = peek().comments;
             if (peek().text == "using") { // C++ only: print.cpp has its own
                 while (take() != ";") {
                 }
-                continue;
-            }
-            if (peek().text == "struct") {
+            } else if (peek().text == "struct") {
                 module.structs.push_back(structure());
-                module.structs.back().comments = comments;
-                continue;
+            } else {
+                module.functions.push_back(function());
             }
-            if (peek().text == "COTAN_FUNCTION" || peek().text == "inline")
-                take();
-            module.functions.push_back(function());
-            module.functions.back().comments = comments;
         }
     }
 
@@ -162,6 +155,7 @@ private:
     Struct structure()
     {
         Struct s;
+        s.comments = peek().comments;
         expect("struct");
         s.name = take();
         expect("{");
@@ -178,7 +172,10 @@ private:
     Function function()
     {
         Function f;
+        f.comments = peek().comments;
         f.part = part_;
+        if (!accept("COTAN_FUNCTION"))
+            accept("inline");
         f.type = take();
         f.name = take();
         expect("(");
@@ -313,13 +310,12 @@ Preprocessed preprocess(std::string_view text, std::string_view language)
     for (std::string line; std::getline(stream, line);) {
         if (line.starts_with("#ifndef")) {
             branches.push_back({true, true}); // include guards
-        } else if (line.starts_with("#if ")) {
-            const bool chosen = askedFor(line) == language;
-            branches.push_back({chosen, chosen});
-        } else if (line.starts_with("#elif")) {
-            const bool chosen = !branches.back().taken && askedFor(line) == language;
-            branches.back().active = chosen;
-            branches.back().taken |= chosen;
+        } else if (line.starts_with("#if ") || line.starts_with("#elif")) {
+            if (line.starts_with("#if "))
+                branches.push_back({});
+            Branch& branch = branches.back();
+            branch.active = !branch.taken && askedFor(line) == language;
+            branch.taken |= branch.active;
         } else if (line.starts_with("#else")) {
             branches.back().active = !branches.back().taken;
         } else if (line.starts_with("#endif")) {

@@ -1,7 +1,6 @@
 #include <set>
 
 #include "languages.hpp"
-#include "specialise.hpp"
 
 namespace cotan::shader_text {
 

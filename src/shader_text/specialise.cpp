@@ -1,4 +1,4 @@
-#include "specialise.hpp"
+#include "syntax.hpp"
 
 #include <algorithm>
 #include <iterator>
@@ -103,13 +103,6 @@ void bindArgument(Module& module, const std::string& function, const std::string
             if (e.kind == Kind::call && e.text == function)
                 e.children.erase(e.children.begin() + static_cast<std::ptrdiff_t>(position));
         });
-}
-
-void dropParameter(Module& module, const std::string& function, const std::string& name)
-{
-    for (Function& f : module.functions)
-        if (f.name == function)
-            std::erase_if(f.parameters, [&](const Variable& p) { return p.name == name; });
 }
 
 void simplify(Function& function)

@@ -1,11 +1,16 @@
-// The portable text as a tree. It is a small language: structs, functions, declarations,
-// assignments, if, return, and expressions without side effects.
+// The portable text as a tree: what that is, how text becomes one, and what is done to it before it is printed. It is a
+// small language: structs, functions, declarations, assignments, if, return, and expressions without side effects.
 #pragma once
 
+#include <map>
+#include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace cotan::shader_text {
+
+// ---- the tree ------------------------------------------------------------------------------
 
 struct Expression {
     enum class Kind {
@@ -83,5 +88,49 @@ template<class Body, class Visit> void visitBody(Body& body, const Visit& visit)
         visitBody(s.body, visit);
     }
 }
+
+// ---- from text -----------------------------------------------------------------------------
+
+struct PortablePart {
+    std::string_view name; // of the file, without ".h"
+    std::string_view text;
+};
+
+// The files of shaders/cotan/, embedded, in the order in which they are joined.
+std::span<const PortablePart> portableParts();
+
+// What is left of a text when its #if branches are chosen. A comment above a directive stays
+// above what follows it, except for a #define, which takes its comment with it.
+struct Preprocessed {
+    std::string text;
+    std::map<std::string, std::string> constants; // COTAN_NAME to its value
+};
+
+// language: COTAN_LANG_GLSL or COTAN_LANG_CPP, the one macro that is defined.
+Preprocessed preprocess(std::string_view text, std::string_view language);
+
+// Appends what `text` defines. Constants are put in the place of their names; `constants` holds those of earlier texts
+// and receives the new ones. Throws std::runtime_error with the line where the text leaves the small language.
+void parsePart(Module& module, std::map<std::string, Expression>& constants, std::string_view part,
+               std::string_view text, std::string_view language);
+
+// ---- to what a language prints -------------------------------------------------------------
+
+// Puts `value` in the place of parameter `name` of `function` (of its field `field` unless that is
+// empty). A parameter without a field goes from the function and from all calls.
+void bindArgument(Module& module, const std::string& function, const std::string& name, const std::string& field,
+                  const std::string& value);
+
+// Decides comparisons of numbers, selects and ifs that hang on them, factors of 1 and -1; joins a
+// declaration with the assignment that follows; drops variables that nothing reads.
+void simplify(Function& function);
+
+// What the functions named in `roots` need, in the module's order; structs too.
+Module neededBy(const Module& module, const std::vector<std::string>& roots);
+
+// Each variable of a struct becomes one variable for each field, NAME_FIELD; parameters too. A function that returns a
+// struct returns nothing and has `out` parameters behind its others.
+// Throws std::runtime_error where a struct hangs on ?: or a name is taken.
+Module withoutStructs(const Module& module);
 
 } // namespace cotan::shader_text

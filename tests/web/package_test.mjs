@@ -224,6 +224,22 @@ const cases = {
     assert.deepEqual([...(await cotan.decodePng(png)).data], [1, 2, 3, 255]);
   },
 
+  // Sizes of 32 bits: 357,913,942 elements of 12 bytes end at byte 8 of 2^32, and 2^32 + 12 bytes are not 12.
+  async sizesThatOverflowThoseOfTheWebAreRefused() {
+    const model = (accessor, view) => new TextEncoder().encode(JSON.stringify({
+      asset: { version: '2.0' }, buffers: [{ byteLength: 36, uri: `data:;base64,${Buffer.alloc(36).toString('base64')}` }],
+      bufferViews: [{ buffer: 0, byteLength: 36, ...view }],
+      accessors: [{ bufferView: 0, componentType: 5126, count: 3, type: 'VEC3', ...accessor }, { componentType: 5126, count: 3, type: 'VEC3' }],
+      meshes: [{ primitives: [{ attributes: { POSITION: 0 } }] }], nodes: [{ mesh: 0 }], scenes: [{ nodes: [0] }], scene: 0,
+    }));
+    await cotan.lint(model({}, {}));
+    for (const [accessor, view] of [[{ count: 357913942 }, {}], [{ count: 357913942, bufferView: undefined }, {}], [{ byteOffset: 4294967296 }, {}],
+      [{}, { byteOffset: 4294967296 }], [{}, { byteLength: 4294967332 }], [{ count: 4294967299 }, {}]])
+      for (const work of [cotan.lint, cotan.convert])
+        await assert.rejects(work(model(accessor, view)), (error) => error instanceof cotan.CotanError
+          && error.code === 'input' && !/stopped/.test(error.message), JSON.stringify([accessor, view]));
+  },
+
   async everyFunctionAnswersNonsenseWithACotanError() {
     const nonsense = [undefined, null, 0, -1, NaN, 1e9, 'text', true, [], [1], ['a'], [1n], {}, () => 1, new Uint8Array(3), new Float64Array(9), new BigInt64Array(3), new DataView(new ArrayBuffer(8)),
       { width: 1, height: 1, data: new Uint8Array(4) }, { positions: [0, 0, 0], normals: [0], uvs: {} }, { from: 7 }, { maps: [], primitives: [7] }, { files: null }, { decode: 1 }];

@@ -138,7 +138,7 @@ int runJobProcess(int argc, const char* const* argv, const std::function<int(con
 ChildAnswer readAnswer(const std::filesystem::path& work)
 {
     ChildAnswer answer;
-    const auto bytes = readReplacedBytes(work / kAnswerName, kMaxAnswerBytes);
+    const auto bytes = readFileBytes(work / kAnswerName, kMaxAnswerBytes, /*isInput*/ false);
     if (!bytes)
         return answer;
     try {

@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include "core/joined_groups.hpp"
+#include "core/groups.hpp"
 
 namespace cotan {
 

@@ -334,7 +334,7 @@ private:
                 removeParts((list_.folder / output).parent_path(), number);
         const fs::path report = job.json.empty() ? r.work / kReportName : list_.folder / job.json;
         if (isGood(record))
-            if (const auto bytes = readReplacedBytes(report, kMaxReportBytes))
+            if (const auto bytes = readFileBytes(report, kMaxReportBytes, /*isInput*/ false))
                 record.degrees = degreesIn({reinterpret_cast<const char*>(bytes->data()), bytes->size()});
         ChildAnswer answer = readAnswer(r.work);
         record.thumbnail = std::move(answer.thumbnail);

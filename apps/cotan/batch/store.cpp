@@ -102,7 +102,7 @@ std::optional<JobRecord> Store::find(const std::vector<std::string>& words) cons
     const fs::path file = fileOf(words);
     if (::access(file.c_str(), R_OK) != 0)
         return std::nullopt;
-    const auto bytes = readReplacedBytes(file, kMaxRecordBytes);
+    const auto bytes = readFileBytes(file, kMaxRecordBytes, /*isInput*/ false);
     if (!bytes)
         return std::nullopt;
     return parseRecord({reinterpret_cast<const char*>(bytes->data()), bytes->size()});

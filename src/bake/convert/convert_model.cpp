@@ -106,14 +106,6 @@ private:
         return {said ? Expansion::biased : written, written};
     }
 
-    // What readers of a new map must know.
-    void sayExpansion(const MapJob& job, Expansion expansion)
-    {
-        for (const MapSlot& place : job.places)
-            if (place.slot == NormalSlot::surface)
-                setExpansion(rootOf(document_)["materials"][place.material], expansion);
-    }
-
     // Converts one image and puts it back.
     Result<ConvertedMap> convertMap(const MapJob& job, const Progress& share)
     {
@@ -190,7 +182,9 @@ private:
             report_.notes.push_back(fmt::format("{}: {}, so the new map is PNG: {} bytes, before {}", job.name,
                                                 file->whyNot, done.bytesAfter, done.bytesBefore));
         replaceMap(document_, job, std::move(file->bytes), file->mime, report_.notes);
-        sayExpansion(job, expansions.written);
+        for (const MapSlot& place : job.places) // readers of the new map must know
+            if (place.slot == NormalSlot::surface)
+                setExpansion(rootOf(document_)["materials"][place.material], expansions.written);
         noteWhatStaysOff(done);
         return done;
     }

@@ -114,14 +114,6 @@ namespace {
 using convert::Place;
 using convert::PlaceFinder;
 
-// Along green: 1 where it points along +v, else -1.
-double greenOf(const MapUse& use) { return greenAlongV(use.stored) ? 1 : -1; }
-
-glm::dmat3 matrixOf(const f64::cotan_frame& f, const MapUse& use)
-{
-    return {f.t * use.strength, f.b * (use.strength * greenOf(use)), f.n};
-}
-
 struct RowCounts {
     std::size_t covered = 0, padded = 0, several = 0, disagreeing = 0, belowHorizon = 0;
     std::vector<float> moved, disagreement; // degrees, until the row is counted
@@ -135,7 +127,7 @@ public:
     Reencoder(const Image& map, std::span<const MapUse> uses, const FramePair& frames, int bits,
               std::optional<Expansion> expansion)
         : map_(map), uses_(uses), frames_(frames), finder_(uses, map.width, map.height), rows_(std::size_t(map.height)),
-          owner_(map.pixelCount(), kNoTexel)
+          owner_(map.pixelCount(), kNoTexel), nearest_(std::size_t(map.height))
     {
         Convention stored = uses.empty() ? Convention{} : uses.front().stored;
         plain_ = toFormat<f64::cotan_normal_format>(stored, map.type);
@@ -143,7 +135,6 @@ public:
         written_ = toFormat<f64::cotan_normal_format>(stored, 1, bits);
         plain_.green = written_.green = 1;
         result_.image = makeImage(map.width, map.height, bits == 16 ? PixelType::unorm16 : PixelType::unorm8, map.name);
-        nearest_.resize(std::size_t(map.height));
     }
 
     Reencoded run(CountedSteps* rows)
@@ -189,9 +180,11 @@ private:
         const f64::cotan_frame from =
             frameAt(use.surface, frames_.from, frames_.fromTangents, p.triangle, p.barycentric);
         const f64::cotan_frame to = frameAt(use.surface, frames_.to, frames_.toTangents, p.triangle, p.barycentric);
-        const glm::dvec3 m(old.x * use.strength, old.y * use.strength * greenOf(use), old.z);
+        // Factors on the texel's components along t, b and n.
+        const glm::dvec3 factors(use.strength, greenAlongV(use.stored) ? use.strength : -use.strength, 1);
         // `mikktspace` hands back its n, not unit, where the sum vanishes.
-        return {matrixOf(to, use), f64::cotan_normalize_or(f64::cotan_apply(from, m), to.n)};
+        return {{to.t * factors.x, to.b * factors.y, to.n},
+                f64::cotan_normalize_or(f64::cotan_apply(from, old * factors), to.n)};
     }
 
     std::size_t indexOf(int x, int y) const { return std::size_t(y) * std::size_t(map_.width) + std::size_t(x); }
@@ -199,21 +192,19 @@ private:
     // With the alpha of the map.
     void put(int x, int y, glm::dvec3 stored)
     {
-        const std::size_t at = 4 * indexOf(x, y);
-        for (int k = 0; k < 3; ++k)
-            set(at + std::size_t(k), stored[k]);
-        set(at + 3, atTexel(map_, x, y, [](const auto* c, int most) { return double(c[3]) / most; }));
+        const double alpha = atTexel(map_, x, y, [](const auto* c, int most) { return double(c[3]) / most; });
+        const glm::dvec4 values(stored, alpha);
+        for (int k = 0; k < 4; ++k) {
+            const std::size_t at = 4 * indexOf(x, y) + std::size_t(k);
+            const double value = std::clamp(values[k], 0.0, 1.0);
+            if (result_.image.type == PixelType::unorm16)
+                result_.image.words()[at] = std::uint16_t(std::lround(value * 65535));
+            else
+                result_.image.bytes8()[at] = std::uint8_t(std::lround(value * 255));
+        }
     }
 
     void write(int x, int y, glm::dvec3 texel) { put(x, y, f64::cotan_encode_texel(texel, written_)); }
-
-    void set(std::size_t component, double value)
-    {
-        if (result_.image.type == PixelType::unorm16)
-            result_.image.words()[component] = std::uint16_t(std::lround(std::clamp(value, 0.0, 1.0) * 65535));
-        else
-            result_.image.bytes8()[component] = std::uint8_t(std::lround(std::clamp(value, 0.0, 1.0) * 255));
-    }
 
     void keep(int x, int y)
     {
@@ -251,20 +242,14 @@ private:
         }
     }
 
-    static double worst(const std::vector<Demand>& demands, glm::dvec3 texel)
-    {
-        double degrees = 0;
-        for (const Demand& d : demands)
-            degrees = std::max(degrees, invertible(d.frame) ? degreesOff(d, texel) : 0);
-        return degrees;
-    }
-
     static void count(RowCounts& c, const std::vector<Demand>& demands, glm::dvec3 old, glm::dvec3 texel)
     {
         ++c.covered;
         c.several += demands.size() > 1;
         c.belowHorizon += texel.z <= 0;
-        const double conflict = worst(demands, texel);
+        double conflict = 0; // degrees of the worst place
+        for (const Demand& d : demands)
+            conflict = std::max(conflict, invertible(d.frame) ? degreesOff(d, texel) : 0);
         if (conflict > kDisagree) {
             ++c.disagreeing;
             c.disagreement.push_back(float(conflict));

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 #include <memory>
+#include <set>
 #include <utility>
 
 #include <fmt/format.h>
@@ -96,28 +97,19 @@ struct TriangleProgress {
 // meshes together in three steps.
 constexpr double kOfSurface = 0.4, kOfLook = 0.15, kOfWhole = 0.05;
 
-// What one surface may take, so that many of them end too.
-struct LookLimits {
-    std::size_t points = 0; // that are measured
-    double pixels = 0;      // that lint::seen draws
-};
-
-LookLimits limitsOfEach(std::size_t surfaces)
-{
-    constexpr double kOfAll = 10 * lint::kMaxPixels;
-    return {pointsOfEach(surfaces), std::min(lint::kMaxPixels, kOfAll / double(std::max<std::size_t>(surfaces, 1)))};
-}
-
-// Not whole where `counted` has said to stop; tells three looks of that many triangles.
+// Not whole where `counted` has said to stop; tells three looks of that many triangles. surfaces: of the whole scene.
 PrimitiveLint lintPrimitive(const Scene& scene, const Mesh& mesh, const MappedSurface& surface, double distance,
-                            LookLimits limits, TriangleProgress& counted, double triangles)
+                            std::size_t surfaces, TriangleProgress& counted, double triangles)
 {
+    // What lint::seen may draw: fewer of each of many surfaces, so that they end too.
+    const double maxPixels =
+        std::min(lint::kMaxPixels, 10 * lint::kMaxPixels / double(std::max<std::size_t>(surfaces, 1)));
     const Material& material = scene.materials[std::size_t(mesh.material)];
     PrimitiveLint p;
     p.mesh = mesh.name;
     p.material = material.name;
     p.tangentsFor = material.tangentsFor;
-    const std::vector<MeshPoint> points = pointsOver(surface, limits.points);
+    const std::vector<MeshPoint> points = pointsOver(surface, pointsOfEach(surfaces));
     const auto turned = [&](Frame to) { return directionTurn(surface, points, {.from = Frame::mikktspace, .to = to}); };
     if (!p.tangentsFor.empty())
         p.turned = {turned(Frame::orthonormal), turned(Frame::cotangent), turned(Frame::smooth)};
@@ -144,7 +136,7 @@ PrimitiveLint lintPrimitive(const Scene& scene, const Mesh& mesh, const MappedSu
         const Image& map = scene.images[std::size_t(p.image)];
         p.unread = !hasPixels(map);
         if (p.hasUv && !p.unread)
-            p.readings = lint::readings(surface, points, p.madeFor, material, map, limits.pixels);
+            p.readings = lint::readings(surface, points, p.madeFor, material, map, maxPixels);
         p.notJudged = whyNotJudged(p, map);
     }
     counted.add(kOfLook * triangles);
@@ -177,17 +169,14 @@ void addOverlaps(LintReport& report, const std::vector<MapUse>& uses)
 
 void addMaps(LintReport& report, const Scene& scene)
 {
-    std::vector<bool> done(scene.images.size());
+    std::set<int> done;
     for (const Material& m : scene.materials) {
         const int image = m.normalMap.image;
-        if (!m.normalMap.present() || done[std::size_t(image)])
+        if (!m.normalMap.present() || !done.insert(image).second)
             continue;
-        done[std::size_t(image)] = true;
         const Image& map = scene.images[std::size_t(image)];
-        GreenEvidence e{image, map.name, m.normalFormat.greenUp != m.greenReversed, {}};
-        if (hasPixels(map))
-            e.verdict = maps::greenOf(map);
-        report.maps.push_back(std::move(e));
+        report.maps.push_back({image, map.name, m.normalFormat.greenUp != m.greenReversed,
+                               hasPixels(map) ? maps::greenOf(map) : maps::GreenVerdict()});
     }
 }
 
@@ -265,7 +254,6 @@ Result<LintReport> lintScene(const Scene& scene, const LintOptions& options, con
     std::size_t surfaces = 0;
     for (const auto& ways : placed)
         surfaces += std::min(ways.size(), kMaxPlacings);
-    const LookLimits limits = limitsOfEach(surfaces);
     for (std::size_t i = 0; i < scene.meshes.size(); ++i) {
         const Mesh& mesh = scene.meshes[i];
         const Material& material = scene.materials[std::size_t(mesh.material)];
@@ -286,7 +274,8 @@ Result<LintReport> lintScene(const Scene& scene, const LintOptions& options, con
                               sampler.wrapU, sampler.wrapV};
             };
             uses.push_back(useOf(own, material));
-            PrimitiveLint p = lintPrimitive(scene, mesh, uses.back().surface, report.distance, limits, counted, share);
+            PrimitiveLint p =
+                lintPrimitive(scene, mesh, uses.back().surface, report.distance, surfaces, counted, share);
             if (counted.stopped)
                 return stoppedError();
             p.placing = k;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <glm/geometric.hpp>
 
@@ -30,14 +31,6 @@ double mappedArea(const MappedSurface& s, std::size_t triangle)
 {
     const TriangleEdges edges = edgesOf(s, triangle);
     return orientationOf(s, triangle, edges) != 0 ? areaOf(edges) : 0;
-}
-
-// A generated frame that is read at the vertices.
-void addGenerated(FrameSet& set, Frame frame, TangentOrigin tangents, bool stored)
-{
-    const bool ofFile = readsTangents(frame) && tangents == TangentOrigin::stored && stored;
-    if (readsVertices(frame) && !ofFile)
-        set.set(std::size_t(frame));
 }
 
 constexpr double kSameWay = 0.7071; // cosine of kTurned
@@ -152,14 +145,15 @@ ValueSummary directionTurn(const MappedSurface& surface, const std::vector<MeshP
 FrameSet framesRead(const FramePair& frames, bool stored)
 {
     FrameSet set;
-    addGenerated(set, frames.from, frames.fromTangents, stored);
-    addGenerated(set, frames.to, frames.toTangents, stored);
+    for (const auto& [frame, tangents] :
+         {std::pair(frames.from, frames.fromTangents), {frames.to, frames.toTangents}}) {
+        // A generated frame that is read at the vertices.
+        const bool ofFile = readsTangents(frame) && tangents == TangentOrigin::stored && stored;
+        if (readsVertices(frame) && !ofFile)
+            set.set(std::size_t(frame));
+    }
     return set;
 }
-
-bool directionStays(const ValueSummary& turn) { return turn.percentile95 <= kTurnedDirection; }
-
-bool fitsAsItIs(const ValueSummary& off) { return !(off.percentile95 > kAsRounding); }
 
 std::vector<Reading> lint::readings(const MappedSurface& s, const std::vector<MeshPoint>& points, Frame madeFor,
                                     const Material& material, const Image& map, double maxPixels)

@@ -102,13 +102,13 @@ FrameSet framesRead(const FramePair& frames, bool stored);
 inline constexpr double kTurnedDirection = 5;
 
 // Whether highlights stay stretched as they are, being turned by so much.
-bool directionStays(const ValueSummary& turn);
+inline bool directionStays(const ValueSummary& turn) { return turn.percentile95 <= kTurnedDirection; }
 
 // Degrees, of 95 % of the area: what writing a map anew in 8 bits costs by itself.
 inline constexpr double kAsRounding = 0.3;
 
 // Whether a map stays as it is, being off by so much when it is read with the new frame: where a new one, rounded,
 // would be no better, and where nothing shows it.
-bool fitsAsItIs(const ValueSummary& off);
+inline bool fitsAsItIs(const ValueSummary& off) { return !(off.percentile95 > kAsRounding); }
 
 } // namespace cotan

@@ -68,7 +68,7 @@ Whole wholeReading(const LintReport& report, const std::string& name)
     return wholeOf(report, [&](const PrimitiveLint& p) { return errorOf(p, name); });
 }
 
-// Shares of the area with a map and stored tangents; 0 where there are none.
+// Shares of the area with a map and stored tangents; NaN, which is above no limit, where there are none.
 struct Stored {
     double reversedW = 0, turned = 0;
 };
@@ -83,10 +83,8 @@ Stored storedShares(const LintReport& report)
             s.reversedW += p.uv.area * p.stored.reversedW;
             s.turned += p.uv.area * p.stored.turned;
         }
-    if (area > 0) {
-        s.reversedW /= area;
-        s.turned /= area;
-    }
+    s.reversedW /= area;
+    s.turned /= area;
     return s;
 }
 
@@ -134,13 +132,10 @@ std::string turningOptions(const LintReport& report)
 std::string brokenMaps(const LintReport& report)
 {
     std::string text;
-    for (const GreenEvidence& g : report.maps) {
-        const std::vector<maps::Fault> faults = maps::faultsOf(g.verdict.statistics);
-        if (faults.empty())
-            continue;
-        const std::string map = g.name.empty() ? fmt::format("Image {}", g.image) : g.name;
-        addSentence(text, maps::sentenceOf(map, faults, g.verdict.statistics));
-    }
+    for (const GreenEvidence& g : report.maps)
+        addSentence(text,
+                    maps::sentenceOf(g.name.empty() ? fmt::format("Image {}", g.image) : g.name,
+                                     maps::faultsOf(g.verdict.statistics), g.verdict.statistics));
     return text;
 }
 
@@ -174,13 +169,6 @@ std::string defectsOfFrames(const LintReport& report)
         addSentence(text,
                     fmt::format("Green seems to point the other way in {} (cotan map convert {} turns it).", green,
                                 turningOptions(report)));
-    return text;
-}
-
-std::string defects(const LintReport& report)
-{
-    std::string text = brokenMaps(report);
-    addSentence(text, defectsOfFrames(report));
     return text;
 }
 
@@ -357,7 +345,8 @@ void recommend(LintReport& report)
     report.notJudged = notJudged(report);
     if (std::ranges::any_of(report.primitives, judged)) {
         report.distrustStored = distrustStored(report);
-        report.defects = defects(report);
+        report.defects = brokenMaps(report);
+        addSentence(report.defects, defectsOfFrames(report));
         adviseForMaps(report);
         report.otherReaders = otherReaders(report);
     } else {

@@ -54,16 +54,12 @@ glm::dvec3 outwards(const MappedSurface& s, std::size_t triangle)
 
 DepthPicture pictureFrom(glm::dvec3 toEye, glm::dvec3 middle, double radius, std::size_t side)
 {
-    DepthPicture picture;
-    picture.side = side;
-    picture.depth.assign(side * side, -std::numeric_limits<double>::infinity());
-    picture.toEye = glm::normalize(toEye);
-    const glm::dvec3 other = std::abs(picture.toEye.y) > 0.8 ? glm::dvec3(0, 0, 1) : glm::dvec3(0, 1, 0);
-    picture.across = glm::normalize(glm::cross(other, picture.toEye));
-    picture.up = glm::cross(picture.toEye, picture.across);
-    picture.pixel = 2 * radius / double(side);
-    picture.low = glm::dvec2(glm::dot(middle, picture.across), glm::dot(middle, picture.up)) - radius;
-    return picture;
+    toEye = glm::normalize(toEye);
+    const glm::dvec3 other = std::abs(toEye.y) > 0.8 ? glm::dvec3(0, 0, 1) : glm::dvec3(0, 1, 0);
+    const glm::dvec3 across = glm::normalize(glm::cross(other, toEye)), up = glm::cross(toEye, across);
+    const glm::dvec2 low = glm::dvec2(glm::dot(middle, across), glm::dot(middle, up)) - radius;
+    const double nothing = -std::numeric_limits<double>::infinity();
+    return {across, up, toEye, low, 2 * radius / double(side), side, std::vector<double>(side * side, nothing)};
 }
 
 // From the faces and the corners of a cube.
@@ -79,12 +75,6 @@ std::vector<DepthPicture> picturesAround(glm::dvec3 middle, double radius, std::
         pictures.push_back(pictureFrom(way + glm::dvec3(0.05, 0.03, -0.04), middle, radius, side));
     }
     return pictures;
-}
-
-glm::dvec3 positionAt(const MappedSurface& s, const MeshPoint& p)
-{
-    const std::size_t a = 3 * p.triangle;
-    return s.position(a) * p.barycentric.x + s.position(a + 1) * p.barycentric.y + s.position(a + 2) * p.barycentric.z;
 }
 
 // All pixels whose centres the triangle covers, and the one that its middle is in.
@@ -157,8 +147,9 @@ std::vector<double> seen(const MappedSurface& s, const std::vector<MeshPoint>& p
                 draw(corners, picture);
     }
     for (std::size_t k = 0; k < points.size(); ++k) {
-        const MeshPoint& point = points[k];
-        const glm::dvec3 face = outwards(s, point.triangle), position = positionAt(s, point);
+        const std::size_t a = 3 * points[k].triangle;
+        const glm::dvec3 face = outwards(s, points[k].triangle), by = points[k].barycentric;
+        const glm::dvec3 position = s.position(a) * by.x + s.position(a + 1) * by.y + s.position(a + 2) * by.z;
         for (const DepthPicture& picture : pictures)
             if (const double cosine = cosineOf(face, picture); cosine > kMinCosine)
                 weights[k] += shows(picture, position, cosine) ? 1 : 0;

@@ -66,13 +66,6 @@ void deriveCotangents(LowSurface& s)
     s.cotangentsV = std::move(made.cotangents.v);
 }
 
-void deriveTangents(LowSurface& s)
-{
-    s.tangents = generateTangents(s.frame, {s.positions, s.normals, s.texcoords, s.indices});
-    for (glm::vec4& t : s.tangents)
-        t = tangentAlongV(t);
-}
-
 template<class TextFrame> CotangentFrame<double> typed(const TextFrame& f)
 {
     return {Covector3d(f.t), Covector3d(f.b), Covector3d(f.n)};
@@ -106,10 +99,14 @@ Result<LowSurface> makeLowSurface(const Scene& scene, int material, Frame frame,
     }
     if (surface.indices.empty())
         return inputError(scene.name + ": expected triangles; found none");
-    if (readsCotangents(frame))
+    if (readsCotangents(frame)) {
         deriveCotangents(surface);
-    else if (readsTangents(frame) && !allStored)
-        deriveTangents(surface);
+    } else if (readsTangents(frame) && !allStored) {
+        surface.tangents =
+            generateTangents(frame, {surface.positions, surface.normals, surface.texcoords, surface.indices});
+        for (glm::vec4& t : surface.tangents)
+            t = tangentAlongV(t);
+    }
     return surface;
 }
 

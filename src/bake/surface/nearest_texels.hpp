@@ -1,8 +1,12 @@
 // Finds, for each texel that shows nothing, the nearest one that shows something.
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <span>
+
+#include <glm/vec2.hpp>
 
 namespace cotan {
 
@@ -14,14 +18,48 @@ enum class AskFirst {
     beside, // beside, then the corner, above, the other corner
 };
 
+// The square of the distance of two texels of a picture, in texels.
+inline std::int64_t distance2(std::uint32_t a, std::uint32_t b, int width)
+{
+    const auto w = std::uint32_t(width);
+    const std::int64_t dx = std::int64_t(a % w) - std::int64_t(b % w), dy = std::int64_t(a / w) - std::int64_t(b / w);
+    return dx * dx + dy * dy;
+}
+
 // owner: row by row, width * height of them, fewer than kNoTexel: its own number for a texel that shows something,
 // kNoTexel for others. Afterwards every texel has the number of one nearby that shows something. Two sweeps, down and
 // up, pass the nearest on to the eight neighbours (P.-E. Danielsson, Euclidean distance mapping, 1980); `first` is for
 // the sweep down, the other asks the opposite neighbours in that order. Off by a fraction of a texel at times. The
 // image's borders do not join. All stay kNoTexel where nothing is shown.
-void spreadNearest(std::span<std::uint32_t> owner, int width, int height, AskFirst first);
-
-// The square of the distance of two texels of a picture, in texels.
-std::int64_t distance2(std::uint32_t a, std::uint32_t b, int width);
+inline void spreadNearest(std::span<std::uint32_t> owner, int width, int height, AskFirst first)
+{
+    using Neighbours = std::array<glm::ivec2, 4>; // those that the sweep down has been at
+    const Neighbours neighbours = first == AskFirst::above ? Neighbours{{{0, -1}, {-1, -1}, {1, -1}, {-1, 0}}}
+                                                           : Neighbours{{{-1, 0}, {-1, -1}, {0, -1}, {1, -1}}};
+    const auto index = [&](int x, int y) { return std::size_t(y) * std::size_t(width) + std::size_t(x); };
+    const auto ask = [&](int x, int y, int fromX, int fromY) {
+        if (fromX < 0 || fromX >= width || fromY < 0 || fromY >= height)
+            return;
+        const std::uint32_t offered = owner[index(fromX, fromY)], self = std::uint32_t(index(x, y));
+        std::uint32_t& mine = owner[self];
+        if (offered == kNoTexel || offered == mine || mine == self)
+            return;
+        if (mine == kNoTexel || distance2(offered, self, width) < distance2(mine, self, width))
+            mine = offered;
+    };
+    // What the row y learns from its neighbours, and from itself the other way. step: 1 down and right, -1 up and left.
+    const auto row = [&](int y, int step) {
+        const int from = step > 0 ? 0 : width - 1, to = step > 0 ? width : -1;
+        for (int x = from; x != to; x += step)
+            for (const glm::ivec2 d : neighbours)
+                ask(x, y, x + step * d.x, y + step * d.y);
+        for (int x = to - step; x != from - step; x -= step)
+            ask(x, y, x + step, y);
+    };
+    for (int y = 0; y < height; ++y)
+        row(y, 1);
+    for (int y = height - 1; y >= 0; --y)
+        row(y, -1);
+}
 
 } // namespace cotan

@@ -9,7 +9,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
-#include "core/list_by_group.hpp"
+#include "core/groups.hpp"
 
 namespace cotan {
 
@@ -68,18 +68,13 @@ Copies copiesOf(const glm::dvec2 (&uv)[3], double area)
 {
     const glm::dvec3 sides(glm::length(uv[2] - uv[1]), glm::length(uv[0] - uv[2]), glm::length(uv[1] - uv[0]));
     const double around = sides.x + sides.y + sides.z, radius = std::abs(area) / around;
-    Copies copies;
     if (const int step = int((std::numbers::sqrt2 * radius - 2) / (kSpread - 1)); step > 0) {
         const glm::dvec2 centre = (uv[0] * sides.x + uv[1] * sides.y + uv[2] * sides.z) / around;
-        copies.from = glm::ivec2(glm::ceil(centre - radius / std::numbers::sqrt2));
-        copies.count = {kSpread, kSpread};
-        copies.step = step;
-        return copies;
+        return {glm::ivec2(glm::ceil(centre - radius / std::numbers::sqrt2)), {kSpread, kSpread}, step};
     }
-    copies.from = glm::ivec2(glm::floor(glm::min(uv[0], glm::min(uv[1], uv[2]))));
+    const glm::ivec2 from(glm::floor(glm::min(uv[0], glm::min(uv[1], uv[2]))));
     const glm::dvec2 high = glm::max(uv[0], glm::max(uv[1], uv[2]));
-    copies.count = glm::clamp(glm::ivec2(glm::ceil(high)) - copies.from, 1, kMaxCopies);
-    return copies;
+    return {from, glm::clamp(glm::ivec2(glm::ceil(high)) - from, 1, kMaxCopies)};
 }
 
 // The first texel from x to last that may get a place; last + 1 where none may. full: null: all may.

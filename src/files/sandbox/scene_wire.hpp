@@ -78,39 +78,25 @@ template<class W, class T> void exchangeMaterial(W& w, T& m)
     w.array(m.tangentsFor);
 }
 
-template<class W, class T> void exchangeMesh(W& w, T& mesh)
-{
-    exchangeAll(w, mesh.name, mesh.material, mesh.positions, mesh.normals, mesh.tangents, mesh.texcoords[0],
-                mesh.texcoords[1], mesh.colors, mesh.cotangentsU, mesh.cotangentsV, mesh.indices);
-}
-
-template<class W, class T> void exchangeLight(W& w, T& light)
-{
-    w.choice(light.kind, LightKind::spot);
-    exchangeAll(w, light.color, light.intensity, light.position, light.direction, light.range, light.innerCone,
-                light.outerCone);
-}
-
-template<class W, class T> void exchangeCamera(W& w, T& camera)
-{
-    exchangeAll(w, camera.name, camera.orthographic, camera.verticalFieldOfView, camera.verticalExtent, camera.eye,
-                camera.target, camera.up);
-}
-
-template<class W, class T> void exchangeInstance(W& w, T& instance)
-{
-    exchangeAll(w, instance.name, instance.mesh, instance.toWorld);
-}
-
 template<class W, class T> void exchangeScene(W& w, T& scene)
 {
     w.array(scene.name);
     w.list(scene.images, [](W& to, auto& x) { exchangeImage(to, x); });
     w.list(scene.materials, [](W& to, auto& x) { exchangeMaterial(to, x); });
-    w.list(scene.meshes, [](W& to, auto& x) { exchangeMesh(to, x); });
-    w.list(scene.instances, [](W& to, auto& x) { exchangeInstance(to, x); });
-    w.list(scene.lights, [](W& to, auto& x) { exchangeLight(to, x); });
-    w.list(scene.cameras, [](W& to, auto& x) { exchangeCamera(to, x); });
+    w.list(scene.meshes, [](W& to, auto& mesh) {
+        exchangeAll(to, mesh.name, mesh.material, mesh.positions, mesh.normals, mesh.tangents, mesh.texcoords[0],
+                    mesh.texcoords[1], mesh.colors, mesh.cotangentsU, mesh.cotangentsV, mesh.indices);
+    });
+    w.list(scene.instances, [](W& to, auto& x) { exchangeAll(to, x.name, x.mesh, x.toWorld); });
+    w.list(scene.lights, [](W& to, auto& light) {
+        to.choice(light.kind, LightKind::spot);
+        exchangeAll(to, light.color, light.intensity, light.position, light.direction, light.range, light.innerCone,
+                    light.outerCone);
+    });
+    w.list(scene.cameras, [](W& to, auto& camera) {
+        exchangeAll(to, camera.name, camera.orthographic, camera.verticalFieldOfView, camera.verticalExtent, camera.eye,
+                    camera.target, camera.up);
+    });
     w.list(scene.warnings, [](W& to, auto& x) { to.array(x); });
 }
 

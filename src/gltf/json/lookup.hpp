@@ -79,9 +79,8 @@ void takeOffExtension(gltf::Json& root, const std::string& name);
 
 // ---- the geometry as it stands in the world -------------------------------------------------
 
-// For each mesh the linear maps under which nodes show it; of those that differ by rotations, mirroring
-// and uniform scale only one, since all frames go along with these. The identity for a mesh that no node
-// shows. root: as openGltfDocument has checked it.
+// For each mesh the linear maps under which nodes show it; of those that differ by rotations, mirroring and uniform
+// scale only one, since all frames go along with these. The identity for a mesh that no node shows.
 std::vector<std::vector<glm::dmat3>> gltfPlacings(const gltf::Json& root);
 
 // Makes normals unit; those of length 0 stay so. Those that are unit up to rounding keep their bits, which MikkTSpace's

@@ -1,8 +1,9 @@
 #include "pixel.hpp"
 
-#include <algorithm>
 #include <cmath>
+#include <utility>
 
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
 #include "scene/environment_map.hpp"
@@ -26,9 +27,7 @@ glm::vec3 finite(glm::vec3 v)
 // What is written of a radiance.
 glm::vec3 displayed(const View& view, glm::vec3 radiance)
 {
-    glm::vec3 c = finite(radiance * view.exposure);
-    for (int i = 0; i < 3; ++i)
-        c[i] = std::clamp(c[i], 0.0f, kBrightest);
+    const glm::vec3 c = glm::clamp(finite(radiance * view.exposure), 0.0f, kBrightest);
     return view.linearOutput ? c : f32::cotan_tone_of(int(view.toneMapping), c);
 }
 
@@ -106,13 +105,9 @@ Layers layersOf(const PixelInputs& all, const SurfaceInputs& in, int lane, const
     return layers;
 }
 
-// What leaves the surface, and the factors of what is behind it.
-struct Lit {
-    glm::vec3 radiance{0};
-    glm::vec3 through{0};
-};
-
-Lit shadedColor(const PixelInputs& all, const SurfaceInputs& in, glm::vec3 baseColor, int lane)
+// The radiance that leaves the surface, and the factors of what is behind it.
+std::pair<glm::vec3, glm::vec3> shadedColor(const PixelInputs& all, const SurfaceInputs& in, glm::vec3 baseColor,
+                                            int lane)
 {
     if (in.material->unlit)
         return {baseColor, glm::vec3(0)};
@@ -158,23 +153,17 @@ glm::vec3 backdropAlong(const View& view, glm::vec3 ray)
 
 } // namespace
 
-Fragment shade(const PixelInputs& all, const SurfaceInputs& in, int lane)
+std::optional<Fragment> shade(const PixelInputs& all, const SurfaceInputs& in, int lane)
 {
-    Fragment fragment;
     const glm::vec4 base = baseColorOf(in, lane);
     const bool blend = in.material->alphaMode == AlphaMode::blend, shaded = all.view.output == Output::shaded;
-    fragment.discarded = blend && (shaded ? !(base.w > 0) : base.w < 1.0f / 255.0f);
-    if (fragment.discarded)
-        return fragment;
-    if (!shaded) {
-        fragment.value = glm::vec4(finite(dataOutput(all, in, lane)), 1);
-        return fragment;
-    }
-    const Lit lit = shadedColor(all, in, glm::vec3(base), lane);
+    if (blend && (shaded ? !(base.w > 0) : base.w < 1.0f / 255.0f))
+        return std::nullopt;
+    if (!shaded)
+        return Fragment{.value = glm::vec4(finite(dataOutput(all, in, lane)), 1)};
+    const auto [radiance, through] = shadedColor(all, in, glm::vec3(base), lane);
     const float alpha = blend ? f32::cotan_saturate(base.w) : 1;
-    fragment.value = glm::vec4(displayed(all.view, lit.radiance), alpha);
-    fragment.through = (1 - alpha) + finite(lit.through) * alpha;
-    return fragment;
+    return Fragment{glm::vec4(displayed(all.view, radiance), alpha), (1 - alpha) + finite(through) * alpha};
 }
 
 glm::vec4 background(const PixelInputs& all, int x, int y)

@@ -139,10 +139,9 @@ public:
     // Replaces the samples and their reversed depth.
     void write(int x, int y, unsigned samples, glm::vec4 value, const Plane& z);
 
-    // Adds a translucent layer to the samples: nothing that is written later may be behind it. Layers are
-    // composed in `resolve`, by reversed depth; of equally near ones the later is in front.
-    // through: factors of what is behind, by colour.
-    // Throws TooManyLayers over kMaxLayers.
+    // Adds a translucent layer to the samples: nothing that is written later may be behind it. Layers are composed in
+    // `resolve`, by reversed depth; of equally near ones the later is in front. through: factors of what is behind, by
+    // colour. Throws TooManyLayers over kMaxLayers.
     void blend(int x, int y, unsigned samples, glm::vec4 value, glm::vec3 through, const Plane& z);
 
     // How many pixels were written, each as often as it was.

@@ -11,27 +11,24 @@ namespace cotan::reference {
 
 namespace {
 
-// Light of unit colour and intensity that arrives, perpendicular to its direction.
-struct Arrival {
-    glm::vec3 toLight{0};
-    float strength = 0;
-};
-
-Arrival arrivalOf(const PreparedLight& light, const LitPoint& point, const PixelInputs& all)
+// Nothing of a light that does not reach the point.
+std::optional<ArrivingLight> arrivalOf(const PreparedLight& light, const LitPoint& point, const PixelInputs& all)
 {
-    if (light.kind == LightKind::directional)
-        return {light.toLight,
-                !light.castsShadow
-                    ? 1.0f
-                    : lightReaching(all.shadow, point.position, point.normal, light.toLight, all.view.shadowSoftness)};
-    glm::vec3 offset = light.position - point.position;
-    float distance = glm::length(offset);
-    Arrival arrival;
-    arrival.toLight = offset / std::max(distance, 1e-6f);
-    arrival.strength = f32::cotan_light_falloff(distance, light.range);
-    if (light.kind == LightKind::spot)
-        arrival.strength *= f32::cotan_smooth(light.cosOuter, light.cosInner, glm::dot(arrival.toLight, light.toLight));
-    return arrival;
+    glm::vec3 toLight = light.toLight;
+    float strength = 1;
+    if (light.kind != LightKind::directional) {
+        const glm::vec3 offset = light.position - point.position;
+        const float distance = glm::length(offset);
+        toLight = offset / std::max(distance, 1e-6f);
+        strength = f32::cotan_light_falloff(distance, light.range);
+        if (light.kind == LightKind::spot)
+            strength *= f32::cotan_smooth(light.cosOuter, light.cosInner, glm::dot(toLight, light.toLight));
+    } else if (light.castsShadow) {
+        strength = lightReaching(all.shadow, point.position, point.normal, toLight, all.view.shadowSoftness);
+    }
+    if (!(strength > 0))
+        return std::nullopt;
+    return ArrivingLight{toLight, light.radiance * strength};
 }
 
 // By a surface, or by what a tangent-space renderer makes of it.
@@ -70,21 +67,17 @@ template<class Reflect> glm::vec3 meanOfTaps(f32::cotan_surface surface, const L
     return sum / float(point.taps.size());
 }
 
-const glm::vec3 kOutwards(0, 0, 1);
-
-// The transpose of the frame times v, as at a vertex: the inverse only if the frame is orthonormal.
-glm::dvec3 byTranspose(const f32::cotan_frame& f, glm::vec3 v)
-{
-    return {glm::dot(f.t, v), glm::dot(f.b, v), glm::dot(f.n, v)};
-}
-
-// Interpolates what `vectorAt` gives at the corners, carried by their frames.
+// Interpolates what `vectorAt` gives at the corners, carried by the transpose of their frames, as at a vertex: the
+// inverse only if the frame is orthonormal.
 template<class VectorAt> glm::vec3 interpolated(const TangentSpace& space, VectorAt vectorAt)
 {
     glm::dvec3 sum(0);
-    for (std::size_t i = 0; i < 3; ++i)
-        sum += byTranspose(space.corners[i], vectorAt(space.positions[i])) * space.weights[i];
-    return f32::cotan_normalize_or(glm::vec3(sum), kOutwards);
+    for (std::size_t i = 0; i < 3; ++i) {
+        const f32::cotan_frame& f = space.corners[i];
+        const glm::vec3 v = vectorAt(space.positions[i]);
+        sum += glm::dvec3(glm::dot(f.t, v), glm::dot(f.b, v), glm::dot(f.n, v)) * space.weights[i];
+    }
+    return f32::cotan_normalize_or(glm::vec3(sum), glm::vec3(0, 0, 1));
 }
 
 bool invertible(const f32::cotan_frame& f)
@@ -113,11 +106,6 @@ glm::vec3 carried(const TangentSpace& space, const PreparedLight& light, glm::ve
         return f32::cotan_encode(space.pixel, toLight);
     const bool directional = light.kind == LightKind::directional;
     return interpolated(space, [&](glm::vec3 p) { return directional ? toLight : light.position - p; });
-}
-
-bool goesByRays(const View& view, const std::optional<TangentSpace>& tangent)
-{
-    return view.normalMapping != NormalMapping::shading && view.shading == Shading::pbr && !tangent;
 }
 
 } // namespace
@@ -177,23 +165,23 @@ glm::vec3 radianceOf(const PixelInputs& all, const f32::cotan_surface& surface, 
     Layers even = layers; // in tangent space highlights are not stretched
     if (even.gloss)
         even.gloss->anisotropy = 0;
-    const bool rays = goesByRays(view, tangent);
+    const bool rays = view.normalMapping != NormalMapping::shading && view.shading == Shading::pbr && !tangent;
     std::vector<ArrivingLight> arrivals; // of rays
     for (const PreparedLight& light : all.lights) {
-        const Arrival arrival = arrivalOf(light, point, all);
-        if (!(arrival.strength > 0))
+        const std::optional<ArrivingLight> arrival = arrivalOf(light, point, all);
+        if (!arrival)
             continue;
-        const glm::vec3 arriving = light.radiance * arrival.strength;
+        const glm::vec3 toLight = arrival->toLight;
         if (rays)
-            arrivals.push_back({arrival.toLight, arriving});
+            arrivals.push_back(*arrival);
         else
-            radiance += arriving
-                * (tangent ? reflected(tangent->surface, even, carried(*tangent, light, arrival.toLight), view.shading)
+            radiance += arrival->irradiance
+                * (tangent ? reflected(tangent->surface, even, carried(*tangent, light, toLight), view.shading)
                            : meanOfTaps(surface, point, [&](const f32::cotan_surface& s) {
-                                 return reflected(s, layers, arrival.toLight, view.shading);
+                                 return reflected(s, layers, toLight, view.shading);
                              }));
         if (layers.coat)
-            fromCoat += arriving * f32::cotan_reflect_coat(*layers.coat, surface.v, arrival.toLight);
+            fromCoat += arrival->irradiance * f32::cotan_reflect_coat(*layers.coat, surface.v, toLight);
     }
     if (rays)
         radiance += radianceByRays(surface, layers.gloss.value_or(f32::cotan_plain_gloss()), point, view, arrivals);

@@ -23,7 +23,6 @@ constexpr int kLargestSide = 16384;
 
 // Everything that is known before the first pixel is drawn.
 struct Frozen : PixelInputs {
-    const Scene& scene;
     TextureLibrary textures;
     std::vector<Draw> draws;
     TiledTriangles tiled;
@@ -31,16 +30,16 @@ struct Frozen : PixelInputs {
 
 Frozen prepare(const Scene& scene, const View& view)
 {
-    Frozen f{{view, {}, {}, {}}, scene, {}, {}, {}};
+    Frozen f{{view, {}, {}, {}}, {}, {}, {}};
     Ball ball = boundingBall(scene);
     f.projection = cameraProjection(view, ball);
     f.textures = makeTextures(scene, view);
-    f.draws = makeDraws(scene, f.projection.eye, view.frame, view.output == Output::shaded);
+    f.draws = makeDraws(scene, f.textures, f.projection.eye, view.frame, view.output == Output::shaded);
     f.lights = prepareLights(view, f.projection.eye);
     const auto caster = std::ranges::find(f.lights, true, &PreparedLight::castsShadow);
     if (view.output == Output::shaded && caster != f.lights.end())
-        f.shadow = makeShadowMap(scene, view, f.draws, f.textures, -caster->toLight, ball, f.projection.eye);
-    f.tiled = setUpTriangles(scene, f.draws, f.projection, Cull::backFaces);
+        f.shadow = makeShadowMap(view, f.draws, -caster->toLight, ball, f.projection.eye);
+    f.tiled = setUpTriangles(f.draws, f.projection, Cull::backFaces);
     return f;
 }
 
@@ -52,9 +51,8 @@ void drawQuad(const Frozen& f, const RasterTriangle& triangle, const Quad& quad,
               Tile& tile)
 {
     const Draw& draw = f.draws[triangle.draw];
-    const Material& material = f.scene.materials[std::size_t(draw.material)];
-    const MaterialMaps& maps = f.textures.materials[std::size_t(draw.material)];
-    SurfaceInputs in{&f.view, &draw, &material, &maps, &triangle};
+    const Material& material = *draw.material;
+    SurfaceInputs in{&f.view, &draw, &material, draw.maps, &triangle};
     bool blended = material.translucent() && f.view.output == Output::shaded;
     std::optional<QuadPoints> points; // made when the first pixel passes the depth test
     std::array<float, 4> alphas{};    // of a masked material
@@ -73,13 +71,13 @@ void drawQuad(const Frozen& f, const RasterTriangle& triangle, const Quad& quad,
             samples &= samplesOfMask(alphas, lane, material.alphaCutoff, pattern);
         if (!samples)
             continue;
-        Fragment fragment = shade(f, in, lane);
-        if (fragment.discarded)
+        const std::optional<Fragment> fragment = shade(f, in, lane);
+        if (!fragment)
             continue;
         if (blended)
-            tile.blend(x, y, samples, fragment.value, fragment.through, triangle.z);
+            tile.blend(x, y, samples, fragment->value, fragment->through, triangle.z);
         else
-            tile.write(x, y, samples, fragment.value, triangle.z);
+            tile.write(x, y, samples, fragment->value, triangle.z);
     }
 }
 
@@ -89,7 +87,7 @@ void expectOpaque(const Frozen& f, std::span<const std::uint32_t> triangles, con
 {
     for (const std::uint32_t t : triangles) {
         const RasterTriangle& triangle = f.tiled.triangles[t];
-        const Material& material = f.scene.materials[std::size_t(f.draws[triangle.draw].material)];
+        const Material& material = *f.draws[triangle.draw].material;
         if (material.alphaMode != AlphaMode::opaque || material.translucent())
             continue;
         forEachQuad(triangle, area, pattern, [&](const Quad& quad) {
@@ -156,7 +154,7 @@ Result<Image> draw(const Scene& scene, const View& view, const Progress& progres
     const Projection still = frozen.projection;
     for (int sample = 0; sample < kPlaces; ++sample) {
         frozen.projection = movedBy(still, samplePlace(sample));
-        frozen.tiled = setUpTriangles(scene, frozen.draws, frozen.projection, Cull::backFaces);
+        frozen.tiled = setUpTriangles(frozen.draws, frozen.projection, Cull::backFaces);
         const bool drawn = drawTiles(frozen, done, [&](int x, int y, glm::vec4 value) {
             sums[std::size_t(y) * std::size_t(view.width) + std::size_t(x)] += value;
         });
@@ -171,8 +169,7 @@ Result<Image> draw(const Scene& scene, const View& view, const Progress& progres
 
 Status checkSize(const View& view)
 {
-    const auto fits = [](int side) { return side >= 1 && side <= kLargestSide; };
-    if (!fits(view.width) || !fits(view.height))
+    if (std::min(view.width, view.height) < 1 || std::max(view.width, view.height) > kLargestSide)
         return usageError("picture size: expected 1 to 16384 pixels a side, found " + std::to_string(view.width) + "x"
                           + std::to_string(view.height));
     return Done{};

@@ -35,43 +35,27 @@ glm::dvec3 sideways(const Projection& p, double x, double y)
     return p.right * ((x + p.moved.x - 0.5 * p.width) / pixelsX) + p.up * ((y + p.moved.y - 0.5 * p.height) / pixelsY);
 }
 
-// How an instance moves points, vectors and covectors.
-struct Transform {
-    glm::mat3 vectors{1};
-    glm::vec3 translation{0}; // relative to the eye
-    glm::dmat3 covectors{1};  // inverse transpose, up to a positive factor
-    bool mirrored = false;
-};
-
-Transform transformOf(const glm::mat4& toWorld, glm::dvec3 eye)
+// The inverse transpose, up to a positive factor: how an instance moves covectors.
+glm::dmat3 covectorMatrix(const LinearMap<double>& map)
 {
-    Transform t;
-    t.vectors = glm::mat3(toWorld);
-    t.translation = glm::vec3(glm::dvec3(toWorld[3]) - eye);
-    const LinearMap<double> map{glm::dmat3(toWorld)};
     const glm::dmat3 covectors = map.planeMatrix();
-    t.mirrored = map.determinant() < 0;
     double largest = 0;
     for (int column = 0; column < 3; ++column)
         for (int row = 0; row < 3; ++row)
             largest = std::max(largest, std::abs(covectors[column][row]));
-    bool usable = largest > 0 && std::isfinite(largest);
-    t.covectors = usable ? covectors / largest : glm::dmat3(0.0);
-    return t;
+    return largest > 0 && std::isfinite(largest) ? covectors / largest : glm::dmat3(0.0);
 }
 
 glm::vec3 unitOrZero(glm::vec3 v) { return f32::cotan_normalize_or(v, glm::vec3(0)); }
-
-glm::vec3 covector(const Transform& t, glm::vec3 v) { return glm::vec3(t.covectors * glm::dvec3(v)); }
 
 // The one place where stored tangents meet our frames here: a judge does not take the sign from whom it judges
 // (tangentAlongV). glTF has bitangent = cross(n, t) * w, along the map's green direction, which is up the image:
 // against +v, since v runs down. Our b points along +v, hence the minus. A mirroring matrix reverses cross products
 // once more.
-glm::vec4 storedTangent(const Transform& t, glm::vec4 tangent)
+glm::vec4 storedTangent(const Draw& draw, glm::vec4 tangent)
 {
-    float handedness = -tangent.w * (t.mirrored ? -1.0f : 1.0f);
-    return {unitOrZero(t.vectors * glm::vec3(tangent)), handedness};
+    float handedness = -tangent.w * (draw.mirrored ? -1.0f : 1.0f);
+    return {unitOrZero(draw.vectors * glm::vec3(tangent)), handedness};
 }
 
 template<class In, class Out, class Function>
@@ -86,23 +70,25 @@ void transformAll(const std::vector<In>& in, std::size_t count, std::vector<Out>
     });
 }
 
+// Without its material.
 Draw makeDraw(const Mesh& mesh, const glm::mat4& toWorld, glm::dvec3 eye, Frame frame)
 {
-    Transform t = transformOf(toWorld, eye);
+    const LinearMap<double> map{glm::dmat3(toWorld)};
+    const glm::dmat3 covectors = covectorMatrix(map);
+    const glm::vec3 translation(glm::dvec3(toWorld[3]) - eye);
+    const auto covector = [&](glm::vec3 v) { return glm::vec3(covectors * glm::dvec3(v)); };
     std::size_t count = mesh.vertexCount();
     Draw draw;
     draw.mesh = &mesh;
-    draw.material = mesh.material;
-    draw.vectors = t.vectors;
-    draw.mirrored = t.mirrored;
-    transformAll(mesh.positions, count, draw.positions, [&](glm::vec3 p) { return t.vectors * p + t.translation; });
-    transformAll(mesh.normals, count, draw.normals, [&](glm::vec3 n) { return unitOrZero(covector(t, n)); });
+    draw.vectors = glm::mat3(toWorld);
+    draw.mirrored = map.determinant() < 0;
+    transformAll(mesh.positions, count, draw.positions, [&](glm::vec3 p) { return draw.vectors * p + translation; });
+    transformAll(mesh.normals, count, draw.normals, [&](glm::vec3 n) { return unitOrZero(covector(n)); });
     if (readsTangents(frame))
-        transformAll(mesh.tangents, count, draw.tangents, [&](glm::vec4 tangent) { return storedTangent(t, tangent); });
+        transformAll(mesh.tangents, count, draw.tangents, [&](glm::vec4 t) { return storedTangent(draw, t); });
     if (readsCotangents(frame)) {
-        auto asCovector = [&](glm::vec3 v) { return covector(t, v); };
-        transformAll(mesh.cotangentsU, count, draw.cotangentsU, asCovector);
-        transformAll(mesh.cotangentsV, count, draw.cotangentsV, asCovector);
+        transformAll(mesh.cotangentsU, count, draw.cotangentsU, covector);
+        transformAll(mesh.cotangentsV, count, draw.cotangentsV, covector);
     }
     return draw;
 }
@@ -121,10 +107,8 @@ std::vector<Chunk> chunksOf(const std::vector<Draw>& draws)
     std::vector<Chunk> chunks;
     for (std::size_t d = 0; d < draws.size(); ++d) {
         std::size_t count = draws[d].mesh->triangleCount();
-        for (std::size_t first = 0; first < count; first += kChunkTriangles) {
-            std::size_t last = std::min(count, first + kChunkTriangles);
-            chunks.push_back({std::uint32_t(d), first, last, {}});
-        }
+        for (std::size_t first = 0; first < count; first += kChunkTriangles)
+            chunks.push_back({std::uint32_t(d), first, std::min(count, first + kChunkTriangles), {}});
     }
     return chunks;
 }
@@ -180,24 +164,22 @@ void addPieces(const Polygon& polygon, RasterTriangle triangle, const Projection
     }
 }
 
-void setUp(const Scene& scene, const std::vector<Draw>& draws, const Projection& projection, Cull cull, Chunk& chunk)
+void setUp(const std::vector<Draw>& draws, const Projection& projection, Cull cull, Chunk& chunk)
 {
     const Draw& draw = draws[chunk.draw];
     const std::vector<std::uint32_t>& indices = draw.mesh->indices;
-    bool culling = cull == Cull::backFaces && !scene.materials[std::size_t(draw.material)].doubleSided;
+    bool culling = cull == Cull::backFaces && !draw.material->doubleSided;
     for (std::size_t t = chunk.first; t < chunk.last; ++t) {
         RasterTriangle triangle;
         triangle.draw = chunk.draw;
         triangle.vertex = {indices[3 * t], indices[3 * t + 1], indices[3 * t + 2]};
+        if (*std::ranges::max_element(triangle.vertex) >= draw.positions.size())
+            continue;
         std::array<glm::dvec4, 3> corner;
-        bool valid = true;
-        for (std::size_t i = 0; i < 3; ++i) {
-            valid = valid && triangle.vertex[i] < draw.positions.size();
-            if (valid)
-                corner[i] = projection.toRaster * glm::dvec4(draw.positions[triangle.vertex[i]], 1);
-        }
+        for (std::size_t i = 0; i < 3; ++i)
+            corner[i] = projection.toRaster * glm::dvec4(draw.positions[triangle.vertex[i]], 1);
         double orientation = 0;
-        if (!valid || !makePlanes(corner, triangle, orientation))
+        if (!makePlanes(corner, triangle, orientation))
             continue;
         // Front faces run counterclockwise in an upright picture; that is a positive orientation
         // where rows run upward. A mirroring instance does not turn a front into a back.
@@ -304,18 +286,21 @@ glm::dvec3 rayOrigin(const Projection& p, double x, double y)
     return p.orthographic ? sideways(p, x, y) : glm::dvec3(0);
 }
 
-std::vector<Draw> makeDraws(const Scene& scene, glm::dvec3 eye, Frame frame, bool blending)
+std::vector<Draw> makeDraws(const Scene& scene, const TextureLibrary& textures, glm::dvec3 eye, Frame frame,
+                            bool blending)
 {
     std::vector<Draw> draws;
     for (const Instance& instance : scene.instances) {
         const Mesh* mesh = meshPlacedBy(scene, instance);
-        if (mesh && mesh->material >= 0 && std::size_t(mesh->material) < scene.materials.size()
-            && mesh->triangleCount() > 0)
-            draws.push_back(makeDraw(*mesh, instance.toWorld, eye, frame));
+        if (!mesh || mesh->material < 0 || std::size_t(mesh->material) >= scene.materials.size()
+            || mesh->triangleCount() == 0)
+            continue;
+        Draw& draw = draws.emplace_back(makeDraw(*mesh, instance.toWorld, eye, frame));
+        draw.material = &scene.materials[std::size_t(mesh->material)];
+        draw.maps = &textures.materials[std::size_t(mesh->material)];
     }
-    const auto solid = [&](const Draw& d) { return !scene.materials[std::size_t(d.material)].translucent(); };
     if (blending)
-        std::stable_partition(draws.begin(), draws.end(), solid);
+        std::stable_partition(draws.begin(), draws.end(), [](const Draw& d) { return !d.material->translucent(); });
     return draws;
 }
 
@@ -326,12 +311,10 @@ Rectangle TiledTriangles::area(std::size_t tile, int width, int height) const
     return {x, y, std::min(width, x + kTileSize), std::min(height, y + kTileSize)};
 }
 
-TiledTriangles setUpTriangles(const Scene& scene, const std::vector<Draw>& draws, const Projection& projection,
-                              Cull cull)
+TiledTriangles setUpTriangles(const std::vector<Draw>& draws, const Projection& projection, Cull cull)
 {
     std::vector<Chunk> chunks = chunksOf(draws);
-    parallelFor(std::size_t(0), chunks.size(),
-                [&](std::size_t i) { setUp(scene, draws, projection, cull, chunks[i]); });
+    parallelFor(std::size_t(0), chunks.size(), [&](std::size_t i) { setUp(draws, projection, cull, chunks[i]); });
     TiledTriangles tiled;
     for (Chunk& chunk : chunks) {
         tiled.triangles.insert(tiled.triangles.end(), chunk.result.begin(), chunk.result.end());

@@ -12,6 +12,7 @@
 #include "cotan/view.hpp"
 #include "raster.hpp"
 #include "scene/geometry.hpp"
+#include "texture.hpp"
 
 namespace cotan::reference {
 
@@ -54,10 +55,11 @@ glm::vec3 rayDirection(const Projection& projection, double x, double y);
 // Where that ray starts, relative to the eye.
 glm::dvec3 rayOrigin(const Projection& projection, double x, double y);
 
-// One instance of a mesh. Arrays are empty or have one entry a vertex.
+// One instance of a mesh. Arrays are empty or have one entry a vertex. Pointers are into the scene and its textures.
 struct Draw {
     const Mesh* mesh = nullptr;
-    int material = 0;
+    const Material* material = nullptr;
+    const MaterialMaps* maps = nullptr;
     glm::mat3 vectors{1};               // takes differences of mesh positions to the world
     bool mirrored = false;              // the matrix reverses orientation
     std::vector<glm::vec3> positions;   // relative to the eye, world axes
@@ -71,7 +73,8 @@ struct Draw {
 // these can be tested against all that hides them, and keep no depth themselves. Instances without a valid mesh or
 // triangles are left out. frame: only the attributes that it reads are made. blending: false draws translucent
 // materials as opaque ones, in the scene's order.
-std::vector<Draw> makeDraws(const Scene& scene, glm::dvec3 eye, Frame frame, bool blending);
+std::vector<Draw> makeDraws(const Scene& scene, const TextureLibrary& textures, glm::dvec3 eye, Frame frame,
+                            bool blending);
 
 inline constexpr int kTileSize = 32; // pixels, even
 
@@ -91,7 +94,6 @@ enum class Cull {
 
 // Clips, culls, projects and sorts into tiles. Left out: triangles with indices out of range,
 // with non-finite corners, edge-on, or outside the picture.
-TiledTriangles setUpTriangles(const Scene& scene, const std::vector<Draw>& draws, const Projection& projection,
-                              Cull cull);
+TiledTriangles setUpTriangles(const std::vector<Draw>& draws, const Projection& projection, Cull cull);
 
 } // namespace cotan::reference

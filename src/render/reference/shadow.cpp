@@ -28,10 +28,8 @@ double nearestIn(const Plane& z, Rectangle area)
 }
 
 struct ShadowPass {
-    const Scene& scene;
     const View& view;
     const std::vector<Draw>& draws;
-    const TextureLibrary& textures;
     ShadowMap& map;
     std::size_t firstTranslucent; // of the draws
     const TiledTriangles& tiled;
@@ -46,8 +44,7 @@ struct ShadowPass {
     void drawQuad(const RasterTriangle& triangle, const Quad& quad) const
     {
         const Draw& draw = draws[triangle.draw];
-        const Material& material = scene.materials[std::size_t(draw.material)];
-        const MaterialMaps& maps = textures.materials[std::size_t(draw.material)];
+        const Material& material = *draw.material;
         const bool masked = material.alphaMode == AlphaMode::mask, blended = material.alphaMode == AlphaMode::blend;
         QuadPoints points;
         if (masked || blended)
@@ -61,7 +58,7 @@ struct ShadowPass {
             if (!(z > stored))
                 continue;
             const auto alpha = [&] {
-                return baseColorOf({&view, &draw, &material, &maps, &triangle, &points}, lane).w;
+                return baseColorOf({&view, &draw, &material, draw.maps, &triangle, &points}, lane).w;
             };
             if (masked && alpha() < material.alphaCutoff)
                 continue;
@@ -108,7 +105,7 @@ struct ShadowPass {
         const Rectangle area = tiled.area(tile, map.size, map.size);
         std::vector<std::uint32_t> casting;
         for (const std::uint32_t index : tiled.tiles[tile])
-            if (scene.materials[std::size_t(draws[tiled.triangles[index].draw].material)].throwsShadow())
+            if (draws[tiled.triangles[index].draw].material->throwsShadow())
                 casting.push_back(index);
         if (casting.size() < kManyInTile) {
             for (const std::uint32_t index : casting)
@@ -203,8 +200,8 @@ float softLightReaching(const ShadowMap& map, glm::vec3 position, glm::vec3 n, g
 
 } // namespace
 
-ShadowMap makeShadowMap(const Scene& scene, const View& view, const std::vector<Draw>& draws,
-                        const TextureLibrary& textures, glm::vec3 direction, const Ball& ball, glm::dvec3 eye)
+ShadowMap makeShadowMap(const View& view, const std::vector<Draw>& draws, glm::vec3 direction, const Ball& ball,
+                        glm::dvec3 eye)
 {
     ShadowMap map;
     map.size = kShadowTexels;
@@ -212,12 +209,9 @@ ShadowMap makeShadowMap(const Scene& scene, const View& view, const std::vector<
     map.reversedDepth.assign(std::size_t(map.size) * std::size_t(map.size), 0.0f);
     map.texel = float(2 * ball.radius / (map.size - 2));
     map.depthUnit = float(0.5 / (ball.radius * 1.01));
-    const TiledTriangles tiled = setUpTriangles(scene, draws, map.projection, Cull::nothing);
-    const auto translucent = [&](const Draw& draw) {
-        return scene.materials[std::size_t(draw.material)].translucent();
-    };
-    const auto first = std::find_if(draws.begin(), draws.end(), translucent);
-    ShadowPass pass{scene, view, draws, textures, map, std::size_t(first - draws.begin()), tiled};
+    const TiledTriangles tiled = setUpTriangles(draws, map.projection, Cull::nothing);
+    const auto first = std::ranges::find_if(draws, [](const Draw& draw) { return draw.material->translucent(); });
+    ShadowPass pass{view, draws, map, std::size_t(first - draws.begin()), tiled};
     parallelFor(std::size_t(0), tiled.tiles.size(), [&](std::size_t tile) { pass.drawTile(tile); });
     return map;
 }

@@ -1,4 +1,4 @@
-#include "surface.hpp"
+#include "pixel.hpp"
 
 #include <glm/geometric.hpp>
 
@@ -58,20 +58,29 @@ f32::cotan_frame frameOfTriangle(const SurfaceInputs& in, const Texture& texture
                     transformedEdge(texture, uv[v[1]] - uv[v[0]]), transformedEdge(texture, uv[v[2]] - uv[v[0]]));
 }
 
+// The normal without a map, and what frames are made from besides it.
+struct Smooth {
+    glm::vec3 raw{0}; // as interpolated
+    glm::vec3 n{0};   // unit
+    glm::vec3 dpdx{0};
+    glm::vec3 dpdy{0};
+};
+
 // The frames that are made at the vertices. t = b = 0 where the mesh has no uv to make them from.
-f32::cotan_frame frameOfVertices(const SurfaceInputs& in, Frame frame, glm::vec3 n, glm::vec3 rawNormal,
-                                 const std::array<double, 3>& weights)
+f32::cotan_frame frameOfVertices(const SurfaceInputs& in, const Smooth& smooth, int lane)
 {
+    const Frame frame = in.view->frame;
+    const std::array<double, 3>& weights = in.points->weights[std::size_t(lane)];
     const Draw& draw = *in.draw;
     const RasterTriangle& triangle = *in.triangle;
     if (readsCotangents(frame) && !draw.cotangentsU.empty() && !draw.cotangentsV.empty())
-        return evaluateCotangents(frame, n, interpolated(draw.cotangentsU, triangle, weights),
+        return evaluateCotangents(frame, smooth.n, interpolated(draw.cotangentsU, triangle, weights),
                                   interpolated(draw.cotangentsV, triangle, weights));
     if (readsCotangents(frame) || draw.tangents.empty())
-        return {glm::vec3(0), glm::vec3(0), n};
+        return {glm::vec3(0), glm::vec3(0), smooth.n};
     glm::vec4 tangent = interpolated(draw.tangents, triangle, weights);
     // `mikktspace` wants its normal as interpolated.
-    return evaluateTangents(frame, frame == Frame::mikktspace ? rawNormal : n, glm::vec3(tangent), tangent.w);
+    return evaluateTangents(frame, frame == Frame::mikktspace ? smooth.raw : smooth.n, glm::vec3(tangent), tangent.w);
 }
 
 glm::vec3 finiteOrZero(glm::vec3 v) { return f32::cotan_sum_abs(v) <= 1e37f ? v : glm::vec3(0); }
@@ -99,14 +108,6 @@ void interpolateUv(QuadPoints& quad, std::size_t set, std::size_t lane, const Dr
     quad.cornerUv[set][lane] = glm::vec2(relative);
     quad.uv[set][lane] = glm::vec2(corner + relative);
 }
-
-// The normal without a map, and what frames are made from besides it.
-struct Smooth {
-    glm::vec3 raw{0}; // as interpolated
-    glm::vec3 n{0};   // unit
-    glm::vec3 dpdx{0};
-    glm::vec3 dpdy{0};
-};
 
 Smooth smoothOf(const SurfaceInputs& in, int lane, const UvDifferences& uv)
 {
@@ -140,23 +141,17 @@ float summaryOf(const View& view, glm::vec4 texel)
 
 // The view's frame over the uv of a map.
 f32::cotan_frame frameOver(const SurfaceInputs& in, const Texture& map, const Smooth& smooth, const UvDifferences& uv,
-                           const std::array<double, 3>& weights)
+                           int lane)
 {
     const Frame frame = in.view->frame;
     if (info(frame).source == FrameSource::triangle)
         return frameOfTriangle(in, map, smooth.n);
     if (readsVertices(frame))
-        return frameOfVertices(in, frame, smooth.n, smooth.raw, weights);
+        return frameOfVertices(in, smooth, lane);
     return evaluate(frame, smooth.n, smooth.dpdx, smooth.dpdy, uv.dx, uv.dy);
 }
 
 bool sameUv(const Texture& a, const Texture& b) { return setOf(a) == setOf(b) && a.uRow == b.uRow && a.vRow == b.vRow; }
-
-// A place in a pixel, of so many a side, from its middle in pixels.
-glm::vec2 placeOf(int place, int side)
-{
-    return (glm::vec2(float(place % side), float(place / side)) + 0.5f) / float(side) - 0.5f;
-}
 
 // What turns a texel of the material's normal map into numbers.
 f32::cotan_normal_format formatOf(const SurfaceInputs& in)
@@ -170,21 +165,18 @@ f32::cotan_normal_format formatOf(const SurfaceInputs& in)
 QuadPoints interpolate(const Draw& draw, const RasterTriangle& triangle, int x, int y)
 {
     QuadPoints quad;
-    bool uv0 = hasUv(draw, 0), uv1 = hasUv(draw, 1);
     for (std::size_t lane = 0; lane < 4; ++lane) {
         double px = x + int(lane & 1) + 0.5, py = y + int(lane >> 1) + 0.5;
-        double w0 = triangle.weight[0].at(px, py);
-        double w1 = triangle.weight[1].at(px, py);
-        double w2 = triangle.weight[2].at(px, py);
-        double w = 1 / (w0 + w1 + w2);
+        double w0 = triangle.weight[0].at(px, py), w1 = triangle.weight[1].at(px, py);
+        double w2 = triangle.weight[2].at(px, py), w = 1 / (w0 + w1 + w2);
         std::array<double, 3>& weights = quad.weights[lane];
         weights = {w0 * w, w1 * w, w2 * w};
         quad.position[lane] = interpolated(draw.positions, triangle, weights);
-        if (uv0)
-            interpolateUv(quad, 0, lane, draw, triangle);
-        if (uv1)
-            interpolateUv(quad, 1, lane, draw, triangle);
     }
+    for (std::size_t set = 0; set < 2; ++set)
+        if (hasUv(draw, set))
+            for (std::size_t lane = 0; lane < 4; ++lane)
+                interpolateUv(quad, set, lane, draw, triangle);
     return quad;
 }
 
@@ -224,7 +216,7 @@ SurfaceNormal normalOf(const SurfaceInputs& in, int lane)
     UvDifferences uv = uvOf(in, material.normalMap, lane);
     const Smooth smooth = smoothOf(in, lane, uv);
     const glm::vec3 n = smooth.n;
-    const f32::cotan_frame frame = frameOver(in, material.normalMap, smooth, uv, in.points->weights[std::size_t(lane)]);
+    const f32::cotan_frame frame = frameOver(in, material.normalMap, smooth, uv, lane);
 
     SurfaceNormal result;
     result.interpolated = result.finished = n;
@@ -260,7 +252,8 @@ std::vector<LitTap> tapsOf(const SurfaceInputs& in, int lane, const SurfaceNorma
     const float share = 1 / float(side), turn = normal.turn * share * share;
     const f32::cotan_normal_format format = formatOf(in);
     for (int i = 0; i < side * side; ++i) {
-        const glm::vec2 at = placeOf(i, side);
+        // From the middle of the pixel, in pixels.
+        const glm::vec2 at = (glm::vec2(float(i % side), float(i / side)) + 0.5f) / float(side) - 0.5f;
         const UvDifferences part{uv.uv + uv.dx * at.x + uv.dy * at.y, uv.dx * share, uv.dy * share};
         const glm::vec4 texel = sample(*in.maps->normal, map.sampler, part, in.view->pointSampled);
         const glm::vec3 m = f32::cotan_decode(glm::vec3(texel), format);
@@ -285,7 +278,7 @@ CoatNormal coatNormalOf(const SurfaceInputs& in, int lane, const SurfaceNormal& 
             // What the vertices hold belongs to the uv of the surface beneath.
             frame = readsCotangents(in.view->frame)
                 ? evaluate(Frame::cotangent, smooth.n, smooth.dpdx, smooth.dpdy, uv.dx, uv.dy)
-                : frameOver(in, map, smooth, uv, in.points->weights[std::size_t(lane)]);
+                : frameOver(in, map, smooth, uv, lane);
         }
         const glm::vec4 texel = sample(*chain, map.sampler, uv, in.view->pointSampled);
         const auto format = toFormat<f32::cotan_normal_format>(in.material->coat.normalFormat, chain->image->type,

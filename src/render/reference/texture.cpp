@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
+#include <tuple>
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -16,24 +18,16 @@ namespace cotan::reference {
 
 namespace {
 
-// sRGB to linear for every stored value of that many bits.
-template<std::size_t Count> const std::array<float, Count>& linearTable()
-{
-    static const std::array<float, Count> table = [] {
-        std::array<float, Count> t{};
-        for (std::size_t i = 0; i < Count; ++i)
-            t[i] = f32::cotan_srgb_to_linear(float(i) / float(Count - 1));
-        return t;
-    }();
-    return table;
-}
-
-template<class Word> glm::vec4 srgbTexel(const Word* words, std::size_t at)
+template<class Word> glm::vec4 srgbTexel(const Word* w)
 {
     constexpr std::size_t kCount = std::size_t(1) << (8 * sizeof(Word));
     constexpr float kScale = 1.0f / float(kCount - 1);
-    const Word* w = words + at;
-    const std::array<float, kCount>& linear = linearTable<kCount>();
+    static const std::array<float, kCount> linear = [] { // of every stored value
+        std::array<float, kCount> t{};
+        for (std::size_t i = 0; i < kCount; ++i)
+            t[i] = f32::cotan_srgb_to_linear(float(i) / float(kCount - 1));
+        return t;
+    }();
     return {linear[w[0]], linear[w[1]], linear[w[2]], float(w[3]) * kScale};
 }
 
@@ -72,7 +66,7 @@ glm::vec4 texel(const MipChain& chain, int level, int x, int y)
         return level == 0 && chain.content == Content::normal ? glm::vec4(glm::vec3(stored), 1) : stored;
     }
     const std::size_t at = 4 * (std::size_t(y) * std::size_t(image.width) + std::size_t(x));
-    return image.type == PixelType::unorm8 ? srgbTexel(image.bytes8(), at) : srgbTexel(image.words(), at);
+    return image.type == PixelType::unorm8 ? srgbTexel(image.bytes8() + at) : srgbTexel(image.words() + at);
 }
 
 // What is averaged: for normal maps the unit vector and 1, or zeros where there is none, otherwise the linear texel.
@@ -142,8 +136,7 @@ void halve(const MipChain& chain, const f32::cotan_normal_format& format, int wi
 // Builds the chain of a usable image. Colours are averaged as linear light; normal maps as decoded vectors, which are
 // normalised before they are stored again, with their length in the fourth channel: 1 where all agree; everything else
 // as numbers. Every texel of a level is the average of the area that it covers in the one before, also where a size is
-// odd.
-// withLevels: false keeps level 0 only.
+// odd. withLevels: false keeps level 0 only.
 MipChain makeMipChain(const Image& image, Content content, Convention stored, bool withLevels)
 {
     MipChain chain{&image, content, {}};
@@ -155,13 +148,13 @@ MipChain makeMipChain(const Image& image, Content content, Convention stored, bo
     int width = image.width, height = image.height;
     while (width > 1 || height > 1) {
         Image target = makeImage(std::max(1, width / 2), std::max(1, height / 2), image.type, image.name);
-        if (before.empty()) {
-            auto source = [&](int x, int y) { return toAverage(texel(chain, 0, x, y), content, format); };
+        const auto halveFrom = [&](const auto& source) {
             halve(chain, format, width, height, source, target, averages);
-        } else {
-            auto source = [&](int x, int y) { return before[std::size_t(y) * std::size_t(width) + std::size_t(x)]; };
-            halve(chain, format, width, height, source, target, averages);
-        }
+        };
+        if (before.empty())
+            halveFrom([&](int x, int y) { return toAverage(texel(chain, 0, x, y), content, format); });
+        else
+            halveFrom([&](int x, int y) { return before[std::size_t(y) * std::size_t(width) + std::size_t(x)]; });
         std::swap(before, averages);
         width = target.width;
         height = target.height;
@@ -226,23 +219,6 @@ Footprint footprintOf(const MipChain& chain, const Sampler& s, const UvDifferenc
     return f;
 }
 
-const MipChain* chainOf(TextureLibrary& library, const Scene& scene, const Texture& texture, Content content,
-                        Convention format, bool withLevels, float apart)
-{
-    if (!texture.present() || std::size_t(texture.image) >= scene.images.size())
-        return nullptr;
-    const Image& image = scene.images[std::size_t(texture.image)];
-    if (!hasPixels(image))
-        return nullptr;
-    const MipChain*& known = library.made[{texture.image, content, format.expansion, format.channels}];
-    if (!known) {
-        library.chains.push_back(makeMipChain(image, content, format, withLevels));
-        library.chains.back().apart = apart;
-        known = &library.chains.back();
-    }
-    return known;
-}
-
 } // namespace
 
 glm::vec4 sample(const MipChain& chain, const Sampler& s, const UvDifferences& at, bool pointSampled)
@@ -262,12 +238,24 @@ glm::vec4 sample(const MipChain& chain, const Sampler& s, const UvDifferences& a
 TextureLibrary makeTextures(const Scene& scene, const View& view)
 {
     TextureLibrary library;
-    bool levels = !view.pointSampled, shaded = view.output == Output::shaded;
+    const bool shaded = view.output == Output::shaded;
     const float apart = shaded && view.samples > kMaxSharedSamples ? kPlacesApart : 1;
+    std::map<std::tuple<int, Content, Expansion, Channels>, const MipChain*> made;
+    const auto get = [&](const Texture& texture, Content content, Convention format = {}) -> const MipChain* {
+        if (!texture.present() || std::size_t(texture.image) >= scene.images.size())
+            return nullptr;
+        const Image& image = scene.images[std::size_t(texture.image)];
+        if (!hasPixels(image))
+            return nullptr;
+        const MipChain*& known = made[{texture.image, content, format.expansion, format.channels}];
+        if (!known) {
+            library.chains.push_back(makeMipChain(image, content, format, /*withLevels*/ !view.pointSampled));
+            library.chains.back().apart = apart;
+            known = &library.chains.back();
+        }
+        return known;
+    };
     for (const Material& m : scene.materials) {
-        auto get = [&](const Texture& texture, Content content, Convention format = {}) {
-            return chainOf(library, scene, texture, content, format, levels, apart);
-        };
         MaterialMaps maps;
         if (view.normalMaps)
             maps.normal = get(m.normalMap, Content::normal, m.normalFormat);

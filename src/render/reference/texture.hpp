@@ -2,8 +2,6 @@
 #pragma once
 
 #include <deque>
-#include <map>
-#include <tuple>
 #include <vector>
 
 #include <glm/vec2.hpp>
@@ -38,10 +36,9 @@ struct UvDifferences {
     glm::vec2 dy{0};
 };
 
-// The texel value there: wrapped, filtered, from the level that the differences ask for
-// (OpenGL 4.6, section 8.14); stretched footprints are read with up to eight probes along their
-// longer axis. Coordinates that are not finite are taken as 0.
-// pointSampled: the nearest texel of level 0 instead, whatever the sampler says.
+// The texel value there: wrapped, filtered, from the level that the differences ask for (OpenGL 4.6, section 8.14);
+// stretched footprints are read with up to eight probes along their longer axis. Coordinates that are not finite are
+// taken as 0. pointSampled: the nearest texel of level 0 instead, whatever the sampler says.
 glm::vec4 sample(const MipChain& chain, const Sampler& sampler, const UvDifferences& at, bool pointSampled);
 
 // The chains of one material; null where the material has no such map or its image is unusable.
@@ -66,9 +63,6 @@ struct MaterialMaps {
 struct TextureLibrary {
     std::vector<MaterialMaps> materials;
     std::deque<MipChain> chains; // a deque, since the materials point into it
-
-    // The chain of every (image, content, expansion, channels) made so far.
-    std::map<std::tuple<int, Content, Expansion, Channels>, const MipChain*> made;
 };
 
 // Makes the chains that the view reads: all for shaded pictures, otherwise normal maps and the

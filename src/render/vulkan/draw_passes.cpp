@@ -2,18 +2,15 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstring>
 
 #include "cotan/vector.hpp"
-#include "scene/environment_map.hpp"
 #include "scene/sample_places.hpp"
 
 namespace cotan {
 
 namespace {
-
-using Stage = vk::PipelineStageFlagBits2;
-using Access = vk::AccessFlagBits2;
 
 glm::uvec2 split(vk::DeviceAddress address)
 {
@@ -105,7 +102,7 @@ PictureKeys keysOf(const View& view, const Targets& targets)
 CommandRecorder::CommandRecorder(const Device& device, const Layouts& layouts)
     : device_(&device), layouts_(&layouts), pipelines_(device, layouts), commands_(device), memory_(device)
 {
-    viewBuffer_ = makeHostBuffer(device, memory_, sizeof(gpu::CotanView), vk::BufferUsageFlagBits::eUniformBuffer);
+    viewBuffer_ = makeHostBuffer(memory_, sizeof(gpu::CotanView), vk::BufferUsageFlagBits::eUniformBuffer);
     depthSampler_ = vk::raii::Sampler(device.device, vk::SamplerCreateInfo());
     vk::SamplerCreateInfo sampler;
     sampler.magFilter = sampler.minFilter = vk::Filter::eLinear;
@@ -123,8 +120,8 @@ CommandRecorder::CommandRecorder(const Device& device, const Layouts& layouts)
     composeSet_ = allocateSet(device, pool_, layouts.picture);
 }
 
-CommandRecorder::DrawLists CommandRecorder::makeLists(const GpuScene& scene, const View& view,
-                                                      const CameraAxes& axes) const
+CommandRecorder::DrawLists CommandRecorder::makeLists(const GpuScene& scene, const View& view, const CameraAxes& axes,
+                                                      const gpu::CotanView& constants)
 {
     DrawLists lists;
     for (const GpuInstance& instance : scene.instances) {
@@ -139,9 +136,14 @@ CommandRecorder::DrawLists CommandRecorder::makeLists(const GpuScene& scene, con
         addMesh(item.constants, buffer.address, *item.mesh);
         // A mirroring matrix and a raster whose rows run upward each turn the winding round.
         item.clockwise = (item.constants.normalX.w < 0) != view.rowsUpward;
-        item.distance =
-            eyeDistance(instance.toWorld, item.mesh->box.empty() ? glm::vec3(0) : item.mesh->box.centre(), axes);
+        const Bounds& box = item.mesh->box;
+        const glm::dvec4 centre(box.empty() ? glm::vec3(0) : box.centre(), 1);
+        const double distance = glm::length(glm::dvec3(glm::dmat4(instance.toWorld) * centre) - axes.eye);
+        item.distance = std::isfinite(distance) ? distance : 0;
+        const PixelArea area = areaOf(constants, item.constants, box, view.width, view.height);
+        lists.area = around(lists.area, area);
         if (item.material->translucent) {
+            lists.translucentArea = around(lists.translucentArea, area);
             item.constants.order = static_cast<std::uint32_t>(lists.translucent.size());
             lists.translucent.push_back(item);
             if (item.material->throwsShadow)
@@ -164,7 +166,7 @@ void CommandRecorder::prepare(const View& view, const CameraAxes& axes, const gp
     if (lightBuffer_.size < size) {
         lightBuffer_ = {};
         lightMemory_ = std::make_unique<Memory>(*device_);
-        lightBuffer_ = makeHostBuffer(*device_, *lightMemory_, size, vk::BufferUsageFlagBits::eStorageBuffer);
+        lightBuffer_ = makeHostBuffer(*lightMemory_, size, vk::BufferUsageFlagBits::eStorageBuffer);
     }
     std::memcpy(lightBuffer_.mapped, lights.data(), size);
     prepareShadowMap(view.output == Output::shaded && castsShadow(view));
@@ -184,34 +186,30 @@ void CommandRecorder::prepare(const View& view, const CameraAxes& axes, const gp
 // driver (22.3) does.
 void CommandRecorder::writePictureSet(bool layered)
 {
-    const vk::DescriptorBufferInfo view(*viewBuffer_.buffer, 0, VK_WHOLE_SIZE);
-    const vk::DescriptorBufferInfo lights(*lightBuffer_.buffer, 0, VK_WHOLE_SIZE);
-    const vk::DescriptorImageInfo shadow(*shadowSampler_, *shadowMap_.view, vk::ImageLayout::eShaderReadOnlyOptimal);
-    const vk::DescriptorBufferInfo lists(layered ? *layers_->lists.buffer : lights.buffer, 0, VK_WHOLE_SIZE);
-    const vk::DescriptorBufferInfo layers(layered ? *layers_->layers.buffer : lights.buffer, 0, VK_WHOLE_SIZE);
+    constexpr auto kReadOnly = vk::ImageLayout::eShaderReadOnlyOptimal;
+    const auto whole = [](const Buffer& buffer) { return vk::DescriptorBufferInfo(*buffer.buffer, 0, VK_WHOLE_SIZE); };
+    const vk::DescriptorBufferInfo view = whole(viewBuffer_), lights = whole(lightBuffer_);
+    const vk::DescriptorBufferInfo lists = layered ? whole(layers_->lists) : lights;
+    const vk::DescriptorBufferInfo layers = layered ? whole(layers_->layers) : lights;
+    const vk::DescriptorImageInfo shadow(*shadowSampler_, *shadowMap_.view, kReadOnly);
+    const vk::DescriptorImageInfo found(*depthSampler_, *shadowMap_.view, kReadOnly);
     const vk::DescriptorImageInfo depth(*depthSampler_, targets_->depthView(),
                                         vk::ImageLayout::eDepthStencilReadOnlyOptimal);
-    const vk::DescriptorImageInfo samples(*depthSampler_, targets_->colorView(),
-                                          vk::ImageLayout::eShaderReadOnlyOptimal);
-    const vk::DescriptorImageInfo found(*depthSampler_, *shadowMap_.view, vk::ImageLayout::eShaderReadOnlyOptimal);
+    const vk::DescriptorImageInfo samples(*depthSampler_, targets_->colorView(), kReadOnly);
     const auto held = [&](const HeldPicture& picture) {
-        return picture.owner
-            ? vk::DescriptorImageInfo(*pictureSampler_, *picture.texture.view, vk::ImageLayout::eShaderReadOnlyOptimal)
-            : shadow;
+        return picture.owner ? vk::DescriptorImageInfo(*pictureSampler_, *picture.texture.view, kReadOnly) : shadow;
     };
     const vk::DescriptorImageInfo environment = held(environment_), ground = held(ground_);
-    using T = vk::DescriptorType;
     const auto write = [&](vk::DescriptorSet set, const vk::DescriptorImageInfo& depths,
                            const vk::DescriptorImageInfo& around) {
-        device_->device.updateDescriptorSets({vk::WriteDescriptorSet(set, 0, 0, T::eUniformBuffer, {}, view),
-                                              vk::WriteDescriptorSet(set, 1, 0, T::eStorageBuffer, {}, lights),
-                                              vk::WriteDescriptorSet(set, 2, 0, T::eCombinedImageSampler, depths),
-                                              vk::WriteDescriptorSet(set, 3, 0, T::eStorageBuffer, {}, lists),
-                                              vk::WriteDescriptorSet(set, 4, 0, T::eStorageBuffer, {}, layers),
-                                              vk::WriteDescriptorSet(set, 5, 0, T::eCombinedImageSampler, around),
-                                              vk::WriteDescriptorSet(set, 6, 0, T::eCombinedImageSampler, found),
-                                              vk::WriteDescriptorSet(set, 7, 0, T::eCombinedImageSampler, ground)},
-                                             {});
+        using W = vk::WriteDescriptorSet;
+        using T = vk::DescriptorType;
+        device_->device.updateDescriptorSets(
+            {W(set, 0, 0, T::eUniformBuffer, {}, view), W(set, 1, 0, T::eStorageBuffer, {}, lights),
+             W(set, 2, 0, T::eCombinedImageSampler, depths), W(set, 3, 0, T::eStorageBuffer, {}, lists),
+             W(set, 4, 0, T::eStorageBuffer, {}, layers), W(set, 5, 0, T::eCombinedImageSampler, around),
+             W(set, 6, 0, T::eCombinedImageSampler, found), W(set, 7, 0, T::eCombinedImageSampler, ground)},
+            {});
     };
     write(pictureSet_, shadow, environment);
     write(composeSet_, layered && targets_->multisampled() ? depth : shadow,
@@ -300,7 +298,7 @@ void CommandRecorder::prepareShadowMap(bool needed)
     shadowDrawn_.reset();
     shadowMemory_ = std::make_unique<Memory>(*device_);
     shadowMap_ =
-        makeTexture(*device_, *shadowMemory_,
+        makeTexture(*shadowMemory_,
                     {.format = vk::Format::eD32Sfloat,
                      .extent = {side, side},
                      .usage = vk::ImageUsageFlagBits::eDepthStencilAttachment | vk::ImageUsageFlagBits::eSampled,
@@ -314,15 +312,10 @@ void CommandRecorder::recordShadow(const vk::raii::CommandBuffer& commands, cons
     if (shadowDrawn_ == shown)
         return;
     constexpr auto kDepth = vk::ImageAspectFlagBits::eDepth;
-    const ImageUse drawnInto{vk::ImageLayout::eDepthAttachmentOptimal,
-                             Stage::eEarlyFragmentTests | Stage::eLateFragmentTests,
-                             Access::eDepthStencilAttachmentRead | Access::eDepthStencilAttachmentWrite};
     const bool draws = shadowMap_.extent.width > 1;
-    shadowDrawn_.reset();
-    if (draws)
-        shadowDrawn_ = shown;
+    shadowDrawn_ = draws ? std::optional(shown) : std::nullopt;
     transition(commands, *shadowMap_.image, kDepth, {vk::ImageLayout::eUndefined, Stage::eFragmentShader, {}},
-               drawnInto);
+               kDepthDrawn);
     if (draws) {
         const vk::RenderingAttachmentInfo depth(*shadowMap_.view, vk::ImageLayout::eDepthAttachmentOptimal, {}, {}, {},
                                                 vk::AttachmentLoadOp::eClear, vk::AttachmentStoreOp::eStore,
@@ -336,7 +329,7 @@ void CommandRecorder::recordShadow(const vk::raii::CommandBuffer& commands, cons
         drawItems(commands, lists.veils, {.pass = Pass::shadowMask});
         commands.endRendering();
     }
-    transition(commands, *shadowMap_.image, kDepth, drawnInto, kSampled);
+    transition(commands, *shadowMap_.image, kDepth, kDepthDrawn, kSampled);
 }
 
 // Everything that writes depth, and the background.

@@ -4,14 +4,11 @@
 #include <string>
 
 #include "draw_passes.hpp"
-#include "gpu_structs.hpp"
 
 namespace cotan {
 
 namespace {
 
-using Stage = vk::PipelineStageFlagBits2;
-using Access = vk::AccessFlagBits2;
 using Usage = vk::BufferUsageFlagBits;
 
 constexpr vk::DeviceSize kLayerBytes = vk::DeviceSize(128) << 20; // what every device can bind
@@ -29,10 +26,9 @@ void barrier(const vk::raii::CommandBuffer& commands, vk::PipelineStageFlags2 be
 
 LayerLists::LayerLists(const Device& device, std::uint32_t pictureWidth) : memory(device), width(pictureWidth)
 {
-    lists =
-        makeDeviceBuffer(device, memory, kListBytes, Usage::eStorageBuffer | Usage::eTransferDst | Usage::eTransferSrc);
-    layers = makeDeviceBuffer(device, memory, kLayerBytes, Usage::eStorageBuffer);
-    hostCount = makeHostBuffer(device, memory, sizeof(std::uint32_t), Usage::eTransferDst, /*readBack*/ true);
+    lists = makeDeviceBuffer(memory, kListBytes, Usage::eStorageBuffer | Usage::eTransferDst | Usage::eTransferSrc);
+    layers = makeDeviceBuffer(memory, kLayerBytes, Usage::eStorageBuffer);
+    hostCount = makeHostBuffer(memory, sizeof(std::uint32_t), Usage::eTransferDst, /*readBack*/ true);
 }
 
 void LayerLists::clear(const vk::raii::CommandBuffer& commands, std::uint32_t top, std::uint32_t rows) const

@@ -7,23 +7,21 @@ namespace cotan {
 
 namespace {
 
-using Stage = vk::PipelineStageFlagBits2;
-using Access = vk::AccessFlagBits2;
-
 constexpr vk::DeviceSize kBlockSize = vk::DeviceSize(32) << 20;
 
-Buffer makeBuffer(const Device& device, Memory& memory, vk::DeviceSize size, vk::BufferUsageFlags usage,
-                  vk::MemoryPropertyFlags needed, vk::MemoryPropertyFlags wanted)
+Buffer makeBuffer(Memory& memory, vk::DeviceSize size, vk::BufferUsageFlags usage, vk::MemoryPropertyFlags needed,
+                  vk::MemoryPropertyFlags wanted)
 {
+    const vk::raii::Device& device = memory.device().device;
     Buffer b;
     b.size = std::max<vk::DeviceSize>(size, 4);
-    b.buffer = vk::raii::Buffer(device.device, vk::BufferCreateInfo({}, b.size, usage));
+    b.buffer = vk::raii::Buffer(device, vk::BufferCreateInfo({}, b.size, usage));
     const Memory::Piece piece = memory.allocate(b.buffer.getMemoryRequirements(), needed, wanted);
     b.buffer.bindMemory(piece.memory, piece.offset);
     if (needed & vk::MemoryPropertyFlagBits::eHostVisible)
         b.mapped = piece.mapped;
     if (usage & vk::BufferUsageFlagBits::eShaderDeviceAddress)
-        b.address = device.device.getBufferAddress({*b.buffer});
+        b.address = device.getBufferAddress({*b.buffer});
     return b;
 }
 
@@ -70,30 +68,30 @@ Memory::Piece Memory::allocate(const vk::MemoryRequirements& requirements, vk::M
     return {*block->memory, offset, block->mapped ? block->mapped + offset : nullptr};
 }
 
-Buffer makeDeviceBuffer(const Device& device, Memory& memory, vk::DeviceSize size, vk::BufferUsageFlags usage)
+Buffer makeDeviceBuffer(Memory& memory, vk::DeviceSize size, vk::BufferUsageFlags usage)
 {
-    return makeBuffer(device, memory, size, usage, {}, vk::MemoryPropertyFlagBits::eDeviceLocal);
+    return makeBuffer(memory, size, usage, {}, vk::MemoryPropertyFlagBits::eDeviceLocal);
 }
 
-Buffer makeHostBuffer(const Device& device, Memory& memory, vk::DeviceSize size, vk::BufferUsageFlags usage,
-                      bool readBack)
+Buffer makeHostBuffer(Memory& memory, vk::DeviceSize size, vk::BufferUsageFlags usage, bool readBack)
 {
-    return makeBuffer(device, memory, size, usage,
+    return makeBuffer(memory, size, usage,
                       vk::MemoryPropertyFlagBits::eHostVisible | vk::MemoryPropertyFlagBits::eHostCoherent,
                       readBack ? vk::MemoryPropertyFlagBits::eHostCached : vk::MemoryPropertyFlags());
 }
 
-Texture2D makeTexture(const Device& device, Memory& memory, const TextureInfo& info)
+Texture2D makeTexture(Memory& memory, const TextureInfo& info)
 {
+    const vk::raii::Device& device = memory.device().device;
     Texture2D t{.extent = info.extent, .levels = info.levels};
-    t.image = vk::raii::Image(device.device,
+    t.image = vk::raii::Image(device,
                               vk::ImageCreateInfo({}, vk::ImageType::e2D, info.format, vk::Extent3D(info.extent, 1),
                                                   info.levels, 1, info.samples, vk::ImageTiling::eOptimal, info.usage));
     const Memory::Piece piece =
         memory.allocate(t.image.getMemoryRequirements(), {}, vk::MemoryPropertyFlagBits::eDeviceLocal);
     t.image.bindMemory(piece.memory, piece.offset);
     const vk::ImageSubresourceRange range(info.aspect, 0, info.levels, 0, 1);
-    t.view = vk::raii::ImageView(device.device,
+    t.view = vk::raii::ImageView(device,
                                  vk::ImageViewCreateInfo({}, *t.image, vk::ImageViewType::e2D, info.format, {}, range));
     return t;
 }
@@ -134,7 +132,7 @@ void transition(const vk::raii::CommandBuffer& commands, vk::Image image, vk::Im
 Uploader::Uploader(const Device& device, vk::DeviceSize capacity) : memory_(device), commands_(device)
 {
     const vk::DeviceSize widest = vk::DeviceSize(device.limits.maxImageDimension2D) * 16;
-    staging_ = makeHostBuffer(device, memory_, std::max(capacity, widest), vk::BufferUsageFlagBits::eTransferSrc);
+    staging_ = makeHostBuffer(memory_, std::max(capacity, widest), vk::BufferUsageFlagBits::eTransferSrc);
 }
 
 const vk::raii::CommandBuffer& Uploader::recording()

@@ -9,6 +9,9 @@
 
 namespace cotan {
 
+using Stage = vk::PipelineStageFlagBits2;
+using Access = vk::AccessFlagBits2;
+
 // The next multiple.
 inline vk::DeviceSize aligned(vk::DeviceSize value, vk::DeviceSize alignment)
 {
@@ -20,14 +23,15 @@ class Memory {
 public:
     explicit Memory(const Device& device) : device_(&device) {}
 
+    const Device& device() const { return *device_; }
+
     struct Piece {
         vk::DeviceMemory memory;
         vk::DeviceSize offset = 0;
         std::byte* mapped = nullptr; // where the memory is host visible
     };
 
-    // Throws vk::SystemError where there is no memory left.
-    // wanted: tried first; needed: must be there.
+    // Throws vk::SystemError where there is no memory left. wanted: tried first; needed: must be there.
     Piece allocate(const vk::MemoryRequirements& requirements, vk::MemoryPropertyFlags needed,
                    vk::MemoryPropertyFlags wanted = {});
 
@@ -61,10 +65,9 @@ struct Texture2D {
     std::uint32_t levels = 1;
 };
 
-Buffer makeDeviceBuffer(const Device& device, Memory& memory, vk::DeviceSize size, vk::BufferUsageFlags usage);
+Buffer makeDeviceBuffer(Memory& memory, vk::DeviceSize size, vk::BufferUsageFlags usage);
 // Host visible and coherent, mapped. readBack: prefer cached memory.
-Buffer makeHostBuffer(const Device& device, Memory& memory, vk::DeviceSize size, vk::BufferUsageFlags usage,
-                      bool readBack = false);
+Buffer makeHostBuffer(Memory& memory, vk::DeviceSize size, vk::BufferUsageFlags usage, bool readBack = false);
 
 struct TextureInfo {
     vk::Format format = vk::Format::eR8G8B8A8Unorm;
@@ -74,7 +77,7 @@ struct TextureInfo {
     vk::ImageUsageFlags usage;
     vk::ImageAspectFlags aspect = vk::ImageAspectFlagBits::eColor;
 };
-Texture2D makeTexture(const Device& device, Memory& memory, const TextureInfo& info);
+Texture2D makeTexture(Memory& memory, const TextureInfo& info);
 
 // A command buffer that is recorded, submitted and waited for; then it can be recorded again.
 class Commands {
@@ -96,8 +99,11 @@ struct ImageUse {
     vk::PipelineStageFlags2 stages;
     vk::AccessFlags2 access;
 };
-inline constexpr ImageUse kSampled{vk::ImageLayout::eShaderReadOnlyOptimal, vk::PipelineStageFlagBits2::eFragmentShader,
-                                   vk::AccessFlagBits2::eShaderSampledRead};
+inline constexpr ImageUse kSampled{vk::ImageLayout::eShaderReadOnlyOptimal, Stage::eFragmentShader,
+                                   Access::eShaderSampledRead};
+inline constexpr auto kDepthStages = Stage::eEarlyFragmentTests | Stage::eLateFragmentTests;
+inline constexpr ImageUse kDepthDrawn{vk::ImageLayout::eDepthAttachmentOptimal, kDepthStages,
+                                      Access::eDepthStencilAttachmentRead | Access::eDepthStencilAttachmentWrite};
 
 void transition(const vk::raii::CommandBuffer& commands, vk::Image image, vk::ImageAspectFlags aspect,
                 const ImageUse& before, const ImageUse& after);

@@ -161,15 +161,6 @@ vk::PipelineDepthStencilStateCreateInfo depthState(Pass pass)
     return state;
 }
 
-vk::PipelineRasterizationStateCreateInfo rasterization(bool shadow)
-{
-    vk::PipelineRasterizationStateCreateInfo state;
-    state.lineWidth = 1;
-    state.depthBiasEnable = shadow;
-    state.depthBiasSlopeFactor = 1.5f;
-    return state;
-}
-
 } // namespace
 
 Layouts::Layouts(const Device& device)
@@ -222,7 +213,10 @@ vk::raii::Pipeline Pipelines::make(const PipelineKey& key) const
     const VertexInput vertexInput(key.pass);
     const vk::PipelineInputAssemblyStateCreateInfo assembly({}, vk::PrimitiveTopology::eTriangleList);
     const vk::PipelineViewportStateCreateInfo viewport({}, 1, nullptr, 1, nullptr);
-    const vk::PipelineRasterizationStateCreateInfo raster = rasterization(shadow);
+    vk::PipelineRasterizationStateCreateInfo raster;
+    raster.lineWidth = 1;
+    raster.depthBiasEnable = shadow;
+    raster.depthBiasSlopeFactor = 1.5f;
     const vk::PipelineMultisampleStateCreateInfo multisample({}, key.samples);
     const vk::PipelineDepthStencilStateCreateInfo depth = depthState(key.pass);
     const vk::PipelineColorBlendAttachmentState attachment = blending(key.pass == Pass::compose, device_->dualSource);

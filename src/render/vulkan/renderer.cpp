@@ -92,19 +92,6 @@ vk::Rect2D rectangle(const PixelArea& a)
 
 } // namespace
 
-// What of the picture the lists may cover.
-void CommandRecorder::setAreas(DrawLists& lists, const View& view, const gpu::CotanView& constants) const
-{
-    const auto areaOfItems = [&](const std::vector<Item>& items) {
-        PixelArea all;
-        for (const Item& item : items)
-            all = around(all, areaOf(constants, item.constants, item.mesh->box, view.width, view.height));
-        return all;
-    };
-    lists.translucentArea = areaOfItems(lists.translucent);
-    lists.area = around(around(areaOfItems(lists.opaque), areaOfItems(lists.mask)), lists.translucentArea);
-}
-
 // The background around an area, straight into the resolved picture: there all samples of a pixel are the same.
 void CommandRecorder::recordSurround(const vk::raii::CommandBuffer& commands, const View& view, const PixelArea& a)
 {
@@ -138,14 +125,13 @@ Result<Image> CommandRecorder::drawOnce(GpuScene& scene, const View& view, std::
 {
     const CameraAxes axes = cameraAxes(view.camera);
     scene.setPointSampled(view.pointSampled);
-    DrawLists lists = makeLists(scene, view, axes);
-    const bool layered = view.output == Output::shaded && !lists.translucent.empty();
     const gpu::CotanView constants =
         viewConstants(view, axes, scene.bounds, sample ? samplePlace(*sample) : glm::dvec2(0));
+    const DrawLists lists = makeLists(scene, view, axes, constants);
+    const bool layered = view.output == Output::shaded && !lists.translucent.empty();
     keys_ = keysOf(view, *targets_);
     beginPipelines(lists, view, layered);
     prepare(view, axes, constants, layered);
-    setAreas(lists, view, constants);
     PixelArea area{0, 0, view.width, view.height};
     if (targets_->resolves())
         area = lists.area.empty() ? PixelArea{0, 0, 1, 1} : lists.area;

@@ -5,9 +5,7 @@
 #include <set>
 
 #include "cotan/convention.hpp"
-#include "gpu_structs.hpp"
 #include "scene/geometry.hpp"
-#include "view_data.hpp"
 
 namespace cotan {
 
@@ -240,7 +238,7 @@ void GpuScene::loadMeshes(const Scene& scene, Uploader& uploader)
     if (device_->exact)
         usage |= vk::BufferUsageFlagBits::eShaderDeviceAddress | vk::BufferUsageFlagBits::eStorageBuffer;
     for (const vk::DeviceSize size : sizes) {
-        buffers.push_back(makeDeviceBuffer(*device_, memory_, size, usage));
+        buffers.push_back(makeDeviceBuffer(memory_, size, usage));
         uploader.buffer(buffers.back(), 0, bytesOf(kConstants));
     }
     for (std::size_t i = 0; i < meshes.size(); ++i) {
@@ -261,7 +259,7 @@ void GpuScene::loadMaterials(const Scene& scene, const Layouts& layouts, Uploade
         return;
     const vk::DeviceSize alignment = std::max<vk::DeviceSize>(device_->limits.minUniformBufferOffsetAlignment, 16);
     const vk::DeviceSize stride = aligned(sizeof(gpu::CotanMaterial), alignment);
-    materialBuffer_ = makeDeviceBuffer(*device_, memory_, stride * count,
+    materialBuffer_ = makeDeviceBuffer(memory_, stride * count,
                                        vk::BufferUsageFlagBits::eUniformBuffer | vk::BufferUsageFlagBits::eTransferDst);
 
     const auto sets = static_cast<std::uint32_t>(count);

@@ -1,4 +1,4 @@
-#include "targets.hpp"
+#include "draw_passes.hpp"
 
 #include <cstring>
 
@@ -8,13 +8,10 @@ namespace cotan {
 
 namespace {
 
-using Stage = vk::PipelineStageFlagBits2;
-using Access = vk::AccessFlagBits2;
 constexpr auto kColorAspect = vk::ImageAspectFlagBits::eColor;
 constexpr auto kAttachment = vk::ImageLayout::eColorAttachmentOptimal;
 constexpr ImageUse kDrawnInto{kAttachment, Stage::eColorAttachmentOutput, Access::eColorAttachmentWrite};
 constexpr auto kDepthRead = vk::ImageLayout::eDepthStencilReadOnlyOptimal;
-constexpr auto kDepthStages = Stage::eEarlyFragmentTests | Stage::eLateFragmentTests;
 
 vk::DeviceSize bytesPerPixel(vk::Format format)
 {
@@ -35,25 +32,25 @@ Targets::Targets(const Device& device, const Kind& kind) : memory_(device), kind
     using ImageUsage = vk::ImageUsageFlagBits;
     const vk::Extent2D extent(kind.width, kind.height);
     color_ = makeTexture(
-        device, memory_,
+        memory_,
         {.format = kind.format,
          .extent = extent,
          .samples = kind.samples,
          .usage = ImageUsage::eColorAttachment | (resolves() ? ImageUsage::eSampled : ImageUsage::eTransferSrc)});
     if (resolves())
         resolved_ = makeTexture(
-            device, memory_,
+            memory_,
             {.format = kind.shown, .extent = extent, .usage = ImageUsage::eColorAttachment | ImageUsage::eTransferSrc});
     vk::ImageUsageFlags depthUsage = ImageUsage::eDepthStencilAttachment;
     if (multisampled()) // then the hidden samples of translucent layers are found by it
         depthUsage |= ImageUsage::eSampled;
-    depth_ = makeTexture(device, memory_,
+    depth_ = makeTexture(memory_,
                          {.format = vk::Format::eD32Sfloat,
                           .extent = extent,
                           .samples = kind.samples,
                           .usage = depthUsage,
                           .aspect = vk::ImageAspectFlagBits::eDepth});
-    readBack_ = makeHostBuffer(device, memory_, vk::DeviceSize(kind.width) * kind.height * bytesPerPixel(kind.shown),
+    readBack_ = makeHostBuffer(memory_, vk::DeviceSize(kind.width) * kind.height * bytesPerPixel(kind.shown),
                                vk::BufferUsageFlagBits::eTransferDst, /*readBack*/ true);
 }
 
@@ -88,8 +85,7 @@ void Targets::begin(const vk::raii::CommandBuffer& commands, const vk::Rect2D& a
     transition(
         commands, *depth_.image, vk::ImageAspectFlagBits::eDepth,
         {vk::ImageLayout::eUndefined, kDepthStages | Stage::eFragmentShader, Access::eDepthStencilAttachmentWrite},
-        {vk::ImageLayout::eDepthAttachmentOptimal, kDepthStages,
-         Access::eDepthStencilAttachmentRead | Access::eDepthStencilAttachmentWrite});
+        kDepthDrawn);
 
     constexpr auto clear = vk::AttachmentLoadOp::eClear;
     const auto kept = layersFollow ? vk::AttachmentStoreOp::eStore : vk::AttachmentStoreOp::eDontCare;
@@ -148,11 +144,10 @@ Image Targets::image(bool flipRows) const
     Image image =
         makeImage(int(kind_.width), int(kind_.height), floats ? PixelType::float32 : PixelType::unorm8, "render");
     const std::size_t row = kind_.width * image.bytesPerPixel();
-    if (!flipRows)
-        std::memcpy(image.data.data(), readBack_.mapped, image.data.size());
-    else
-        for (std::size_t y = 0; y < kind_.height; ++y)
-            std::memcpy(image.data.data() + y * row, readBack_.mapped + (kind_.height - 1 - y) * row, row);
+    for (std::size_t y = 0; y < kind_.height; ++y) {
+        const std::size_t from = flipRows ? kind_.height - 1 - y : y;
+        std::memcpy(image.data.data() + y * row, readBack_.mapped + from * row, row);
+    }
     return image;
 }
 

@@ -49,80 +49,59 @@ vec4 encodedNormal(const vec4& average, const f32::cotan_normal_format& format)
     return vec4(f32::cotan_encode_texel(unit, format), length);
 }
 
-// sRGB byte to linear.
-const std::array<float, 256>& linearOfByte()
+// By a table over the square root: there 4096 steps are at most 0.16 of a byte's step.
+std::uint8_t srgbByte(float linear)
 {
-    static const std::array<float, 256> table = [] {
+    constexpr std::size_t kSteps = 4096;
+    static const std::array<std::uint8_t, kSteps> table = [] {
+        std::array<std::uint8_t, kSteps> t{};
+        for (std::size_t i = 0; i < kSteps; ++i) {
+            const float root = float(i) / float(kSteps - 1);
+            t[i] = std::uint8_t(std::lround(255.0f * f32::cotan_linear_to_srgb(root * root)));
+        }
+        return t;
+    }();
+    const float root = std::sqrt(f32::cotan_saturate(linear));
+    return table[std::size_t(root * float(kSteps - 1) + 0.5f)];
+}
+
+// ---- reading the image ----------------------------------------------------------------------
+
+// One row of the image as linear numbers, still in the normal map's coding.
+void readRow(const Image& image, int y, TextureKind kind, vec4* out)
+{
+    static const std::array<float, 256> linearOfByte = [] {
         std::array<float, 256> t{};
         for (std::size_t i = 0; i < t.size(); ++i)
             t[i] = f32::cotan_srgb_to_linear(float(i) / 255.0f);
         return t;
     }();
-    return table;
-}
-
-// Linear to sRGB byte, by the square root: there 4096 steps are at most 0.16 of a byte's step.
-constexpr int kSrgbSteps = 4096;
-const std::array<std::uint8_t, kSrgbSteps>& byteOfLinear()
-{
-    static const std::array<std::uint8_t, kSrgbSteps> table = [] {
-        std::array<std::uint8_t, kSrgbSteps> t{};
-        for (int i = 0; i < kSrgbSteps; ++i) {
-            const float root = float(i) / float(kSrgbSteps - 1);
-            t[std::size_t(i)] = std::uint8_t(std::lround(255.0f * f32::cotan_linear_to_srgb(root * root)));
-        }
-        return t;
-    }();
-    return table;
-}
-
-float unit(float x) { return std::min(std::max(x, 0.0f), 1.0f); }
-
-std::uint8_t srgbByte(float linear)
-{
-    const float root = std::sqrt(unit(linear));
-    return byteOfLinear()[std::size_t(root * float(kSrgbSteps - 1) + 0.5f)];
-}
-
-// ---- reading the image ----------------------------------------------------------------------
-
-void readRow8(const Image& image, int y, bool srgb, vec4* out)
-{
-    const std::uint8_t* p = image.bytes8() + std::size_t(y) * std::size_t(image.width) * 4;
-    const std::array<float, 256>& linear = linearOfByte();
-    for (int x = 0; x < image.width; ++x, p += 4)
-        out[x] = srgb ? vec4(linear[p[0]], linear[p[1]], linear[p[2]], float(p[3]) / 255.0f)
-                      : vec4(p[0], p[1], p[2], p[3]) * (1.0f / 255.0f);
-}
-
-void readRow16(const Image& image, int y, bool srgb, vec4* out)
-{
-    const std::uint16_t* p = image.words() + std::size_t(y) * std::size_t(image.width) * 4;
-    for (int x = 0; x < image.width; ++x, p += 4) {
-        vec4 t = vec4(p[0], p[1], p[2], p[3]) * (1.0f / 65535.0f);
-        if (srgb)
-            for (int c = 0; c < 3; ++c)
-                t[c] = f32::cotan_srgb_to_linear(t[c]);
-        out[x] = t;
-    }
-}
-
-void readRowFloat(const Image& image, int y, vec4* out)
-{
-    const float* p = image.floats() + std::size_t(y) * std::size_t(image.width) * 4;
-    for (int x = 0; x < image.width; ++x, p += 4)
-        for (int c = 0; c < 4; ++c) // a texel that is not a number would spread over all levels
-            out[x][c] = std::abs(p[c]) <= 1e30f ? p[c] : 0.0f;
-}
-
-// One row of the image as linear numbers, still in the normal map's coding.
-void readRow(const Image& image, int y, TextureKind kind, vec4* out)
-{
     const bool srgb = kind == TextureKind::color;
+    const auto read = [&](const auto* components, const auto& texelOf) {
+        const auto* p = components + std::size_t(y) * std::size_t(image.width) * 4;
+        for (int x = 0; x < image.width; ++x, p += 4)
+            out[x] = texelOf(p);
+    };
     switch (image.type) {
-    case PixelType::unorm8: readRow8(image, y, srgb, out); break;
-    case PixelType::unorm16: readRow16(image, y, srgb, out); break;
-    case PixelType::float32: readRowFloat(image, y, out); break;
+    case PixelType::unorm8:
+        return read(image.bytes8(), [srgb, &linear = linearOfByte](const std::uint8_t* p) {
+            return srgb ? vec4(linear[p[0]], linear[p[1]], linear[p[2]], float(p[3]) / 255.0f)
+                        : vec4(p[0], p[1], p[2], p[3]) * (1.0f / 255.0f);
+        });
+    case PixelType::unorm16:
+        return read(image.words(), [srgb](const std::uint16_t* p) {
+            vec4 t = vec4(p[0], p[1], p[2], p[3]) * (1.0f / 65535.0f);
+            for (int c = 0; srgb && c < 3; ++c)
+                t[c] = f32::cotan_srgb_to_linear(t[c]);
+            return t;
+        });
+    case PixelType::float32:
+        return read(image.floats(), [](const float* p) {
+            vec4 t(0);
+            for (int c = 0; c < 4; ++c) // a texel that is not a number would spread over all levels
+                t[c] = std::abs(p[c]) <= 1e30f ? p[c] : 0.0f;
+            return t;
+        });
     }
 }
 
@@ -181,7 +160,9 @@ template<class RowOf> FloatLevel halved(int width, int height, RowOf rowOf)
 
 template<class Word> std::array<Word, 4> unorms(const vec4& t)
 {
-    const auto word = [](float x) { return Word(unit(x) * float(std::numeric_limits<Word>::max()) + 0.5f); };
+    const auto word = [](float x) {
+        return Word(f32::cotan_saturate(x) * float(std::numeric_limits<Word>::max()) + 0.5f);
+    };
     return {word(t.x), word(t.y), word(t.z), word(t.w)};
 }
 
@@ -267,14 +248,9 @@ void addSmallerLevel(MipChain& chain, const MipRequest& request, const FloatLeve
 
 std::size_t bytesPerTexel(TexelFormat format)
 {
-    switch (format) {
-    case TexelFormat::srgb8:
-    case TexelFormat::unorm8: return 4;
-    case TexelFormat::unorm16:
-    case TexelFormat::float16: return 8;
-    case TexelFormat::float32: break;
-    }
-    return 16;
+    if (format == TexelFormat::srgb8 || format == TexelFormat::unorm8)
+        return 4;
+    return format == TexelFormat::unorm16 || format == TexelFormat::float16 ? 8 : 16;
 }
 
 TexelFormat texelFormat(PixelType type, TextureKind kind, bool filterable16, bool filterable32)

@@ -1,9 +1,10 @@
-#include "textures.hpp"
+#include "scene_upload.hpp"
 
 #include <algorithm>
 
 #include <glm/gtc/packing.hpp>
 
+#include "core/named_values.hpp"
 #include "core/parallel.hpp"
 
 namespace cotan {
@@ -16,42 +17,17 @@ constexpr std::size_t kBatchBytes = std::size_t(256) << 20;
 // Normal maps that take no more are kept in 16 bits where 8 would be filtered too roughly.
 constexpr std::size_t kMaxWidened = std::size_t(128) << 20;
 
-vk::Format formatOf(TexelFormat format)
-{
-    switch (format) {
-    case TexelFormat::srgb8: return vk::Format::eR8G8B8A8Srgb;
-    case TexelFormat::unorm8: return vk::Format::eR8G8B8A8Unorm;
-    case TexelFormat::unorm16: return vk::Format::eR16G16B16A16Unorm;
-    case TexelFormat::float16: return vk::Format::eR16G16B16A16Sfloat;
-    case TexelFormat::float32: break;
-    }
-    return vk::Format::eR32G32B32A32Sfloat;
-}
-
-vk::SamplerAddressMode addressMode(Wrap wrap)
-{
-    switch (wrap) {
-    case Wrap::repeat: return vk::SamplerAddressMode::eRepeat;
-    case Wrap::mirror: return vk::SamplerAddressMode::eMirroredRepeat;
-    case Wrap::clamp: break;
-    }
-    return vk::SamplerAddressMode::eClampToEdge;
-}
+// In the order of TexelFormat and Wrap.
+constexpr vk::Format kFormats[] = {vk::Format::eR8G8B8A8Srgb, vk::Format::eR8G8B8A8Unorm,
+                                   vk::Format::eR16G16B16A16Unorm, vk::Format::eR16G16B16A16Sfloat,
+                                   vk::Format::eR32G32B32A32Sfloat};
+constexpr vk::SamplerAddressMode kAddressModes[] = {
+    vk::SamplerAddressMode::eRepeat, vk::SamplerAddressMode::eMirroredRepeat, vk::SamplerAddressMode::eClampToEdge};
 
 vk::Filter filterOf(Filter filter) { return filter == Filter::nearest ? vk::Filter::eNearest : vk::Filter::eLinear; }
 
 // Of all levels of a chain, as the device holds them.
 std::size_t chainBytes(const MipRequest& r) { return r.image->pixelCount() * bytesPerTexel(r.format) / 3 * 4; }
-
-const Image& whiteImage()
-{
-    static const Image image = [] {
-        Image white = makeImage(1, 1, PixelType::unorm8, "white");
-        std::fill(white.data.begin(), white.data.end(), std::byte{255});
-        return white;
-    }();
-    return image;
-}
 
 } // namespace
 
@@ -62,8 +38,8 @@ vk::Sampler Samplers::get(const Sampler& s, bool pointSampled)
     if (found != made_.end())
         return *found->second;
     vk::SamplerCreateInfo info;
-    info.addressModeU = addressMode(s.wrapU);
-    info.addressModeV = addressMode(s.wrapV);
+    info.addressModeU = textAt(kAddressModes, s.wrapU);
+    info.addressModeV = textAt(kAddressModes, s.wrapV);
     info.magFilter = pointSampled ? vk::Filter::eNearest : filterOf(s.magnify);
     info.minFilter = pointSampled ? vk::Filter::eNearest : filterOf(s.minify);
     info.mipmapMode =
@@ -89,7 +65,7 @@ void HeldPicture::hold(const Device& device, std::shared_ptr<const void> newOwne
     owner.reset();
     texture = {};
     memory = std::make_unique<Memory>(device);
-    texture = makeTexture(device, *memory,
+    texture = makeTexture(*memory,
                           {.format = vk::Format::eR16G16B16A16Sfloat,
                            .extent = {std::uint32_t(picture.width), std::uint32_t(picture.height)},
                            .usage = vk::ImageUsageFlagBits::eSampled | vk::ImageUsageFlagBits::eTransferDst});
@@ -122,8 +98,6 @@ std::array<MapUse, COTAN_MAP_COUNT> mapUses(const Material& m)
 
 Textures::Key Textures::keyOf(const MapUse& use)
 {
-    if (use.kind != TextureKind::normal)
-        return {use.texture->image, use.kind, Expansion{}, Channels{}};
     return {use.texture->image, use.kind, use.format.expansion, use.format.channels};
 }
 
@@ -138,24 +112,20 @@ void Textures::request(const Scene& scene, const MapUse& use, std::vector<MipReq
     index_.insert(*made);
     if (!isNew)
         return;
-    MipRequest& r = missing.emplace_back();
-    r.image = &image;
-    r.kind = use.kind;
-    r.normalFormat = use.format;
-    r.format = texelFormat(image.type, use.kind, device_->filterable16, device_->filterable32);
+    TexelFormat format = texelFormat(image.type, use.kind, device_->filterable16, device_->filterable32);
     // Mesa's CPU driver rounds what it filters from 8 bits to 8 bits: 0.2 degrees of a normal. With 16 bits a map of
     // 8192 x 8192 would take 1.7 GiB.
-    if (use.kind == TextureKind::normal && image.data.size() <= kMaxWidened && r.format == TexelFormat::unorm8
+    if (use.kind == TextureKind::normal && image.data.size() <= kMaxWidened && format == TexelFormat::unorm8
         && device_->cpu && device_->filterable16)
-        r.format = TexelFormat::unorm16;
-    r.largest = int(device_->limits.maxImageDimension2D);
+        format = TexelFormat::unorm16;
+    missing.push_back({&image, use.kind, use.format, format, int(device_->limits.maxImageDimension2D)});
 }
 
 Texture2D Textures::upload(const MipChain& chain, Uploader& uploader)
 {
     const MipLevel& finest = chain.levels[0];
-    Texture2D texture = makeTexture(*device_, memory_,
-                                    {.format = formatOf(chain.format),
+    Texture2D texture = makeTexture(memory_,
+                                    {.format = textAt(kFormats, chain.format),
                                      .extent = {std::uint32_t(finest.width), std::uint32_t(finest.height)},
                                      .levels = std::uint32_t(chain.levels.size()),
                                      .usage = vk::ImageUsageFlagBits::eSampled | vk::ImageUsageFlagBits::eTransferDst});
@@ -169,8 +139,10 @@ Texture2D Textures::upload(const MipChain& chain, Uploader& uploader)
 void Textures::load(const Scene& scene, Uploader& uploader)
 {
     std::vector<MipRequest> missing;
+    Image white = makeImage(1, 1, PixelType::unorm8, "white");
+    std::fill(white.data.begin(), white.data.end(), std::byte{255});
     if (textures_.empty())
-        missing.emplace_back().image = &whiteImage();
+        missing.emplace_back().image = &white;
     index_.clear();
     for (const Material& m : scene.materials)
         for (const MapUse& use : mapUses(m))

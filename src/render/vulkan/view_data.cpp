@@ -211,11 +211,4 @@ gpu::CotanDraw drawConstants(const glm::mat4& toWorld, const glm::dvec3& eye)
     return g;
 }
 
-double eyeDistance(const glm::mat4& toWorld, const glm::vec3& point, const CameraAxes& axes)
-{
-    const dvec3 p = dvec3(glm::dmat4(toWorld) * glm::dvec4(dvec3(point), 1));
-    const double distance = glm::length(p - axes.eye);
-    return std::isfinite(distance) ? distance : 0;
-}
-
 } // namespace cotan

@@ -16,8 +16,7 @@ inline constexpr int kShadowSize = 2048; // texels a side
 
 // View, shadow map and background constants. view: checkView has passed it. bounds: of the whole scene, world space;
 // may be empty. place: what the middle of a pixel sees, from there in pixels of the raster.
-gpu::CotanView viewConstants(const View& view, const CameraAxes& axes, const Bounds& bounds,
-                             glm::dvec2 place = glm::dvec2(0));
+gpu::CotanView viewConstants(const View& view, const CameraAxes& axes, const Bounds& bounds, glm::dvec2 place);
 
 // Pixels of the raster, from the first to before the last.
 struct PixelArea {
@@ -40,8 +39,5 @@ bool castsShadow(const View& view);
 
 // The rows of CotanDraw that follow from an instance's matrix; addresses and flags are left zero.
 gpu::CotanDraw drawConstants(const glm::mat4& toWorld, const glm::dvec3& eye);
-
-// Distance from the eye to a point of the mesh; 0 where that is not finite.
-double eyeDistance(const glm::mat4& toWorld, const glm::vec3& point, const CameraAxes& axes);
 
 } // namespace cotan

@@ -1,23 +1,258 @@
-#include "cotan/view.hpp"
-
+// The shadow on the ground, by what stands above a level plane as columns: from where to where each is filled.
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
 #include <numbers>
+#include <vector>
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/gtc/packing.hpp>
+#include <glm/gtc/type_ptr.hpp>
 
-#include "columns.hpp"
 #include "core/loops.hpp"
+#include "cotan/view.hpp"
 #include "scene/environment_map.hpp"
 #include "scene/geometry.hpp"
+#include "scene/texture_sample.hpp"
 
 namespace cotan {
 
 namespace {
 
-using namespace ground;
+// ---- columns ---------------------------------------------------------------------------------
+
+constexpr float kOpaque = 0.996f; // 254 of 255
+
+// A grid of columns over the plane. A point at height h above the plane stands in the column at (x, z) - h * lean: with
+// the direction of a light as lean, a column holds what shades one place. Between its lowest and its highest point a
+// column counts as full.
+struct Columns {
+    // Heights above the plane; from > to where nothing stands.
+    struct Span {
+        float from = std::numeric_limits<float>::infinity(), to = -from;
+
+        void hold(float height)
+        {
+            from = std::min(from, height);
+            to = std::max(to, height);
+        }
+        bool meets(float lowest, float highest) const { return from <= highest && to > lowest; }
+    };
+
+    // What is translucent in a column, which counts as full in the same way.
+    struct Veil {
+        Span span;
+        std::array<float, 4> stops{}; // the share of light, of each layer of cotan_shadow_threshold
+    };
+
+    int side = 0; // columns along x and along z
+    glm::vec2 lean{0};
+    glm::vec2 low{0}, extent{0}; // of the grid, in x and z
+    float top = 0;               // of the highest column, above the plane
+    std::vector<Span> spans;     // rows along x first
+    std::vector<Veil> veils;     // likewise; empty where nothing is translucent
+
+    // The share of a ray's light that does not arrive. The ray leaves the plane at `place` and moves sideways by
+    // `speed` as it rises by 1, the columns' lean not counted. Of the veils of one layer that it meets the densest
+    // counts: they are mostly one surface.
+    float stopped(glm::vec2 place, glm::vec2 speed) const
+    {
+        const glm::vec2 start = (place - low) / extent * float(side), pace = speed / extent * float(side);
+        // Heights between which the ray is above the grid.
+        float first = 0, last = top;
+        for (int i = 0; i < 2; ++i) {
+            if (std::abs(pace[i]) < 1e-20f) {
+                if (start[i] < 0 || start[i] >= float(side))
+                    return 0;
+                continue;
+            }
+            const float in = -start[i] / pace[i], out = (float(side) - start[i]) / pace[i];
+            first = std::max(first, std::min(in, out));
+            last = std::min(last, std::max(in, out));
+        }
+        const float fastest = std::max(std::abs(pace.x), std::abs(pace.y));
+        const float column = fastest > 0 ? 1 / fastest : top; // height gained within one column
+        glm::vec4 met(0);                                     // the densest veil of each layer
+        // Each step is at least a sixteenth of the height: they end.
+        for (float height = first, next; height < last; height = next) {
+            // Steps grow with the way from the start, as what is met there spreads over a wider part of the sky.
+            next = std::min(height + std::max(column, 0.0625f * height), last);
+            const glm::vec2 at = start + pace * (0.5f * (height + next));
+            const int x = std::clamp(int(at.x), 0, side - 1), z = std::clamp(int(at.y), 0, side - 1);
+            const std::size_t i = std::size_t(z) * std::size_t(side) + std::size_t(x);
+            if (spans[i].meets(height, next))
+                return 1;
+            if (!veils.empty() && veils[i].span.meets(height, next))
+                met = glm::max(met, glm::make_vec4(veils[i].stops.data()));
+        }
+        met = 1.0f - met;
+        return 1 - met.x * met.y * met.z * met.w;
+    }
+};
+
+// A vertex: its place in the grid, in columns, and its height above the plane.
+struct Standing {
+    glm::vec2 place{0};
+    float height = 0;
+};
+
+// Where a point stands along the lean, in x and z, and its height above the plane.
+glm::dvec3 standing(const glm::mat4& toWorld, const glm::vec3& p, double plane, glm::vec2 lean)
+{
+    const glm::dvec3 world(glm::dmat4(toWorld) * glm::dvec4(glm::dvec3(p), 1));
+    const double height = world.y - plane;
+    return {glm::dvec2(world.x, world.z) - height * glm::dvec2(lean), height};
+}
+
+class Filling {
+public:
+    Filling(const Scene& scene, double plane, Columns& columns) : scene_(scene), plane_(plane), columns_(columns) {}
+
+    // odd: its veils are told from those of other things.
+    void add(const Instance& instance, const Mesh& mesh, bool odd)
+    {
+        vertices_.clear();
+        for (const glm::vec3& p : mesh.positions) {
+            const glm::dvec3 at = standing(instance.toWorld, p, plane_, columns_.lean);
+            const glm::dvec2 place =
+                (glm::dvec2(at) - glm::dvec2(columns_.low)) / glm::dvec2(columns_.extent) * double(columns_.side);
+            vertices_.push_back({glm::vec2(place), float(at.z)});
+        }
+        for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
+            const std::array<std::uint32_t, 3> corners{mesh.indices[i], mesh.indices[i + 1], mesh.indices[i + 2]};
+            if (std::max({corners[0], corners[1], corners[2]}) < vertices_.size())
+                fillTriangle(mesh, corners, odd);
+        }
+    }
+
+private:
+    float alphaAt(const Mesh& mesh, const std::array<std::uint32_t, 3>& corners, glm::vec3 weights) const
+    {
+        const Material& material = scene_.materials[std::size_t(mesh.material)];
+        float alpha = material.baseColor.w;
+        const auto mixed = [&](const auto& values) {
+            return values[corners[0]] * weights.x + values[corners[1]] * weights.y + values[corners[2]] * weights.z;
+        };
+        if (!mesh.colors.empty())
+            alpha *= mixed(mesh.colors).w;
+        const Texture& map = material.baseColorMap;
+        const auto& texcoords = mesh.texcoords[uvSetOf(map)];
+        if (map.present() && std::size_t(map.image) < scene_.images.size() && !texcoords.empty()) {
+            const Image& image = scene_.images[std::size_t(map.image)];
+            const glm::vec2 uv = textureUv(map, mixed(texcoords));
+            if (hasPixels(image) && std::abs(uv.x) + std::abs(uv.y) < kFarthestUv)
+                alpha *= nearestTexel(image.width, image.height, map.sampler, glm::dvec2(uv), [&](int x, int y) {
+                             return storedComponents(image, x, y);
+                         }).w;
+        }
+        return alpha;
+    }
+
+    void fillTriangle(const Mesh& mesh, const std::array<std::uint32_t, 3>& corners, bool odd)
+    {
+        const Material& material = scene_.materials[std::size_t(mesh.material)];
+        const Standing a = vertices_[corners[0]], b = vertices_[corners[1]], c = vertices_[corners[2]];
+        const glm::vec2 low = glm::min(glm::min(a.place, b.place), c.place) - 0.5f;
+        const glm::vec2 high = glm::max(glm::max(a.place, b.place), c.place) + 0.5f;
+        const float most = float(columns_.side);
+        const float lowest = std::min({a.height, b.height, c.height}),
+                    highest = std::max({a.height, b.height, c.height});
+        if (!(low.x < most && low.y < most && high.x > 0 && high.y > 0 && highest <= columns_.top))
+            return;
+        const glm::vec2 ab = b.place - a.place, ac = c.place - a.place, bc = c.place - b.place;
+        const float area = ab.x * ac.y - ab.y * ac.x;
+        // What a column's square touches counts, so that nothing is too thin: weights may be negative by so much.
+        const float per = std::abs(area) > 1e-9f ? -0.5f / std::abs(area) : -1e9f;
+        const float minU = per * (std::abs(bc.x) + std::abs(bc.y)), minV = per * (std::abs(ac.x) + std::abs(ac.y));
+        const float minW = per * (std::abs(ab.x) + std::abs(ab.y));
+        const float inverse = std::abs(area) > 1e-9f ? 1 / area : 0;
+        const glm::ivec2 first = glm::max(glm::ivec2(glm::ceil(low - 0.5f)), 0);
+        const glm::ivec2 last = glm::min(glm::ivec2(glm::floor(high - 0.5f)), columns_.side - 1);
+        for (int z = first.y; z <= last.y; ++z)
+            for (int x = first.x; x <= last.x; ++x) {
+                const glm::vec2 p = glm::vec2(float(x) + 0.5f, float(z) + 0.5f) - a.place;
+                const float v = (p.x * ac.y - p.y * ac.x) * inverse, w = (ab.x * p.y - ab.y * p.x) * inverse,
+                            u = 1 - v - w;
+                if (u < minU || v < minV || w < minW)
+                    continue;
+                const auto inside = [](glm::vec3 weights) {
+                    weights = glm::max(weights, 0.0f);
+                    return weights / (weights.x + weights.y + weights.z);
+                };
+                const glm::vec3 middle = inside(glm::vec3(u, v, w));
+                const float height =
+                    std::clamp(glm::dot(middle, glm::vec3(a.height, b.height, c.height)), lowest, highest);
+                if (material.alphaMode == AlphaMode::mask && !(alphaAt(mesh, corners, middle) >= material.alphaCutoff))
+                    continue;
+                float stops = material.alphaMode == AlphaMode::blend ? 0 : 1;
+                for (int k = 0; k < 4 && material.alphaMode == AlphaMode::blend; ++k) {
+                    const glm::vec2 q = p + glm::vec2(k & 1 ? 0.25f : -0.25f, k & 2 ? 0.25f : -0.25f);
+                    const float qv = (q.x * ac.y - q.y * ac.x) * inverse, qw = (ab.x * q.y - ab.y * q.x) * inverse;
+                    stops += 0.25f * std::clamp(alphaAt(mesh, corners, inside({1 - qv - qw, qv, qw})), 0.0f, 1.0f);
+                }
+                const std::size_t at = std::size_t(z) * std::size_t(columns_.side) + std::size_t(x);
+                if (stops > kOpaque) {
+                    columns_.spans[at].hold(height);
+                } else if (stops > 0) {
+                    columns_.veils.resize(columns_.spans.size());
+                    columns_.veils[at].span.hold(height);
+                    float& layer = columns_.veils[at].stops[(area > 0 ? 0 : 1) + (odd ? 2 : 0)];
+                    layer = std::max(layer, stops);
+                }
+            }
+    }
+
+    const Scene& scene_;
+    double plane_;
+    Columns& columns_;
+    std::vector<Standing> vertices_;
+};
+
+// The rectangle of the grid: what all points need, and never empty.
+void setExtent(const Scene& scene, double plane, Columns& columns)
+{
+    glm::dvec2 low(std::numeric_limits<double>::infinity()), high(-low);
+    forEachPlacedPoint(scene, [&](const glm::mat4& toWorld, const glm::vec3& point) {
+        const glm::dvec3 at = standing(toWorld, point, plane, columns.lean);
+        if (!std::isfinite(at.x + at.y + at.z))
+            return;
+        low = glm::min(low, glm::dvec2(at));
+        high = glm::max(high, glm::dvec2(at));
+        columns.top = std::max(columns.top, float(at.z));
+    });
+    if (!(low.x <= high.x))
+        low = high = glm::dvec2(0);
+    const double margin = std::max({high.x - low.x, high.y - low.y, 1e-6 * glm::length(low), 1e-30}) / columns.side;
+    columns.low = glm::vec2(low - margin);
+    columns.extent = glm::vec2(high - low + 2 * margin);
+}
+
+// The columns of all that throws shadows. Masked materials count where their mask leaves them, blended ones as veils by
+// their alpha, read at four places of a column. plane: y.
+Columns makeColumns(const Scene& scene, double plane, glm::vec2 lean, int side)
+{
+    Columns columns;
+    columns.side = side;
+    columns.lean = lean;
+    setExtent(scene, plane, columns);
+    columns.spans.resize(std::size_t(side) * std::size_t(side));
+    Filling filling(scene, plane, columns);
+    bool odd = false; // of what is translucent
+    for (const Instance& instance : scene.instances) {
+        const Mesh* mesh = meshPlacedBy(scene, instance);
+        if (!mesh)
+            continue;
+        const Material& material = scene.materials[std::size_t(mesh->material)];
+        if (material.throwsShadow())
+            filling.add(instance, *mesh, odd);
+        odd = odd != material.translucent();
+    }
+    return columns;
+}
+
+// ---- the map ---------------------------------------------------------------------------------
 
 constexpr int kColumns = 192;                       // a side
 constexpr int kLightPlaces = 320, kSkyPlaces = 128; // of the map, a side
@@ -124,8 +359,7 @@ float between(const std::vector<float>& shares, int side, glm::vec2 uv)
 // The light that casts the shadow; null where there is none.
 const Light* keyLight(const View& view)
 {
-    const auto found = std::find_if(view.lights.begin(), view.lights.end(),
-                                    [](const Light& light) { return light.kind == LightKind::directional; });
+    const auto found = std::ranges::find(view.lights, LightKind::directional, &Light::kind);
     return view.shadows && found != view.lights.end() ? &*found : nullptr;
 }
 

@@ -97,8 +97,6 @@ template<class Format> Format toFormat(const Convention& c, double strength = 1,
     return f;
 }
 
-// How a normal map is stored, in words.
-
 // A convention in words separated by commas: a preset's name, then what differs from it, such as "unity,xy" or
 // "opengl,biased". Errors (ErrorKind::usage): a word that is not known, or none.
 Result<Convention> parseConvention(std::string_view text);

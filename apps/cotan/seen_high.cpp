@@ -1,15 +1,19 @@
-// What a camera sees of the detailed surface, to judge maps by.
+#include "seen_high.hpp"
+
+#include <algorithm>
 #include <cmath>
+#include <optional>
+#include <utility>
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
-#include "baker.hpp"
+#include "bake/baker.hpp"
 #include "core/loops.hpp"
 #include "scene/geometry.hpp"
 #include "scene/sample_places.hpp"
 
-namespace cotan {
+namespace cotan::app {
 
 namespace {
 
@@ -149,4 +153,4 @@ Result<SeenHigh> seeHigh(const LowSurface& low, const HighSurface& high, const B
     return seen;
 }
 
-} // namespace cotan
+} // namespace cotan::app

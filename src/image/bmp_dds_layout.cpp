@@ -1,12 +1,39 @@
-// Whether a DDS file holds the levels that its header promises.
+// BMP and DDS: whether the compression of a BMP file goes with its bits and its number of pixels, and whether a DDS
+// file holds the levels that its header promises.
 #include <algorithm>
 #include <array>
 
 #include <fmt/format.h>
 
-#include "file_layout.hpp"
+#include "oiio.hpp"
 
 namespace cotan::oiio {
+
+// Microsoft's BITMAPINFOHEADER. Runs are of 8 bits a pixel, or of 4: of others OpenImageIO reads in front of its rows.
+Problem checkBmp(File& file, const LoadLimits& limits)
+{
+    Numbers numbers = numbersOf(file);
+    // Of others OpenImageIO takes width and height from what its memory held.
+    constexpr std::array<std::uint64_t, 6> kHeaders = {12, 40, 52, 56, 108, 124};
+    const std::uint64_t header = numbers.at(14, 4);
+    if (std::ranges::find(kHeaders, header) == kHeaders.end())
+        return inputError(fmt::format("headers of {} bytes are not read here", header));
+    if (14 + header > numbers.size())
+        return inputError("its header goes on behind the end of the file");
+    if (header == kHeaders[0]) // OS/2's, without a compression
+        return std::nullopt;
+    const std::uint64_t bits = numbers.at(28, 2), compression = numbers.at(30, 4);
+    const std::uint64_t width = numbers.at(18, 4), below = numbers.at(22, 4);
+    const std::uint64_t height = below < 0x80000000 ? below : 0x100000000 - below; // negative: rows from above
+    const std::uint64_t ofRuns = compression == 1 ? 8 : compression == 2 ? 4 : 0;
+    if (ofRuns != 0 && bits != ofRuns)
+        return inputError(fmt::format("it has {} bits a pixel, its compression {} has {}", bits, compression, ofRuns));
+    // OpenImageIO takes memory for all of them before anybody sees their number.
+    if (ofRuns != 0 && height != 0 && width > limits.imageBytes / height)
+        return memoryError(
+            fmt::format("{} x {} pixels of a byte, the limit is {} bytes", width, height, limits.imageBytes));
+    return std::nullopt;
+}
 
 namespace {
 
@@ -75,19 +102,19 @@ Problem checkDds(File& file, const LoadLimits&)
     const DdsFormat format = ddsFormat(numbers);
     const std::uint64_t header = dx10 ? 148 : 128;
     if (numbers.past || numbers.size() < header)
-        return "its header goes on behind the end of the file";
+        return inputError("its header goes on behind the end of the file");
     if (format.block == 0 && format.pixel == 0)
-        return "its pixel format is not read here";
+        return inputError("its pixel format is not read here");
     // OpenImageIO counts up to the number of levels, for each tile of a cube.
     constexpr std::uint64_t kMaxLevels = 32;
     if (const std::uint64_t levels = numbers.at(28, 4); levels > kMaxLevels)
-        return fmt::format("it has {} levels, the most is {}", levels, kMaxLevels);
+        return inputError(fmt::format("it has {} levels, the most is {}", levels, kMaxLevels));
     const std::uint64_t blocks = ((width + 3) / 4) * ((height + 3) / 4);
     const std::uint64_t bytes = format.block > 0 ? blocks : width * height;
     const std::uint64_t each = format.block > 0 ? format.block : format.pixel;
     if (bytes > (numbers.size() - header) / each)
-        return fmt::format("{} x {} pixels take {} times {} bytes, the file has {} behind its header", width, height,
-                           bytes, each, numbers.size() - header);
+        return inputError(fmt::format("{} x {} pixels take {} times {} bytes, the file has {} behind its header", width,
+                                      height, bytes, each, numbers.size() - header));
     return std::nullopt;
 }
 

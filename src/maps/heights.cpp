@@ -1,3 +1,4 @@
+// Normal maps from heights, and heights from normal maps.
 #include <algorithm>
 #include <array>
 #include <atomic>
@@ -12,10 +13,64 @@
 #include "cotan/maps.hpp"
 #include "fft.hpp"
 #include "maps/texels.hpp"
+#include "scene/texture_sample.hpp"
 
 namespace cotan::maps {
 
 namespace {
+
+// The share of the neighbours on one side, in the middle and on the other, that a kernel takes across its derivative.
+constexpr std::array<float, 3> sharesAcross(Kernel kernel)
+{
+    if (kernel == Kernel::sobel)
+        return {0.25f, 0.5f, 0.25f};
+    if (kernel == Kernel::scharr)
+        return {3.0f / 16, 10.0f / 16, 3.0f / 16};
+    return {0, 1, 0};
+}
+
+// ---- from heights ------------------------------------------------------------------------------
+
+int wrapped(int i, int size, Wrap wrap)
+{
+    if (i >= 0 && i < size)
+        return i;
+    if (wrap == Wrap::clamp || size == 1)
+        return std::clamp(i, 0, size - 1);
+    if (wrap == Wrap::repeat)
+        return (i % size + size) % size;
+    return i < 0 ? std::min(-i - 1, size - 1) : std::max(2 * size - 1 - i, 0); // the edge row is repeated
+}
+
+// A row of heights with one more texel at either end.
+void loadHeights(const Image& image, int row, Wrap wrap, std::vector<float>& heights)
+{
+    const int y = wrapped(row, image.height, wrap);
+    heights.resize(std::size_t(image.width) + 2);
+    for (int x = 0; x < image.width; ++x)
+        heights[std::size_t(x) + 1] = storedComponents(image, x, y).x;
+    heights.front() = heights[std::size_t(wrapped(-1, image.width, wrap)) + 1];
+    heights.back() = heights[std::size_t(wrapped(image.width, image.width, wrap)) + 1];
+}
+
+// Differences of height per texel: rightwards and up the picture. x counts within the padded rows.
+glm::vec2 difference(const std::vector<float>& above, const std::vector<float>& here, const std::vector<float>& below,
+                     std::size_t x, Kernel kernel)
+{
+    if (kernel == Kernel::forward)
+        return {here[x + 1] - here[x], above[x] - here[x]};
+    if (kernel == Kernel::central) // not with weights of 0: a corner that is not a number would count
+        return 0.5f * glm::vec2(here[x + 1] - here[x - 1], above[x] - below[x]);
+    const std::array<float, 3> shares = sharesAcross(kernel == Kernel::sobel ? kernel : Kernel::scharr);
+    const float side = shares[0], middle = shares[1];
+    const float right = side * (above[x + 1] + below[x + 1]) + middle * here[x + 1];
+    const float left = side * (above[x - 1] + below[x - 1]) + middle * here[x - 1];
+    const float up = side * (above[x - 1] + above[x + 1]) + middle * above[x];
+    const float down = side * (below[x - 1] + below[x + 1]) + middle * below[x];
+    return 0.5f * glm::vec2(right - left, up - down);
+}
+
+// ---- to heights --------------------------------------------------------------------------------
 
 // A frequency of which a kernel has left less than this share of the slope's power is not rebuilt.
 constexpr double kLeast = 0.02;
@@ -196,19 +251,16 @@ template<class Work> std::size_t eachSlope(const Image& map, const ToHeightSetti
 
 using Row = std::vector<glm::vec2>;
 
-// Slopes beyond the border, where heights go on as the border's own. Along a slope's direction its mirror image
-// has the other sign.
-glm::vec2 slopeAt(const Row* const rows[3], int x, int dy, int width, bool top, bool bottom)
-{
-    const bool outsideY = (dy < 0 && top) || (dy > 0 && bottom), outsideX = x < 0 || x >= width;
-    const glm::vec2 s = (*rows[outsideY ? 1 : 1 + dy])[std::size_t(std::clamp(x, 0, width - 1))];
-    return {outsideX ? -s.x : s.x, outsideY ? -s.y : s.y};
-}
-
 // The transpose of what makes slopes of heights: minus the divergence, as the kernel has it.
 float transposed(Kernel kernel, const Row* const rows[3], int x, int width, bool top, bool bottom)
 {
-    const auto at = [&](int dx, int dy) { return slopeAt(rows, x + dx, dy, width, top, bottom); };
+    // Slopes beyond the border, where heights go on as the border's own. Along a slope's direction its mirror image
+    // has the other sign.
+    const auto at = [&](int dx, int dy) -> glm::vec2 {
+        const bool outsideY = (dy < 0 && top) || (dy > 0 && bottom), outsideX = x + dx < 0 || x + dx >= width;
+        const glm::vec2 s = (*rows[outsideY ? 1 : 1 + dy])[std::size_t(std::clamp(x + dx, 0, width - 1))];
+        return {outsideX ? -s.x : s.x, outsideY ? -s.y : s.y};
+    };
     if (kernel == Kernel::forward) { // no slope leaves the last column, none enters the first row from above
         const float right = x + 1 < width ? at(0, 0).x : 0, left = x > 0 ? at(-1, 0).x : 0;
         return left - right + (top ? 0 : at(0, 0).y) - (bottom ? 0 : at(0, 1).y);
@@ -270,18 +322,6 @@ void solveFreeSpectral(const Image& map, const ToHeightSettings& s, Heights& res
     divide(h, map.width, map.height, [](double x, double y) { return 4 - 2 * std::cos(x) - 2 * std::cos(y); });
 }
 
-double residualSpectral(const std::vector<float>& h, std::size_t x, std::size_t y, std::size_t width,
-                        std::size_t height, const Row& here, const Row& below)
-{
-    const float* at = h.data() + y * width + x;
-    double sum = 0;
-    if (x + 1 < width)
-        sum += std::pow(double(at[1] - at[0] - 0.5f * (here[x].x + here[x + 1].x)), 2);
-    if (y + 1 < height)
-        sum += std::pow(double(at[width] - at[0] - 0.5f * (here[x].y + below[x].y)), 2);
-    return sum;
-}
-
 // Least squares over the kernel's slopes of heights that are clamped at the borders.
 void solveFreeKernel(const Image& map, const ToHeightSettings& s, Heights& result)
 {
@@ -310,7 +350,13 @@ void solveFree(const Image& map, const ToHeightSettings& s, Heights& result)
     eachSlope(map, s, [&](std::size_t x, int y, const Row&, const Row& here, const Row& below) {
         Power& power = rows[std::size_t(y)];
         if (spectral) {
-            power.residual += residualSpectral(h, x, std::size_t(y), width, height, here, below);
+            const float* at = h.data() + std::size_t(y) * width + x;
+            double off = 0;
+            if (x + 1 < width)
+                off += std::pow(double(at[1] - at[0] - 0.5f * (here[x].x + here[x + 1].x)), 2);
+            if (std::size_t(y) + 1 < height)
+                off += std::pow(double(at[width] - at[0] - 0.5f * (here[x].y + below[x].y)), 2);
+            power.residual += off;
         } else {
             const glm::dvec2 off = here[x] - slopeOf(s.kernel, h, int(x), y, map.width, map.height);
             const bool forward = s.kernel == Kernel::forward; // whose last column and first row have no slope
@@ -328,6 +374,40 @@ void solveFree(const Image& map, const ToHeightSettings& s, Heights& result)
 }
 
 } // namespace
+
+Image normalsFromHeight(const Image& height, const FromHeightSettings& s, std::size_t& invalid)
+{
+    const int border = s.bordered ? 1 : 0;
+    Image out = makeImage(height.width, height.height - 2 * border, s.type, height.name);
+    const std::size_t width = std::size_t(height.width);
+    const glm::vec2 scale(float(s.scaleX), float(s.scaleY));
+    std::atomic<std::size_t> bad = 0;
+    forRowBands(out.height, [&](int first, int last) {
+        std::vector<float> above, here, below;
+        std::vector<glm::vec4> texels(width);
+        std::size_t badHere = 0;
+        loadHeights(height, first - 1 + border, s.wrap, above);
+        loadHeights(height, first + border, s.wrap, here);
+        for (int y = first; y < last; ++y) {
+            loadHeights(height, y + 1 + border, s.wrap, below);
+            for (std::size_t x = 0; x < width; ++x) {
+                const glm::vec2 slope = difference(above, here, below, x + 1, s.kernel) * scale;
+                const bool finite = std::isfinite(slope.x) && std::isfinite(slope.y);
+                badHere += !finite;
+                const glm::vec3 normal = finite ? glm::normalize(glm::vec3(-slope, 1)) : glm::vec3(0, 0, 1);
+                texels[x] = encodeTexel(normal, s.to, s.type);
+            }
+            if (s.dither)
+                ditherRow(texels, s.type, s.firstRow + y);
+            storeRow(out, y, texels);
+            above.swap(here);
+            here.swap(below);
+        }
+        bad += badHere;
+    });
+    invalid = bad;
+    return out;
+}
 
 Heights heightFromNormals(const Image& map, const ToHeightSettings& settings)
 {

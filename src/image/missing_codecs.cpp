@@ -1,0 +1,67 @@
+// What codecs.hpp declares where the library of a format is not there (CMakeLists.txt).
+#include "codecs.hpp"
+#include "core/not_built.hpp"
+
+namespace cotan {
+
+namespace {
+
+[[maybe_unused]] Error missing(const std::string& name, const std::string& library, const std::string& package)
+{
+    const Error error = notBuiltWith(library, package);
+    return reworded(error, name + ": " + error.message);
+}
+
+} // namespace
+
+#ifdef COTAN_WITHOUT_PNG
+static Error noPng(const std::string& name) { return missing(name, "libpng", "libpng-dev"); }
+
+Result<Image> readPng(std::span<const std::byte>, const std::string& name, const LoadLimits&) { return noPng(name); }
+Status writePng(const std::filesystem::path&, const Image&, const std::string& name) { return noPng(name); }
+Result<std::vector<std::byte>> encodePng(const Image& image) { return noPng(image.name); }
+
+std::optional<Result<std::unique_ptr<RowReader>>> openPngRows(const std::filesystem::path& file, OpenFile,
+                                                              const LoadLimits&)
+{
+    return noPng(file.string());
+}
+
+Result<std::unique_ptr<RowWriter>> createPngRows(const std::filesystem::path&, const RowFormat&,
+                                                 const std::string& name)
+{
+    return noPng(name);
+}
+#endif
+
+#ifdef COTAN_WITHOUT_JPEG // what reads all other formats may read it, too
+std::optional<Result<Image>> readJpeg(std::span<const std::byte>, const std::string&, const LoadLimits&)
+{
+    return std::nullopt;
+}
+
+std::optional<Result<std::vector<std::byte>>> writeJpegLike(const Image&, std::span<const std::byte>, int&)
+{
+    return std::nullopt;
+}
+#endif
+
+#ifdef COTAN_WITHOUT_WEBP
+static Error noWebp(const std::string& name) { return missing(name, "libwebp", "libwebp-dev"); }
+
+bool readsWebp() { return false; }
+Result<Image> readWebp(std::span<const std::byte>, const std::string& name, const LoadLimits&) { return noWebp(name); }
+
+Result<std::unique_ptr<AnimationWriter>> createWebpAnimation(const std::filesystem::path&, const AnimationFormat&,
+                                                             const std::string& name)
+{
+    return noWebp(name);
+}
+
+std::optional<Result<std::vector<std::byte>>> writeWebpLike(const Image&, std::span<const std::byte>, int&)
+{
+    return std::nullopt;
+}
+#endif
+
+} // namespace cotan

@@ -1,0 +1,350 @@
+// The module of image formats: writing.
+#include "oiio.hpp"
+
+#include <array>
+#include <cerrno>
+#include <cmath>
+#include <cstdint>
+#include <cstdio>
+#include <exception>
+#include <fstream>
+#include <system_error>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "files/bytes.hpp"
+#include "image/checks.hpp"
+#include "image/component_types.hpp"
+#include "image/format_table.hpp"
+
+namespace cotan::oiio {
+
+namespace {
+
+// The library's words within a sentence of ours.
+Error notWritten(const std::string& name, const std::string& words)
+{
+    return outputError(name + ": expected to write the picture, OpenImageIO found: " + oneLine(words));
+}
+
+// A file that OpenImageIO writes to, and that knows whether all of it arrived. The writers of OpenImageIO do not: on a
+// full disk that of Targa says that it is done, and that of JPEG ends the process.
+class CheckedFile final : public OIIO::Filesystem::IOProxy {
+public:
+    // Replaces the file. Whether it could be made, finish() says, too.
+    explicit CheckedFile(const std::filesystem::path& file)
+        : IOProxy(file.string(), Write), file_(std::fopen(file.c_str(), "w+be")), error_(file_ ? 0 : errno)
+    {
+    }
+
+    // Closes the file. Errors: ErrorKind::output with the system's reason where a byte is missing. name: for the
+    // message.
+    Status finish(const std::string& name)
+    {
+        if (file_ && std::fclose(file_.release()) != 0)
+            note();
+        return error_ == 0 ? Status(Done{}) : notWritten(name, std::generic_category().message(error_));
+    }
+
+    const char* proxytype() const override { return "checked"; } // with another than "file", JPEG is coded in memory
+
+    std::size_t read(void* to, std::size_t count) override
+    {
+        const std::size_t done = pread(to, count, m_pos);
+        m_pos += std::int64_t(done);
+        return done;
+    }
+
+    std::size_t write(const void* from, std::size_t count) override
+    {
+        const std::size_t done = pwrite(from, count, m_pos);
+        m_pos += std::int64_t(done);
+        return done;
+    }
+
+    std::size_t pread(void* to, std::size_t count, std::int64_t offset) override
+    {
+        return moveTo(offset, Use::reading) ? std::fread(to, 1, count, file_.get()) : 0;
+    }
+
+    std::size_t pwrite(const void* from, std::size_t count, std::int64_t offset) override
+    {
+        if (!moveTo(offset, Use::writing))
+            return 0;
+        const std::size_t done = std::fwrite(from, 1, count, file_.get());
+        at_ += std::int64_t(done);
+        if (done != count)
+            note();
+        return done;
+    }
+
+    std::size_t size() const override
+    {
+        if (!file_ || ::fseeko(file_.get(), 0, SEEK_END) != 0)
+            return 0;
+        at_ = -1; // the next use looks for its place
+        return std::size_t(::ftello(file_.get()));
+    }
+
+    void flush() const override
+    {
+        if (file_ && std::fflush(file_.get()) != 0)
+            note();
+    }
+
+private:
+    enum class Use { nothing, reading, writing };
+
+    void note() const
+    {
+        if (error_ == 0)
+            error_ = errno != 0 ? errno : EIO;
+    }
+
+    // A FILE wants a seek between reading and writing. Without one that is not needed its buffer is kept, and pipes,
+    // which have no places, can be written to.
+    bool moveTo(std::int64_t offset, Use use)
+    {
+        if (!file_)
+            return false;
+        if ((use != use_ && use_ != Use::nothing) || offset != at_ || use == Use::reading)
+            if (::fseeko(file_.get(), offset, SEEK_SET) != 0) {
+                note();
+                return false;
+            }
+        use_ = use;
+        at_ = use == Use::writing ? offset : -1;
+        return true;
+    }
+
+    OpenFile file_;
+    mutable int error_; // the errno of the first failure
+    Use use_ = Use::nothing;
+    mutable std::int64_t at_ = 0; // where the next byte would be written; -1: not known
+};
+
+// How components of `type` are stored.
+OIIO::TypeDesc typeToWrite(const ImageFormat& format, PixelType type)
+{
+    if (!format.bits16 && !format.floats)
+        return OIIO::TypeDesc::UINT8;
+    return format.bits8 ? typeDesc(type) : OIIO::TypeDesc::FLOAT;
+}
+
+// channels: no more than the format has. frame: Image::frame, for the formats that hold it.
+OIIO::ImageSpec outputSpec(int width, int height, int channels, OIIO::TypeDesc type, const ImageFormat& format,
+                           const std::string& frame)
+{
+    OIIO::ImageSpec spec(width, height, channels, type);
+    spec.attribute("oiio:UnassociatedAlpha", 1); // the values are written as they are
+    // The same picture gives the same bytes: no time of writing.
+    spec.attribute("DateTime", "1970:01:01 00:00:00");
+    if (format.openImageIo == "openexr" || format.openImageIo == "tiff")
+        spec.attribute("compression", "zip");
+    if (format.openImageIo == "jpeg")
+        spec.attribute("CompressionQuality", 95);
+    if (format.frame && !frame.empty())
+        spec.attribute(std::string(kFrameKey), frame);
+    return spec;
+}
+
+class Writer : public RowWriter {
+public:
+    Writer(std::unique_ptr<CheckedFile> file, std::unique_ptr<OIIO::ImageOutput> output, RowFormat format,
+           std::string name)
+        : file_(std::move(file)), output_(std::move(output)), format_(format), name_(std::move(name))
+    {
+    }
+
+    Status write(const Image& strip) override
+    {
+        return guarded([&] {
+            const int first = next_;
+            next_ += strip.height;
+            return output_->write_scanlines(first, next_, 0, typeDesc(format_.type), strip.data.data(),
+                                            OIIO::stride_t(strip.bytesPerPixel()));
+        });
+    }
+
+    Status finish() override
+    {
+        Status closed = guarded([&] { return output_->close(); });
+        Status whole = file_->finish(name_);
+        return whole ? closed : whole;
+    }
+
+private:
+    template<class Work> Status guarded(Work work)
+    try {
+        if (work())
+            return Done{};
+        return notWritten(name_, output_->geterror());
+    } catch (const std::exception& e) {
+        return notWritten(name_, e.what());
+    }
+
+    std::unique_ptr<CheckedFile> file_; // the output writes to it until it ends
+    std::unique_ptr<OIIO::ImageOutput> output_;
+    RowFormat format_;
+    std::string name_;
+    int next_ = 0;
+};
+
+} // namespace
+
+Status write(const std::filesystem::path& file, const Image& image, const std::string& name)
+{
+    const ImageFormat& format = *imageFormatOf(name); // which checkImageName accepted
+    const OIIO::TypeDesc type = typeToWrite(format, image.type);
+    if (type == OIIO::TypeDesc::UINT8 && image.type != PixelType::unorm8)
+        return write(file, toUnorm8(image), name);
+    try {
+        CheckedFile checked(file); // the output writes to it until it ends
+        const auto output = OIIO::ImageOutput::create(std::string(format.openImageIo));
+        if (!output)
+            return notWritten(name, OIIO::geterror());
+        output->threads(1);
+        output->set_ioproxy(&checked);
+        const OIIO::ImageSpec spec =
+            outputSpec(image.width, image.height, format.alpha ? 4 : 3, type, format, image.frame);
+        const bool done = output->open(file.string(), spec)
+            && output->write_image(typeDesc(image.type), image.data.data(), OIIO::stride_t(image.bytesPerPixel()))
+            && output->close();
+        if (Status whole = checked.finish(name); !whole)
+            return whole;
+        if (!done)
+            return notWritten(name, output->geterror());
+    } catch (const std::exception& e) {
+        return notWritten(name, e.what());
+    }
+    return Done{};
+}
+
+Result<std::unique_ptr<RowWriter>> createRows(const std::filesystem::path& file, const RowFormat& format, int threads,
+                                              const std::string& name)
+try {
+    const ImageFormat& stored = *imageFormatOf(name);   // which checkImageName accepted
+    auto checked = std::make_unique<CheckedFile>(file); // the output writes to it until it ends
+    auto output = OIIO::ImageOutput::create(std::string(stored.openImageIo));
+    if (!output)
+        return notWritten(name, OIIO::geterror());
+    output->threads(threads);
+    const int channels = format.alpha && stored.alpha ? 4 : 3;
+    const auto type = format.half ? OIIO::TypeDesc(OIIO::TypeDesc::HALF) : typeToWrite(stored, format.type);
+    output->set_ioproxy(checked.get());
+    if (!output->open(file.string(), outputSpec(format.width, format.height, channels, type, stored, format.frame)))
+        return notWritten(name, output->geterror());
+    return std::unique_ptr<RowWriter>(std::make_unique<Writer>(std::move(checked), std::move(output), format, name));
+} catch (const std::exception& e) {
+    return notWritten(name, e.what());
+}
+
+// ---- animated GIF: one subimage a picture ---------------------------------------------------
+
+namespace {
+
+// Where in a whole GIF the delays of its pictures are: two bytes each, in hundredths of a second, the low one first.
+std::vector<std::streamoff> delaysOf(std::istream& gif)
+{
+    constexpr int kHead = 13, kImage = 9; // bytes: of the file, and of a picture behind its mark
+    const auto skipTable = [&](int flags) { gif.ignore((flags & 0x80) != 0 ? 3 << ((flags & 7) + 1) : 0); };
+    const auto skipBlocks = [&] {
+        for (int size = gif.get(); size > 0; size = gif.get())
+            gif.ignore(size);
+    };
+    std::vector<std::streamoff> delays;
+    std::array<char, kHead> head{};
+    gif.read(head.data(), kHead);
+    skipTable(head[10]);
+    for (int mark = gif.get(); mark == '!' || mark == ','; mark = gif.get()) {
+        if (mark == '!') {
+            if (gif.get() == 0xf9) // its block: size, flags, delay, transparent colour
+                delays.push_back(std::streamoff(gif.tellg()) + 2);
+        } else {
+            gif.read(head.data(), kImage);
+            skipTable(head[8]);
+            gif.ignore(1); // bits of a code
+        }
+        skipBlocks();
+    }
+    return delays;
+}
+
+// OpenImageIO 2.5 gives every picture a second, whatever FramesPerSecond says.
+bool setDelays(const std::filesystem::path& file, double rate)
+{
+    std::fstream gif(file, std::ios::in | std::ios::out | std::ios::binary);
+    const std::vector<std::streamoff> delays = delaysOf(gif);
+    gif.clear(); // that the end was reached
+    const auto delay = unsigned(std::lround(100 / rate));
+    for (const std::streamoff at : delays) {
+        gif.seekp(at);
+        gif.put(char(delay & 255)).put(char(delay >> 8));
+    }
+    gif.close();
+    return bool(gif);
+}
+
+class Gif : public AnimationWriter {
+public:
+    Gif(std::filesystem::path file, const AnimationFormat& format, std::string name)
+        : file_(std::move(file)), name_(std::move(name)), spec_(format.width, format.height, 4, OIIO::TypeDesc::UINT8),
+          rate_(format.rate), left_(format.pictures), checked_(file_)
+    {
+        spec_.attribute("FramesPerSecond", float(format.rate));
+    }
+
+    Status add(const Image& picture) override
+    try {
+        if (left_ == 0)
+            return outputError(name_ + ": there are more pictures than were announced");
+        if (!output_) {
+            output_ = OIIO::ImageOutput::create("gif");
+            const std::vector<OIIO::ImageSpec> all(left_, spec_);
+            if (!output_ || !output_->set_ioproxy(&checked_) || !output_->open(file_.string(), int(left_), all.data()))
+                return failed();
+        } else if (!output_->open(file_.string(), spec_, OIIO::ImageOutput::AppendSubimage)) {
+            return failed();
+        }
+        --left_;
+        return output_->write_image(OIIO::TypeDesc::UINT8, picture.data.data()) ? Status(Done{}) : failed();
+    } catch (const std::exception& e) {
+        return outputError(fmt::format("{}: {}", name_, oneLine(e.what())));
+    }
+
+    Status finish() override
+    {
+        const bool closed = output_ && output_->close();
+        if (Status whole = checked_.finish(name_); !whole)
+            return whole;
+        if (!closed)
+            return failed();
+        return setDelays(file_, rate_) ? Status(Done{}) : outputError(name_ + ": cannot write the file");
+    }
+
+private:
+    Status failed() const
+    {
+        return outputError(fmt::format("{}: {}", name_, oneLine(output_ ? output_->geterror() : OIIO::geterror())));
+    }
+
+    std::filesystem::path file_;
+    std::string name_;
+    OIIO::ImageSpec spec_;
+    double rate_; // pictures a second
+    std::size_t left_;
+    CheckedFile checked_;
+    std::unique_ptr<OIIO::ImageOutput> output_; // writes to it until it ends
+};
+
+} // namespace
+
+Result<std::unique_ptr<AnimationWriter>> createGif(const std::filesystem::path& file, const AnimationFormat& format,
+                                                   const std::string& name)
+{
+    return std::unique_ptr<AnimationWriter>(new Gif(file, format, name));
+}
+
+} // namespace cotan::oiio

@@ -1,0 +1,52 @@
+// What packs the levels of KTX2 files, each where its library is there (CMakeLists.txt).
+#include <fmt/format.h>
+#ifndef COTAN_WITHOUT_ZLIB
+#include <zlib.h>
+#endif
+#ifndef COTAN_WITHOUT_ZSTD
+#include <zstd.h>
+#endif
+
+#include "codecs.hpp"
+#include "core/not_built.hpp"
+
+namespace cotan {
+
+#ifdef COTAN_WITHOUT_ZLIB
+Status unpackZlib(std::span<const std::byte>, std::span<std::byte>)
+{
+    return notBuiltWith("zlib, which unpacks this picture", "zlib1g-dev");
+}
+#else
+Status unpackZlib(std::span<const std::byte> packed, std::span<std::byte> out)
+{
+    uLongf got = uLongf(out.size());
+    const int done = uncompress(reinterpret_cast<Bytef*>(out.data()), &got,
+                                reinterpret_cast<const Bytef*>(packed.data()), uLong(packed.size()));
+    if (done != Z_OK)
+        return inputError(done == Z_BUF_ERROR ? "zlib: the data end too soon, or go on too long"
+                                              : "zlib: the data are damaged");
+    if (got != out.size())
+        return inputError(fmt::format("zlib: expected {} bytes, found {}", out.size(), got));
+    return Done{};
+}
+#endif
+
+#ifdef COTAN_WITHOUT_ZSTD
+Status unpackZstd(std::span<const std::byte>, std::span<std::byte>)
+{
+    return notBuiltWith("libzstd, which unpacks this picture", "libzstd-dev");
+}
+#else
+Status unpackZstd(std::span<const std::byte> packed, std::span<std::byte> out)
+{
+    const std::size_t got = ZSTD_decompress(out.data(), out.size(), packed.data(), packed.size());
+    if (ZSTD_isError(got) != 0)
+        return inputError(fmt::format("zstd: {}", ZSTD_getErrorName(got)));
+    if (got != out.size())
+        return inputError(fmt::format("zstd: expected {} bytes, found {}", out.size(), got));
+    return Done{};
+}
+#endif
+
+} // namespace cotan
