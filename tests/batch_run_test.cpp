@@ -416,6 +416,11 @@ TEST(BatchReport, worstFirstAndNothingInAJobEndsThePageEarly)
             ++n;
         return n;
     };
+    // The heads of the columns, from left to right.
+    std::size_t at = page.find("class=\"row head\"");
+    for (const char* const head : {">Job<", ">State<", ">Degrees<", ">Seconds<", ">MiB<", "id=\"list\""}) {
+        ASSERT_NE(at = page.find(head, at), std::string::npos) << head;
+    }
     EXPECT_EQ(count("<script"), 2u);
     EXPECT_EQ(count("</script>"), 2u);
     EXPECT_EQ(count("<img"), 0u);

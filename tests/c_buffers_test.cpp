@@ -2,8 +2,11 @@
 // it. Data have no symmetry: widths are not heights, x is not y, the first place is not the last.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
 #include <cstring>
 #include <limits>
 #include <numbers>
@@ -244,6 +247,16 @@ TEST(CBuffers, framesFillThreeFloatsAPlaceAndNothingOfNone)
     EXPECT_EQ(cotan_frame_encode("orthonormal", &places, texels.data(), none.data(), message, sizeof message),
               COTAN_OK);
     EXPECT_TRUE(none.untouched());
+    const cotan_places nowhere = {sizeof nowhere, 0, nullptr, nullptr, nullptr, nullptr, nullptr};
+    EXPECT_EQ(cotan_frame_apply("orthonormal", &nowhere, texels.data(), none.data(), message, sizeof message), COTAN_OK)
+        << message;
+    EXPECT_EQ(cotan_frame_encode("orthonormal", &nowhere, texels.data(), none.data(), message, sizeof message),
+              COTAN_OK)
+        << message;
+    cotan_places lacking = nowhere;
+    lacking.count = 1;
+    EXPECT_EQ(cotan_frame_apply("orthonormal", &lacking, texels.data(), none.data(), message, sizeof message),
+              COTAN_USAGE);
 }
 
 TEST(CBuffers, namesOfFramesEndWithTheirCount)
@@ -470,6 +483,47 @@ TEST(CBuffers, shaderTextFillsABufferOfItsSizeAndLeavesASmallerOneAlone)
     EXPECT_EQ(cotan_shader_text("glsl", "orthonormal", "gltf", small.data(), &size, message, sizeof message), COTAN_OK);
     EXPECT_EQ(size, needed);
     EXPECT_TRUE(small.untouched());
+}
+
+// Callers that were built with another version have the fields of the first one, or some that nobody knows yet.
+TEST(CBuffers, resultsAreWrittenAsFarAsTheirSizeSaysAndTheLibraryKnows)
+{
+    constexpr std::size_t kWord = sizeof(std::uint64_t), kMore = 16;
+    const float positions[] = {0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0}, uvs[] = {0, 1, 1, 1, 1, 0, 0, 0};
+    const float normals[] = {0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1};
+    const std::uint32_t indices[] = {0, 1, 2, 0, 2, 3};
+    const cotan_mesh mesh = {sizeof(cotan_mesh), 4, positions, normals, uvs, 6, indices};
+    Guarded<std::uint8_t> pixels(8 * 8 * 4);
+    cotan_picture map = pictureOf(pixels.data(), 8, 8);
+    for (const std::size_t size :
+         {offsetof(cotan_bake_result, further), sizeof(cotan_bake_result), sizeof(cotan_bake_result) + kMore}) {
+        Guarded<std::uint64_t> words((sizeof(cotan_bake_result) + kMore) / kWord);
+        auto* const result = reinterpret_cast<cotan_bake_result*>(words.data());
+        result->size = size;
+        const cotan_status baked = cotan_bake(&mesh, &mesh, nullptr, &map, result, message, sizeof message);
+        if (baked == COTAN_UNAVAILABLE)
+            GTEST_SKIP() << message;
+        ASSERT_EQ(baked, COTAN_OK) << message;
+        EXPECT_EQ(result->size, size);
+        EXPECT_EQ(result->covered, 64u);
+        EXPECT_EQ(result->missed, 0u);
+        EXPECT_GT(result->ray_distance, 0);
+        const std::size_t written = std::min(size, sizeof(cotan_bake_result)) / kWord;
+        EXPECT_NE(words[written - 1], 77u) << "the last that it has";
+        for (std::size_t i = written; i < (sizeof(cotan_bake_result) + kMore) / kWord; ++i)
+            EXPECT_EQ(words[i], 77u) << size << ": word " << i;
+    }
+    const auto longer = [&](auto kind, const auto& work) {
+        using Result = decltype(kind);
+        Guarded<std::uint64_t> words((sizeof(Result) + kMore) / kWord);
+        auto* const result = reinterpret_cast<Result*>(words.data());
+        result->size = sizeof(Result) + kMore;
+        EXPECT_EQ(work(result), COTAN_OK) << message;
+        for (std::size_t i = sizeof(Result) / kWord; i < (sizeof(Result) + kMore) / kWord; ++i)
+            EXPECT_EQ(words[i], 77u) << "word " << i;
+    };
+    longer(cotan_green{}, [&](auto* green) { return cotan_map_green(&map, green, message, sizeof message); });
+    longer(cotan_map_info{}, [&](auto* info) { return cotan_map_describe(&map, info, message, sizeof message); });
 }
 
 TEST(CBuffers, messagesAreCutToTheirBuffer)

@@ -47,6 +47,26 @@ TEST(GltfNormals, zeroStaysZeroAndIsSaid)
     EXPECT_TRUE(warns(scene, "NORMAL: zero length"));
 }
 
+// What reports and messages call a primitive.
+TEST(GltfNames, ofPrimitivesAreThoseOfTheirMeshAndTheirNumberWhereThereAreSeveral)
+{
+    for (const bool named : {true, false}) {
+        Gltf g = square();
+        g.root["meshes"][0]["name"] = "lid";
+        if (!named)
+            g.root["meshes"][0].erase("name");
+        const std::string name = named ? "lid" : "mesh 0";
+        COTAN_LOADED(one, g.load());
+        ASSERT_EQ(one.meshes.size(), 1u);
+        EXPECT_EQ(one.meshes[0].name, name);
+        g.root["meshes"][0]["primitives"].push_back(primitive(g));
+        COTAN_LOADED(two, g.load());
+        ASSERT_EQ(two.meshes.size(), 2u);
+        EXPECT_EQ(two.meshes[0].name, name + "/0");
+        EXPECT_EQ(two.meshes[1].name, name + "/1");
+    }
+}
+
 // ---- tangents -------------------------------------------------------------------------------
 
 Gltf squareWithTangents(float w)

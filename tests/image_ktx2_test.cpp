@@ -1,6 +1,8 @@
 // KTX 2.0 files: formats, packings, keys; cut short and lying.
 #include "cotan/image.hpp"
 
+#include <algorithm>
+
 #include <gtest/gtest.h>
 #include <zstd.h>
 
@@ -186,6 +188,22 @@ TEST(Ktx2, filesThatEndTooSoonAreRefusedWhereverTheyEnd)
         const std::string why = ktx2Refusal(file.substr(0, size));
         EXPECT_TRUE(why.starts_with("a.ktx2: ")) << size << why;
         EXPECT_EQ(why.find('\n'), std::string::npos);
+    }
+}
+
+// The longer side says how many there are: 8, 4, 2, 1.
+TEST(Ktx2, thinPicturesHaveTheLevelsOfTheirLongerSide)
+{
+    for (const auto& [width, height] : {std::pair{8u, 2u}, {2u, 8u}}) {
+        Ktx2File k{.width = width, .height = height};
+        for (int level = 0; level < 4; ++level)
+            k.levels.push_back({ramp(std::size_t(std::max(width >> level, 1u) * std::max(height >> level, 1u) * 4))});
+        const auto image = ktx2Image(makeKtx2(k));
+        ASSERT_TRUE(image) << image.error().message;
+        EXPECT_EQ(image->width, int(width));
+        EXPECT_EQ(image->height, int(height));
+        k.levelCount = 5;
+        EXPECT_NE(ktx2Refusal(makeKtx2(k)).find("it has 5 levels"), std::string::npos) << width;
     }
 }
 

@@ -264,6 +264,18 @@ TEST_F(ImageFile, floatsAreClampedToEightBitsInPng)
     EXPECT_EQ(pixel(*back, 1, 0), (Pixel{0, 0, 255, 255}));
 }
 
+TEST_F(ImageFile, anImageWhoseBytesAreNotThoseOfItsSizeIsNotWrittenAndTheSizeIsSaid)
+{
+    Image image = pattern(PixelType::unorm8, 7, 5);
+    image.data.pop_back();
+    const auto status = writeImage(folder / "a.png", image);
+    ASSERT_FALSE(status);
+    EXPECT_EQ(status.error().kind, ErrorKind::usage);
+    EXPECT_NE(status.error().message.find("a.png: there is no image to write (7 x 5, 139 bytes)"), std::string::npos)
+        << status.error().message;
+    EXPECT_EQ(fileCount(), 0u);
+}
+
 TEST_F(ImageFile, exrKeepsFloatsExactly)
 {
     Image image = pattern(PixelType::float32, 40, 30);

@@ -134,7 +134,8 @@ TEST(LintCheck, mapsOfWhichNoneWasJudgedDoNotPass)
     PrimitiveLint p = sound();
     p.notJudged = "no uv";
     p.readings.clear();
-    EXPECT_EQ(kindsOf(checkLimits(reportOf(p), {.degrees = 180})), Kinds{"not_judged"});
+    for (const double degrees : {0.0, 0.5, 180.0})
+        EXPECT_EQ(kindsOf(checkLimits(reportOf(p), {.degrees = degrees})), Kinds{"not_judged"}) << degrees;
     LintReport both = reportOf(sound());
     both.primitives.push_back(p);
     EXPECT_TRUE(checkLimits(both, {.degrees = 180}).passed());

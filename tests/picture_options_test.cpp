@@ -1,6 +1,8 @@
 // Words of `render` and `compare` as sizes, cameras and views; both sides of every limit.
 #include <gtest/gtest.h>
 
+#include <numbers>
+
 #include <glm/geometric.hpp>
 
 #include "common.hpp"
@@ -50,6 +52,21 @@ TEST(PictureWords, camerasHaveTheNamesOfSides)
     for (const char* wrong :
          {"Left", "orbit", "orbit:", "orbit:1", "orbit:1,2,3", "orbit:1,nan", "orbit:1,90.1", "side"})
         EXPECT_FALSE(parseCamera(wrong, scene, 10, 10)) << wrong;
+}
+
+// Eye, target and lens: degrees, or the height of what an orthographic one sees.
+TEST(PictureWords, lensesAreAbove0AndBelow180DegreesAndHeightsAbove0)
+{
+    const Scene scene = builtinScene();
+    const auto with = [&](const std::string& lens) { return parseCamera("1,2,4,0,0.2,0," + lens, scene, 10, 10); };
+    for (const char* lens : {"0.01", "1", "179.99", "h0.01", "h1000"})
+        EXPECT_TRUE(with(lens)) << lens;
+    for (const char* lens : {"0", "-1", "180", "180.5", "nan", "h0", "h-1", "hinf", ""})
+        EXPECT_FALSE(with(lens)) << lens;
+    EXPECT_NEAR(with("30")->verticalFieldOfView, std::numbers::pi / 6, 1e-6);
+    EXPECT_EQ(with("h3")->verticalExtent, 3.0f);
+    EXPECT_TRUE(with("h3")->orthographic);
+    EXPECT_FALSE(with("30")->orthographic);
 }
 
 TEST(PictureWords, camerasAreNumberedFromNoughtToTheLast)

@@ -180,6 +180,8 @@ TEST(VerifyBake, aMaterialThatTheSceneDoesNotHaveIsRefused)
         const auto compared = verifyBake(*reference(), {pair.low, *low, *high, options, map, {}, material}, kPixels);
         ASSERT_FALSE(compared);
         EXPECT_EQ(compared.error().kind, ErrorKind::usage);
+        const std::string found = "expected a material from -1 to 0; found " + std::to_string(material);
+        EXPECT_NE(compared.error().message.find(found), std::string::npos) << compared.error().message;
     }
 }
 

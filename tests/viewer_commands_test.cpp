@@ -100,6 +100,45 @@ TEST(ViewerCommands, eachSwitchTurnsItsOwnFieldAndBack)
     EXPECT_FALSE(after("toggle hot-spots", found).problemArea);
 }
 
+// What light there is changes what the exposure is found from; what is read or posed has to be read or posed again.
+TEST(ViewerCommands, eachSettingIsFollowedByWhatItMakesStale)
+{
+    const std::map<std::string, std::string> values = {{"exposure", "2"},
+                                                       {"environment", "evening"},
+                                                       {"variant", "red"},
+                                                       {"animation", "turn"},
+                                                       {"time", "1"},
+                                                       {"environment-rotation", "20"},
+                                                       {"environment-intensity", "2"},
+                                                       {"shadow-softness", "5"}};
+    State before = start();
+    before.metered = 2;
+    std::size_t metered = 0, loaded = 0, posed = 0;
+    for (const Setting& setting : settings()) {
+        const std::string name = setting.name;
+        std::string value = setting.flag ? "on" : "";
+        if (const auto chosen = values.find(name); chosen != values.end())
+            value = chosen->second;
+        for (const std::string& word : setting.words)
+            if (word != setting.get(before.picture))
+                value = word;
+        const State s = after("set " + name + " " + value, before);
+        EXPECT_NE(setting.get(s.picture), setting.get(before.picture)) << name;
+        const bool light = name == "exposure" || name == "tone-mapping" || name == "environment";
+        EXPECT_EQ(s.metered, light ? 0.0f : 2.0f) << name;
+        metered += light;
+        for (const Request& request : s.requests) {
+            loaded += std::holds_alternative<request::Load>(request) && (name == "variant" || name == "shape");
+            posed += std::holds_alternative<request::Pose>(request) && (name == "animation" || name == "time");
+        }
+        EXPECT_EQ(s.requests.size(), name == "variant" || name == "shape" || name == "animation" || name == "time")
+            << name;
+    }
+    EXPECT_EQ(metered, 3u);
+    EXPECT_EQ(loaded, 2u);
+    EXPECT_EQ(posed, 2u);
+}
+
 TEST(ViewerCommands, sidesAreSetApartAndExchanged)
 {
     const char* const lines[] = {"frame smooth", "tangents generated", "normal-map a b.png", "convention directx"};

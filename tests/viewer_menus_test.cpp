@@ -37,6 +37,9 @@ TEST(ViewerMenus, everyEntryCanBeDoneAndNoKeyHasTwoMeanings)
     }
     for (const char* key : {"1", "9", "h", "f12", "tab", "ctrl+c", "f5", "r", "o", "d", "f", "g"})
         EXPECT_TRUE(keys.contains(key)) << key;
+    for (std::size_t i = 0; i < 9; ++i) // those of the numbers, in their order
+        EXPECT_EQ(keys[fmt::format("alt+{}", i + 1)], showNames()[i]);
+    EXPECT_FALSE(keys.contains("alt+0"));
 }
 
 // With text of 200 % a line takes 40 pixels of the 720, and the bar one.

@@ -210,6 +210,16 @@ TEST(ViewerInput, aProblemAreaIsOutlinedInTheViewThatShowsItWithTheModelAround)
     EXPECT_TRUE(interfaceOf(state).lines.empty());
 }
 
+TEST(ViewerInput, aPictureHasTheNamedCameraUntilItIsMovedAndThenItsPlace)
+{
+    State state = withModel();
+    state.picture.camera = "left";
+    EXPECT_EQ(optionsOf(state, false).camera, "left");
+    state.cameraMoved = true;
+    EXPECT_EQ(optionsOf(state, false).camera, formatCamera(state.camera));
+    EXPECT_EQ(optionsOf(state, true).camera, formatCamera(state.camera));
+}
+
 // Without an environment `render` refuses to turn them.
 TEST(ViewerInput, lightIsNotTurnedWhereThereAreNoSurroundings)
 {
