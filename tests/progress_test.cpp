@@ -8,7 +8,9 @@
 #include <fmt/format.h>
 #include <pty.h>
 
+#include "common.hpp"
 #include "cotan/image.hpp"
+#include "cotan/render.hpp"
 #include "quad_model.hpp"
 #include "run_tool.hpp"
 #include "terminal/progress_line.hpp"
@@ -136,6 +138,19 @@ TEST(ProgressLine, isSilentWhereNobodyLooks)
 }
 
 // The commands that can take over two seconds.
+// `compare --edges` drew two more pictures, told to a line that was gone.
+TEST(ProgressLine, aRendererTellsItNothingOnceItIsGone)
+{
+    const auto renderer = openRenderer("reference", 1);
+    ASSERT_TRUE(renderer) << renderer.error().message;
+    app::CommonOptions quiet;
+    quiet.quiet = true;
+    const bool told =
+        app::drawWithProgress(quiet, **renderer, 1, "drawing", [&] { return bool((*renderer)->progress); });
+    EXPECT_TRUE(told);
+    EXPECT_FALSE((*renderer)->progress);
+}
+
 TEST(ProgressLine, isShownByEveryLongCommandOnATerminalOnly)
 {
     TemporaryFolder folder;

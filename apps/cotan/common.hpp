@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 
 #include "core/loops.hpp"
+#include "cotan/render.hpp"
 #include "cotan/result.hpp"
 #include "files/output.hpp"
 #include "files/report/json.hpp"
@@ -134,6 +135,19 @@ auto withProgress(const CommonOptions& options, std::size_t steps, std::string w
 {
     ProgressLine line(options.quiet, steps, std::move(what));
     return work(line.within());
+}
+
+// The same for what a renderer draws in work(). It tells nobody afterwards: the line is gone.
+template<class Work>
+auto drawWithProgress(const CommonOptions& options, Renderer& renderer, std::size_t steps, std::string what,
+                      const Work& work)
+{
+    return withProgress(options, steps, std::move(what), [&](Progress progress) {
+        renderer.progress = std::move(progress);
+        auto done = work();
+        renderer.progress = nullptr;
+        return done;
+    });
 }
 
 // Warns where a map goes into a format that does not keep it.

@@ -74,15 +74,17 @@ Status run(const CompareCommandOptions& o)
     if (!renderer)
         return renderer.error();
     Stopwatch watch;
-    auto compared = withProgress(o, kComparedFramesPictures, "drawing", [&](Progress progress) {
-        (*renderer)->progress = std::move(progress);
-        return compareFrames(**renderer, picture->scene, picture->view, frames);
+    const std::size_t pictures = kComparedFramesPictures + (o.picture.edges != Edges::none ? 2 : 0);
+    const auto compared = drawWithProgress(o, **renderer, pictures, "drawing", [&]() -> Result<ComparedFrames> {
+        auto drawn = compareFrames(**renderer, picture->scene, picture->view, frames);
+        if (drawn)
+            for (Image& image : drawn->shaded)
+                if (Status laid = layEdges(**renderer, picture->view, o.picture, picture->edges, image); !laid)
+                    return laid.error();
+        return drawn;
     });
     if (!compared)
         return compared.error();
-    for (Image& image : compared->shaded)
-        if (Status laid = layEdges(**renderer, picture->view, o.picture, picture->edges, image); !laid)
-            return laid.error();
     const double drawSeconds = watch.lap();
 
     if (Status made = makeFolder(o.output); !made)

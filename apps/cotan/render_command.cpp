@@ -94,10 +94,8 @@ Status renderOne(const RenderCommandOptions& o, FrameChoice frame, Sequence& seq
     shared = picture->view;
     const double openSeconds = watch.lap() - (*renderer)->uploadSeconds();
     Json report = {{"command", "render"}};
-    const auto image = withProgress(o, drawsOf(o), "drawing", [&](Progress progress) {
-        (*renderer)->progress = std::move(progress);
-        return drawPicture(**renderer, *picture, o, report);
-    });
+    const auto image = drawWithProgress(o, **renderer, drawsOf(o), "drawing",
+                                        [&] { return drawPicture(**renderer, *picture, o, report); });
     if (!image)
         return image.error();
     const double drawSeconds = watch.lap();
@@ -205,8 +203,7 @@ Status renderTurn(const RenderCommandOptions& o, FrameChoice frame, const std::v
     one.quiet = true; // not a line for each
     Json none;
     const std::size_t draws = numbers.size() * drawsOf(o);
-    const auto drawAll = [&](Progress progress) -> Status {
-        (*renderer)->progress = std::move(progress);
+    const auto drawAll = [&]() -> Status {
         for (const int number : numbers) {
             if (number > 0) {
                 table.turn(picture->scene, 360.0 * number / double(numbers.size()));
@@ -225,7 +222,7 @@ Status renderTurn(const RenderCommandOptions& o, FrameChoice frame, const std::v
         }
         return Done{};
     };
-    if (Status drawn = withProgress(o, draws, "drawing", drawAll); !drawn)
+    if (Status drawn = drawWithProgress(o, **renderer, draws, "drawing", drawAll); !drawn)
         return drawn;
     if (Status whole = finish(sequence); !whole)
         return whole;

@@ -47,10 +47,8 @@ Json viewsOf(const ComparedViews& compared)
 Result<DrawnSides> drawModel(Renderer& renderer, const std::filesystem::path& file, ModelInFrame model,
                              const CommonOptions& common, std::vector<Camera> cameras = {})
 {
-    return withProgress(common, kConversionViews, fmt::format("drawing {}", file.string()), [&](Progress progress) {
-        renderer.progress = std::move(progress);
-        return drawSides(renderer, std::move(model), std::move(cameras));
-    });
+    return drawWithProgress(common, renderer, kConversionViews, fmt::format("drawing {}", file.string()),
+                            [&] { return drawSides(renderer, std::move(model), std::move(cameras)); });
 }
 
 // A map that was made for 2c - 1 stands for one that was read so.
@@ -132,10 +130,8 @@ Result<Json> verifyBake(const BakeToVerify& bake, const std::string& device, con
     const auto renderer = openDevice(device, common);
     if (!renderer)
         return renderer.error();
-    const auto compared = withProgress(common, kBakeViews, "drawing and comparing", [&](Progress progress) {
-        (*renderer)->progress = std::move(progress);
-        return verifyBake(**renderer, bake);
-    });
+    const auto compared = drawWithProgress(common, **renderer, kBakeViews, "drawing and comparing",
+                                           [&] { return verifyBake(**renderer, bake); });
     if (!compared)
         return compared.error();
     for (std::size_t k = 0; k < compared->views.size(); ++k)
