@@ -21,11 +21,11 @@ constexpr float kApart = 0.001f;   // of the low surface's diagonal: other surfa
 constexpr int kMaxLayers = 32;     // on one line
 constexpr float kUpright = -1e-3f; // cosine down to which a front faces outwards
 
-glm::vec3 rayThrough(const View& view, const Camera& c, int x, int y)
+// axes: those of the view's camera.
+glm::vec3 rayThrough(const View& view, const CameraAxes& axes, int x, int y)
 {
-    const CameraAxes axes = cameraAxes(c);
     const glm::vec3 forward(axes.forward), right(axes.right), up(axes.up);
-    const float t = std::tan(c.verticalFieldOfView / 2);
+    const float t = std::tan(view.camera.verticalFieldOfView / 2);
     const float aspect = float(view.width) / float(view.height);
     const float px = (float(x) + 0.5f) / float(view.width) * 2 - 1, py = 1 - (float(y) + 0.5f) / float(view.height) * 2;
     return glm::normalize(forward + right * (px * t * aspect) + up * (py * t));
@@ -134,10 +134,11 @@ Result<SeenHigh> seeHigh(const LowSurface& low, const HighSurface& high, const B
                   .expected = makeImage(view.width, view.height, PixelType::float32, "expected normals"),
                   .other = std::vector<std::uint8_t>(std::size_t(view.width) * std::size_t(view.height), 0)};
     const Looking looking(low, high, options, *tree);
+    const CameraAxes axes = cameraAxes(view.camera);
     parallelFor(0, view.height, [&](int y) {
         for (int x = 0; x < view.width; ++x) {
             const std::size_t i = std::size_t(y) * std::size_t(view.width) + std::size_t(x);
-            const glm::vec3 ray = rayThrough(view, view.camera, x, y);
+            const glm::vec3 ray = rayThrough(view, axes, x, y);
             if (const Hit hit = high.trace({view.camera.eye, ray, 0, 1e30f}); hit.found)
                 storePixel(seen.normals, x, y, glm::vec4(looking.normalOf(hit, ray), 1), false);
             const Looking::Answer answer = looking.ask(view.camera.eye, ray);

@@ -8,25 +8,12 @@
 
 namespace cotan {
 
-namespace {
-
-template<class T> std::vector<T> gathered(std::span<const T> values, const std::vector<std::uint32_t>& sources)
-{
-    std::vector<T> out;
-    out.reserve(sources.size());
-    for (const std::uint32_t s : sources)
-        out.push_back(values[s]);
-    return out;
-}
-
-} // namespace
-
 SmoothStatistics smoothStatistics(const MeshView& mesh)
 {
     const VertexSplit split = splitMirrored(mesh);
-    const auto positions = gathered(mesh.positions, split.sources);
-    const auto normals = gathered(mesh.normals, split.sources);
-    const auto texcoords = gathered(mesh.texcoords, split.sources);
+    const auto positions = gathered(mesh.positions, split);
+    const auto normals = gathered(mesh.normals, split);
+    const auto texcoords = gathered(mesh.texcoords, split);
     const Cotangents c = smoothCotangents({positions, normals, texcoords, split.indices});
     std::vector<float> shear;
     ValueStatistics stretch;

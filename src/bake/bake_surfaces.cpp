@@ -227,8 +227,6 @@ void countTriangles(const LowSurface& low, BakeStatistics& statistics)
 Result<Baked> bake(const LowSurface& low, const HighSurface& high, const BakeOptions& given, const Progress& progress)
 {
     BakeOptions options = given;
-    if (Status ready = measureRayStarts(low, high, options); !ready)
-        return ready.error();
     if (!options.cage.empty() && options.cage.size() != low.positions.size())
         return inputError(fmt::format("cage: expected {} vertices, as many as the low mesh has; found {}",
                                       low.positions.size(), options.cage.size()));
@@ -238,6 +236,8 @@ Result<Baked> bake(const LowSurface& low, const HighSurface& high, const BakeOpt
                                             name(low.frame), name(options.frame))));
     if (options.starts && options.starts->directions.size() != low.positions.size())
         return about("options.starts", usageError("made for another low surface"));
+    if (Status ready = measureRayStarts(low, high, options); !ready)
+        return ready.error();
     const auto start = std::chrono::steady_clock::now();
     const std::size_t texels = std::size_t(options.width) * std::size_t(options.height);
     Baked out{options.width, options.height, std::vector(texels, glm::vec3(0)), std::vector<std::uint8_t>(texels), {}};

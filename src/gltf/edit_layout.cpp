@@ -307,9 +307,9 @@ std::vector<Part> partsOf(const GltfDocument& document)
         part.view = i;
         part.bytes = viewBytes(document, i);
         part.fromFile = i < document.source->views.size();
-        part.packed = part.fromFile ? packedView(document, i) : nullptr;
         if (!part.fromFile)
             continue;
+        part.packed = packedView(document, i);
         const gltf::BufferView view =
             gltf::readBufferView(part.packed ? (*part.packed)["extensions"][meshoptName(*part.packed)]
                                              : document.source->file.json["bufferViews"][i]);

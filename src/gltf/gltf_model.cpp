@@ -46,7 +46,7 @@ const Json& orNone(const Json* object)
 }
 
 // The scale of a normal map.
-float scaleOf(const Json& owner, const char* slot) { return numberOf(orNone(member(owner, slot)), "scale", 1); }
+float scaleOf(const Json& owner, const char* slot) { return float(readTextureUse(member(owner, slot)).scale); }
 
 // What extensions say of light on the surface. One that is missing has the defaults of one without members.
 void readLayers(const Json& source, const TextureOf& texture, Material& m)

@@ -176,13 +176,11 @@ Scene load(const std::filesystem::path& path, const LoadLimits& limits)
 {
     GltfModel model;
     readGltfModel(model, path, limits);
-    // Materials and the URIs of images are all that is still read from the JSON. A member that is added to an object
-    // copies the others, and views of URIs would look at what is gone: none is.
-    gltf::Json kept = {{"materials", nullptr}, {"images", nullptr}};
-    for (auto& [collection, items] : kept.get_ref<gltf::Json::object_t&>())
-        if (const auto found = model.file.json.find(collection); found != model.file.json.end())
-            items = std::move(*found);
-    model.file.json = std::move(kept);
+    // Materials and the URIs of images are all that is still read from the JSON. They stay where they are: URIs are
+    // views.
+    for (auto& [collection, items] : model.file.json.get_ref<gltf::Json::object_t&>())
+        if (collection != "materials" && collection != "images")
+            items = nullptr;
     return build(model, path, nullptr);
 }
 

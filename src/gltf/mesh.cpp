@@ -4,10 +4,13 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <span>
+#include <utility>
 
 #include <glm/geometric.hpp>
 
 #include "cotan/covector.hpp"
+#include "cotan/tangents.hpp"
 #include "cotan/vector.hpp"
 
 namespace cotan {
@@ -19,15 +22,6 @@ namespace {
 constexpr float kUnitTolerance = 0.01f;
 
 // ---- normals --------------------------------------------------------------------------------
-
-template<class T> void spread(std::vector<T>& values, const std::vector<std::uint32_t>& order)
-{
-    if (values.empty())
-        return;
-    std::vector<T> copy(order.size());
-    std::ranges::transform(order, copy.begin(), [&](std::uint32_t i) { return values[i]; });
-    values = std::move(copy);
-}
 
 // glTF asks for flat normals where a primitive has none. Triangles without area get a zero normal.
 void makeFlat(Mesh& mesh)
@@ -165,10 +159,13 @@ glm::vec3 unitNormal(const glm::vec3& normal)
 
 void separateCorners(Mesh& mesh)
 {
-    spread(mesh.positions, mesh.indices);
-    spread(mesh.texcoords[0], mesh.indices);
-    spread(mesh.texcoords[1], mesh.indices);
-    spread(mesh.colors, mesh.indices);
+    const VertexSplit corners{std::move(mesh.indices), {}};
+    const auto separate = [&](auto& values) { values = gathered(std::span(std::as_const(values)), corners); };
+    separate(mesh.positions);
+    separate(mesh.texcoords[0]);
+    separate(mesh.texcoords[1]);
+    separate(mesh.colors);
+    mesh.indices.resize(corners.sources.size());
     std::iota(mesh.indices.begin(), mesh.indices.end(), 0u);
 }
 

@@ -103,15 +103,16 @@ using Values = std::vector<std::vector<float>>; // a mesh, a triangle
 Values degreesOf(const Scene& scene, Inspection inspection)
 {
     const float none = inspection == Inspection::mirrored ? 0.0f : -1.0f; // where the uv have no area
+    std::vector<glm::mat3> toWorld(scene.meshes.size(), glm::mat3(1));    // of the first instance of each mesh
+    for (auto instance = scene.instances.rbegin(); instance != scene.instances.rend(); ++instance)
+        toWorld[std::size_t(instance->mesh)] = glm::mat3(instance->toWorld);
     Values values(scene.meshes.size());
     std::vector<double> densities;
     for (std::size_t m = 0; m < scene.meshes.size(); ++m) {
         const Mesh& mesh = scene.meshes[m];
         const Material& material = scene.materials[std::size_t(mesh.material)];
         const std::shared_ptr<const Mesh> held(std::shared_ptr<void>(), &mesh); // the scene outlives the surface
-        const auto first = std::ranges::find(scene.instances, int(m), &Instance::mesh);
-        const glm::mat3 toWorld = first == scene.instances.end() ? glm::mat3(1) : glm::mat3(first->toWorld);
-        const MappedSurface surface = makeSurface(held, mapOf(material), glm::dmat3(toWorld), {});
+        const MappedSurface surface = makeSurface(held, mapOf(material), glm::dmat3(toWorld[m]), {});
         values[m].assign(mesh.triangleCount(), none);
         for (std::size_t i = 0; surface.hasUv() && i < mesh.triangleCount(); ++i) {
             const TriangleUv t = triangleUv(surface, i, edgesOf(surface, i));

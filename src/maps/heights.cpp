@@ -31,15 +31,13 @@ constexpr std::array<float, 3> sharesAcross(Kernel kernel)
 
 // ---- from heights ------------------------------------------------------------------------------
 
+// i: at most one beyond either end, where a mirror repeats the edge row.
 int wrapped(int i, int size, Wrap wrap)
 {
-    if (i >= 0 && i < size)
-        return i;
-    if (wrap == Wrap::clamp || size == 1)
-        return std::clamp(i, 0, size - 1);
-    if (wrap == Wrap::repeat)
-        return (i % size + size) % size;
-    return i < 0 ? std::min(-i - 1, size - 1) : std::max(2 * size - 1 - i, 0); // the edge row is repeated
+    return wrapTexel(i, size,
+                     wrap == Wrap::clamp        ? cotan::Wrap::clamp
+                         : wrap == Wrap::repeat ? cotan::Wrap::repeat
+                                                : cotan::Wrap::mirror);
 }
 
 // A row of heights with one more texel at either end.

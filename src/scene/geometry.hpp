@@ -153,6 +153,13 @@ inline Bounds framedBounds(const Scene& scene)
 
 // ---- what is drawn ---------------------------------------------------------------------------
 
+// The light that casts the shadow, where the view asks for one: the first directional one. Null where there is none.
+inline const Light* shadowLight(const View& view)
+{
+    const auto found = std::ranges::find(view.lights, LightKind::directional, &Light::kind);
+    return found == view.lights.end() ? nullptr : &*found;
+}
+
 // Whether anything that is drawn reads a normal map: some instance of a mesh with triangles and the uv set that
 // its material's map asks for. Else normals do not differ between frames, and a comparison of them says nothing.
 bool drawsNormalMaps(const Scene& scene);

@@ -34,10 +34,10 @@ glm::vec3 displayed(const View& view, glm::vec3 radiance)
 f32::cotan_surface surfaceOf(const PixelInputs& all, const SurfaceInputs& in, glm::vec3 baseColor, int lane,
                              glm::vec3 n)
 {
-    const Material& m = *in.material;
-    glm::vec4 mr = mapTexel(in, in.maps->metallicRoughness, m.metallicRoughnessMap, lane);
-    glm::vec4 occlusion = mapTexel(in, in.maps->occlusion, m.occlusionMap, lane);
-    glm::vec4 emissive = mapTexel(in, in.maps->emissive, m.emissiveMap, lane);
+    const Material& m = *in.draw->material;
+    glm::vec4 mr = mapTexel(in, in.draw->maps->metallicRoughness, m.metallicRoughnessMap, lane);
+    glm::vec4 occlusion = mapTexel(in, in.draw->maps->occlusion, m.occlusionMap, lane);
+    glm::vec4 emissive = mapTexel(in, in.draw->maps->emissive, m.emissiveMap, lane);
     glm::vec3 backwards = -glm::vec3(all.projection.forward);
     f32::cotan_surface s;
     s.base_color = baseColor;
@@ -54,11 +54,11 @@ f32::cotan_surface surfaceOf(const PixelInputs& all, const SurfaceInputs& in, gl
 // The direction that a highlight is stretched in and how much, from the factors and the map.
 void stretch(f32::cotan_gloss& gloss, const SurfaceInputs& in, int lane, const SurfaceNormal& normal)
 {
-    const Anisotropy& a = in.material->anisotropy;
+    const Anisotropy& a = in.draw->material->anisotropy;
     glm::vec2 direction(std::cos(a.rotation), -std::sin(a.rotation)); // along +u and +v
     gloss.anisotropy = a.strength;
-    if (in.maps->anisotropy) {
-        const glm::vec4 texel = mapTexel(in, in.maps->anisotropy, a.map, lane);
+    if (in.draw->maps->anisotropy) {
+        const glm::vec4 texel = mapTexel(in, in.draw->maps->anisotropy, a.map, lane);
         const glm::vec2 turned = glm::vec2(texel.x, -texel.y) * 2.0f + glm::vec2(-1, 1);
         direction = {turned.x * direction.x - turned.y * direction.y, turned.x * direction.y + turned.y * direction.x};
         gloss.anisotropy *= texel.z;
@@ -72,30 +72,30 @@ void stretch(f32::cotan_gloss& gloss, const SurfaceInputs& in, int lane, const S
 Layers layersOf(const PixelInputs& all, const SurfaceInputs& in, int lane, const SurfaceNormal& normal)
 {
     Layers layers;
-    const Material& m = *in.material;
+    const Material& m = *in.draw->material;
     if (all.view.shading == Shading::blinnPhong)
         return layers;
     if (m.glossy()) {
-        const glm::vec4 strength = mapTexel(in, in.maps->specular, m.specular.map, lane);
-        const glm::vec4 color = mapTexel(in, in.maps->specularColor, m.specular.colorMap, lane);
+        const glm::vec4 strength = mapTexel(in, in.draw->maps->specular, m.specular.map, lane);
+        const glm::vec4 color = mapTexel(in, in.draw->maps->specularColor, m.specular.colorMap, lane);
         layers.gloss = f32::cotan_gloss_of(m.specular.ior, f32::cotan_saturate(m.specular.strength * strength.w),
                                            m.specular.color * glm::vec3(color));
         layers.gloss->transmission = f32::cotan_saturate(
-            m.transmission.strength * mapTexel(in, in.maps->transmission, m.transmission.map, lane).x);
+            m.transmission.strength * mapTexel(in, in.draw->maps->transmission, m.transmission.map, lane).x);
         if (m.anisotropy.strength > 0)
             stretch(*layers.gloss, in, lane, normal);
     }
     if (m.sheen.present()) {
-        const glm::vec4 color = mapTexel(in, in.maps->sheenColor, m.sheen.colorMap, lane);
-        const glm::vec4 roughness = mapTexel(in, in.maps->sheenRoughness, m.sheen.roughnessMap, lane);
+        const glm::vec4 color = mapTexel(in, in.draw->maps->sheenColor, m.sheen.colorMap, lane);
+        const glm::vec4 roughness = mapTexel(in, in.draw->maps->sheenRoughness, m.sheen.roughnessMap, lane);
         layers.sheen =
             f32::cotan_sheen{m.sheen.color * glm::vec3(color), f32::cotan_saturate(m.sheen.roughness * roughness.w)};
     }
     if (m.coat.strength > 0) {
         f32::cotan_coat coat;
-        coat.strength = f32::cotan_saturate(m.coat.strength * mapTexel(in, in.maps->coat, m.coat.map, lane).x);
-        coat.roughness =
-            f32::cotan_saturate(m.coat.roughness * mapTexel(in, in.maps->coatRoughness, m.coat.roughnessMap, lane).y);
+        coat.strength = f32::cotan_saturate(m.coat.strength * mapTexel(in, in.draw->maps->coat, m.coat.map, lane).x);
+        coat.roughness = f32::cotan_saturate(m.coat.roughness
+                                             * mapTexel(in, in.draw->maps->coatRoughness, m.coat.roughnessMap, lane).y);
         const CoatNormal own = coatNormalOf(in, lane, normal);
         coat.n = own.n;
         if (all.view.specularAntialiasing)
@@ -109,7 +109,7 @@ Layers layersOf(const PixelInputs& all, const SurfaceInputs& in, int lane, const
 std::pair<glm::vec3, glm::vec3> shadedColor(const PixelInputs& all, const SurfaceInputs& in, glm::vec3 baseColor,
                                             int lane)
 {
-    if (in.material->unlit)
+    if (in.draw->material->unlit)
         return {baseColor, glm::vec3(0)};
     SurfaceNormal normal = normalOf(in, lane);
     f32::cotan_surface surface = surfaceOf(all, in, baseColor, lane, normal.finished);
@@ -156,7 +156,7 @@ glm::vec3 backdropAlong(const View& view, glm::vec3 ray)
 std::optional<Fragment> shade(const PixelInputs& all, const SurfaceInputs& in, int lane)
 {
     const glm::vec4 base = baseColorOf(in, lane);
-    const bool blend = in.material->alphaMode == AlphaMode::blend, shaded = all.view.output == Output::shaded;
+    const bool blend = in.draw->material->alphaMode == AlphaMode::blend, shaded = all.view.output == Output::shaded;
     if (blend && (shaded ? !(base.w > 0) : base.w < 1.0f / 255.0f))
         return std::nullopt;
     if (!shaded)

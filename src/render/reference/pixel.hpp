@@ -35,9 +35,7 @@ QuadPoints interpolate(const Draw& draw, const RasterTriangle& triangle, int x, 
 // Everything that shading one triangle needs to look up.
 struct SurfaceInputs {
     const View* view = nullptr;
-    const Draw* draw = nullptr;
-    const Material* material = nullptr;
-    const MaterialMaps* maps = nullptr;
+    const Draw* draw = nullptr; // and its material, with its maps
     const RasterTriangle* triangle = nullptr;
     const QuadPoints* points = nullptr;
 };

@@ -52,7 +52,7 @@ void drawQuad(const Frozen& f, const RasterTriangle& triangle, const Quad& quad,
 {
     const Draw& draw = f.draws[triangle.draw];
     const Material& material = *draw.material;
-    SurfaceInputs in{&f.view, &draw, &material, draw.maps, &triangle};
+    SurfaceInputs in{&f.view, &draw, &triangle};
     bool blended = material.translucent() && f.view.output == Output::shaded;
     std::optional<QuadPoints> points; // made when the first pixel passes the depth test
     std::array<float, 4> alphas{};    // of a masked material

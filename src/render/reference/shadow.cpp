@@ -57,9 +57,7 @@ struct ShadowPass {
             float& stored = map.reversedDepth[std::size_t(y) * std::size_t(map.size) + std::size_t(x)];
             if (!(z > stored))
                 continue;
-            const auto alpha = [&] {
-                return baseColorOf({&view, &draw, &material, draw.maps, &triangle, &points}, lane).w;
-            };
+            const auto alpha = [&] { return baseColorOf({&view, &draw, &triangle, &points}, lane).w; };
             if (masked && alpha() < material.alphaCutoff)
                 continue;
             if (blended && !(alpha() > f32::cotan_shadow_threshold(unsigned(x), unsigned(y), layerOf(triangle))))

@@ -156,8 +156,8 @@ bool sameUv(const Texture& a, const Texture& b) { return setOf(a) == setOf(b) &&
 // What turns a texel of the material's normal map into numbers.
 f32::cotan_normal_format formatOf(const SurfaceInputs& in)
 {
-    return toFormat<f32::cotan_normal_format>(in.material->normalFormat, in.maps->normal->image->type,
-                                              double(in.material->normalScale));
+    return toFormat<f32::cotan_normal_format>(in.draw->material->normalFormat, in.draw->maps->normal->image->type,
+                                              double(in.draw->material->normalScale));
 }
 
 } // namespace
@@ -187,8 +187,8 @@ glm::vec4 mapTexel(const SurfaceInputs& in, const MipChain* chain, const Texture
 
 glm::vec4 baseColorOf(const SurfaceInputs& in, int lane)
 {
-    const Material& m = *in.material;
-    glm::vec4 base = m.baseColor * mapTexel(in, in.maps->baseColor, m.baseColorMap, lane);
+    const Material& m = *in.draw->material;
+    glm::vec4 base = m.baseColor * mapTexel(in, in.draw->maps->baseColor, m.baseColorMap, lane);
     const std::vector<glm::vec4>& colors = in.draw->mesh->colors;
     if (colors.size() >= in.draw->positions.size())
         base *= interpolated(colors, *in.triangle, in.points->weights[std::size_t(lane)]);
@@ -212,7 +212,7 @@ unsigned samplesOfMask(const std::array<float, 4>& alphas, int lane, float cutof
 SurfaceNormal normalOf(const SurfaceInputs& in, int lane)
 {
     const View& view = *in.view;
-    const Material& material = *in.material;
+    const Material& material = *in.draw->material;
     UvDifferences uv = uvOf(in, material.normalMap, lane);
     const Smooth smooth = smoothOf(in, lane, uv);
     const glm::vec3 n = smooth.n;
@@ -225,9 +225,9 @@ SurfaceNormal normalOf(const SurfaceInputs& in, int lane)
     result.uv = uv.uv;
     result.frame = frame;
     addTurn(result, in, lane);
-    result.mapped = in.maps->normal && view.normalMaps && hasUv(*in.draw, setOf(material.normalMap));
+    result.mapped = in.draw->maps->normal && view.normalMaps && hasUv(*in.draw, setOf(material.normalMap));
     if (result.mapped) {
-        glm::vec4 texel = sample(*in.maps->normal, material.normalMap.sampler, uv, view.pointSampled);
+        glm::vec4 texel = sample(*in.draw->maps->normal, material.normalMap.sampler, uv, view.pointSampled);
         const glm::vec3 m = f32::cotan_decode(glm::vec3(texel), formatOf(in));
         result.spread += summaryOf(view, texel);
         // `mikktspace` hands back its interpolated normal where the texel is empty: not unit.
@@ -245,7 +245,7 @@ SurfaceNormal normalOf(const SurfaceInputs& in, int lane)
 
 std::vector<LitTap> tapsOf(const SurfaceInputs& in, int lane, const SurfaceNormal& normal, float roughness)
 {
-    const Texture& map = in.material->normalMap;
+    const Texture& map = in.draw->material->normalMap;
     const UvDifferences uv = uvOf(in, map, lane);
     const int side = int(f32::cotan_places_of_roughness(roughness));
     std::vector<LitTap> taps(std::size_t(side * side));
@@ -255,7 +255,7 @@ std::vector<LitTap> tapsOf(const SurfaceInputs& in, int lane, const SurfaceNorma
         // From the middle of the pixel, in pixels.
         const glm::vec2 at = (glm::vec2(float(i % side), float(i / side)) + 0.5f) / float(side) - 0.5f;
         const UvDifferences part{uv.uv + uv.dx * at.x + uv.dy * at.y, uv.dx * share, uv.dy * share};
-        const glm::vec4 texel = sample(*in.maps->normal, map.sampler, part, in.view->pointSampled);
+        const glm::vec4 texel = sample(*in.draw->maps->normal, map.sampler, part, in.view->pointSampled);
         const glm::vec3 m = f32::cotan_decode(glm::vec3(texel), format);
         glm::vec3 n = f32::cotan_normalize_or(f32::cotan_apply(normal.frame, m), normal.interpolated);
         n = f32::cotan_normalize_or(n + normal.turnX * at.x + normal.turnY * at.y, n);
@@ -267,13 +267,13 @@ std::vector<LitTap> tapsOf(const SurfaceInputs& in, int lane, const SurfaceNorma
 
 CoatNormal coatNormalOf(const SurfaceInputs& in, int lane, const SurfaceNormal& base)
 {
-    const Texture& map = in.material->coat.normalMap;
-    const MipChain* const chain = in.maps->coatNormal;
+    const Texture& map = in.draw->material->coat.normalMap;
+    const MipChain* const chain = in.draw->maps->coatNormal;
     CoatNormal coat{base.interpolated, base.turn};
     if (chain && hasUv(*in.draw, setOf(map))) {
         const UvDifferences uv = uvOf(in, map, lane);
         f32::cotan_frame frame = base.frame;
-        if (!sameUv(map, in.material->normalMap)) {
+        if (!sameUv(map, in.draw->material->normalMap)) {
             const Smooth smooth = smoothOf(in, lane, uv);
             // What the vertices hold belongs to the uv of the surface beneath.
             frame = readsCotangents(in.view->frame)
@@ -281,8 +281,8 @@ CoatNormal coatNormalOf(const SurfaceInputs& in, int lane, const SurfaceNormal& 
                 : frameOver(in, map, smooth, uv, lane);
         }
         const glm::vec4 texel = sample(*chain, map.sampler, uv, in.view->pointSampled);
-        const auto format = toFormat<f32::cotan_normal_format>(in.material->coat.normalFormat, chain->image->type,
-                                                               double(in.material->coat.normalScale));
+        const auto format = toFormat<f32::cotan_normal_format>(in.draw->material->coat.normalFormat, chain->image->type,
+                                                               double(in.draw->material->coat.normalScale));
         coat.n = f32::cotan_normalize_or(f32::cotan_apply(frame, f32::cotan_decode(glm::vec3(texel), format)), coat.n);
         coat.spread += summaryOf(*in.view, texel);
     }

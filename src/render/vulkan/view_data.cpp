@@ -79,12 +79,6 @@ void cameraRows(gpu::CotanView& g, const View& view, const CameraAxes& axes, con
     }
 }
 
-const Light* shadowLight(const View& view)
-{
-    const auto found = std::ranges::find(view.lights, LightKind::directional, &Light::kind);
-    return found == view.lights.end() ? nullptr : &*found;
-}
-
 // An orthographic view along the light, square, just around the scene.
 void shadowRows(gpu::CotanView& g, const Light& light, float softness, const CameraAxes& axes, const Bounds& bounds)
 {

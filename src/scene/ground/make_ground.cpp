@@ -356,13 +356,6 @@ float between(const std::vector<float>& shares, int side, glm::vec2 uv)
     return top + (bottom - top) * k.y;
 }
 
-// The light that casts the shadow; null where there is none.
-const Light* keyLight(const View& view)
-{
-    const auto found = std::ranges::find(view.lights, LightKind::directional, &Light::kind);
-    return view.shadows && found != view.lights.end() ? &*found : nullptr;
-}
-
 float skyLight(const View& view)
 {
     const glm::vec3 up(0, 1, 0);
@@ -398,7 +391,7 @@ std::optional<GroundMap> makeGround(const Scene& scene, const View& view, const 
     if (box.empty())
         return std::nullopt;
     const double plane = options.height ? *options.height : box.low.y;
-    const Light* key = keyLight(view);
+    const Light* key = view.shadows ? shadowLight(view) : nullptr;
     const glm::vec3 toLight = key ? f32::cotan_normalize_or(-key->direction, glm::vec3(0, 1, 0)) : glm::vec3(0, 1, 0);
     const bool lit = key && toLight.y > kLowest;
     const float fromLight = lit ? luminance(key->color) * key->intensity * toLight.y / std::numbers::pi_v<float> : 0;
