@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <map>
 #include <numeric>
+#include <utility>
 #include <vector>
 
 #include <glm/ext/matrix_transform.hpp>
@@ -88,6 +89,16 @@ TEST(Inspection, mirroredPartsAndStoredTangentsTellTheirSide)
     EXPECT_EQ(none.x, none.z);
     scene.meshes[0].tangents.assign(scene.meshes[0].vertexCount(), {1, 0, 0, -1});
     EXPECT_EQ(middleOf(scene, Inspection::w), mirrored);
+}
+
+TEST(Inspection, aMeshThatInstancesStretchDifferentlyCountsAsTheFirstShowsIt)
+{
+    Scene scene = square(1, 0, false);
+    const glm::mat4 wide = glm::scale(glm::translate(glm::mat4(1), glm::vec3(10, 0, 0)), glm::vec3(20, 1, 1));
+    scene.instances.push_back({"wide", 0, wide}); // out of the picture
+    expectColor(middleOf(scene, Inspection::stretch), {0, 0, 0});
+    std::swap(scene.instances[0], scene.instances[1]);
+    expectColor(middleOf(scene, Inspection::stretch), {255, 255, 255});
 }
 
 TEST(Inspection, uvWithoutAreaAreNeitherMirroredNorNot)
