@@ -178,15 +178,16 @@ std::vector<std::vector<glm::dvec2>> placesUnder(glm::vec2 low, glm::vec2 high, 
     flat.strength = 0;
     const MapUse uses[] = {flat, use}; // the first shows nothing
     const convert::PlaceFinder finder(uses, 4, 2);
-    std::vector<std::vector<convert::Place>> texels;
-    finder.row(row, texels);
     std::vector<std::vector<glm::dvec2>> uv(4);
-    for (std::size_t x = 0; x < 4; ++x)
-        for (const convert::Place& p : texels[x])
-            if (p.covers) {
-                EXPECT_EQ(p.use, 1u);
-                uv[x].push_back(uvAt(use.surface, p.triangle, p.barycentric));
-            }
+    finder.rows(row, row, [&](int y, const std::vector<std::vector<convert::Place>>& texels) {
+        EXPECT_EQ(y, row);
+        for (std::size_t x = 0; x < 4; ++x)
+            for (const convert::Place& p : texels[x])
+                if (p.covers) {
+                    EXPECT_EQ(p.use, 1u);
+                    uv[x].push_back(uvAt(use.surface, p.triangle, p.barycentric));
+                }
+    });
     return uv;
 }
 
@@ -390,15 +391,18 @@ TEST(PlaceFinder, placesAreNoMoreThanSixteenOfATexelHoweverManyTrianglesShowIt)
         many = many + rectangle({i, 0}, {1, 1}, {0, 0}, {1, 1});
     const MapUse use = unormUse(many);
     const convert::PlaceFinder finder({&use, 1}, 8, 8);
-    std::vector<std::vector<convert::Place>> texels;
-    finder.row(3, texels);
-    for (const auto& places : texels) {
-        ASSERT_EQ(places.size(), kMaxPlaces);
-        EXPECT_LT(places.front().triangle, 100u); // of 600: they are from all over the list
-        EXPECT_GT(places.back().triangle, 500u);
-        EXPECT_TRUE(std::ranges::is_sorted(places, {}, &convert::Place::triangle));
-        EXPECT_TRUE(std::ranges::all_of(places, &convert::Place::covers));
-    }
+    int rows = 0;
+    finder.rows(0, 7, [&](int y, const std::vector<std::vector<convert::Place>>& texels) {
+        EXPECT_EQ(y, rows++);
+        for (const auto& places : texels) {
+            ASSERT_EQ(places.size(), kMaxPlaces);
+            EXPECT_LT(places.front().triangle, 100u); // of 600: they are from all over the list
+            EXPECT_GT(places.back().triangle, 500u);
+            EXPECT_TRUE(std::ranges::is_sorted(places, {}, &convert::Place::triangle));
+            EXPECT_TRUE(std::ranges::all_of(places, &convert::Place::covers));
+        }
+    });
+    EXPECT_EQ(rows, 8);
 }
 
 } // namespace

@@ -50,12 +50,8 @@ void PlaceFinder::addTo(Layer& layer, std::uint32_t use)
         layer.indices.push_back(base + index);
 }
 
-void PlaceFinder::findRow(const Layer& layer, int y, std::vector<std::vector<Found>>& texels) const
+UvFew PlaceFinder::wantedOf(const Layer& layer) const
 {
-    const int foldU = foldOf(layer.wrapU), foldV = foldOf(layer.wrapV);
-    const auto partOf = [&](std::uint32_t triangle) -> const Part& {
-        return *std::prev(std::ranges::upper_bound(layer.parts, triangle, {}, &Part::firstTriangle));
-    };
     UvFew few{.most = most_};
     if (layer.wrapU == Wrap::clamp || layer.wrapV == Wrap::clamp)
         few.counts = [&](const UvSample& p) {
@@ -64,51 +60,78 @@ void PlaceFinder::findRow(const Layer& layer, int y, std::vector<std::vector<Fou
             return (layer.wrapU != Wrap::clamp || (uv.x >= 0 && uv.x <= 1))
                 && (layer.wrapV != Wrap::clamp || (uv.y >= 0 && uv.y <= 1));
         };
-    UvRow row;
-    for (int j = 0; j < foldV; ++j) {
-        layer.raster->row(j == 0 ? y : 2 * height_ - 1 - y, row, few);
-        for (int x = 0; x < width_ * foldU; ++x) {
-            auto& texel = texels[std::size_t(x < width_ ? x : 2 * width_ - 1 - x)];
-            for (std::uint32_t i = row.first[std::size_t(x)]; i < row.first[std::size_t(x) + 1]; ++i) {
-                const UvSample& p = row.places[i];
-                const Part& part = partOf(p.triangle);
-                const Place place{part.uses.front(), std::uint32_t(p.triangle - part.firstTriangle), barycentricOf(p),
-                                  p.covers};
-                texel.push_back({&part, std::uint32_t(texel.size()), place});
-            }
+    return few;
+}
+
+void PlaceFinder::addFound(const Layer& layer, const UvRow& row, std::vector<std::vector<Found>>& texels) const
+{
+    const auto partOf = [&](std::uint32_t triangle) -> const Part& {
+        return *std::prev(std::ranges::upper_bound(layer.parts, triangle, {}, &Part::firstTriangle));
+    };
+    for (int x = 0; x < width_ * foldOf(layer.wrapU); ++x) {
+        auto& texel = texels[std::size_t(x < width_ ? x : 2 * width_ - 1 - x)];
+        for (std::uint32_t i = row.first[std::size_t(x)]; i < row.first[std::size_t(x) + 1]; ++i) {
+            const UvSample& p = row.places[i];
+            const Part& part = partOf(p.triangle);
+            const Place place{part.uses.front(), std::uint32_t(p.triangle - part.firstTriangle), barycentricOf(p),
+                              p.covers};
+            texel.push_back({&part, std::uint32_t(texel.size()), place});
         }
     }
 }
 
-void PlaceFinder::row(int y, std::vector<std::vector<Place>>& texels) const
+void PlaceFinder::choose(std::vector<Found>& found, std::vector<Place>& places) const
 {
-    std::vector<std::vector<Found>> all;
-    all.resize(std::size_t(width_));
-    for (const Layer& layer : layers_)
-        findRow(layer, y, all);
-    texels.assign(std::size_t(width_), {});
-    for (std::size_t x = 0; x < all.size(); ++x) {
-        std::vector<Found>& found = all[x];
-        if (std::ranges::any_of(found, [](const Found& f) { return f.place.covers; }))
-            std::erase_if(found, [](const Found& f) { return !f.place.covers; });
-        std::ranges::sort(found, {}, [](const Found& f) { return std::pair(f.place.use, f.order); });
-        std::size_t count = 0; // of all places for all uses: a part's for its first use, then for the next
-        for (const Found& f : found)
-            count += f.part->uses.size();
-        const std::size_t chosen = std::min(count, most_);
-        std::size_t before = 0, k = 0;
-        for (auto first = found.begin(); first != found.end();) {
-            const auto last = std::find_if(first, found.end(), [&](const Found& f) { return f.part != first->part; });
-            const auto places = std::size_t(last - first);
-            const std::vector<std::uint32_t>& uses = first->part->uses;
-            for (; k < chosen && k * count / chosen < before + places * uses.size(); ++k) {
-                const std::size_t at = k * count / chosen - before;
-                texels[x].push_back(first[std::ptrdiff_t(at % places)].place);
-                texels[x].back().use = uses[at / places];
-            }
-            before += places * uses.size();
-            first = last;
+    if (std::ranges::any_of(found, [](const Found& f) { return f.place.covers; }))
+        std::erase_if(found, [](const Found& f) { return !f.place.covers; });
+    std::ranges::sort(found, {}, [](const Found& f) { return std::pair(f.place.use, f.order); });
+    std::size_t count = 0; // of all places for all uses: a part's for its first use, then for the next
+    for (const Found& f : found)
+        count += f.part->uses.size();
+    const std::size_t chosen = std::min(count, most_);
+    std::size_t before = 0, k = 0;
+    for (auto first = found.begin(); first != found.end();) {
+        const auto last = std::find_if(first, found.end(), [&](const Found& f) { return f.part != first->part; });
+        const auto here = std::size_t(last - first);
+        const std::vector<std::uint32_t>& uses = first->part->uses;
+        for (; k < chosen && k * count / chosen < before + here * uses.size(); ++k) {
+            const std::size_t at = k * count / chosen - before;
+            places.push_back(first[std::ptrdiff_t(at % here)].place);
+            places.back().use = uses[at / here];
         }
+        before += here * uses.size();
+        first = last;
+    }
+}
+
+void PlaceFinder::rows(int first, int last, const RowWork& work) const
+{
+    struct Drawn { // rows of a layer, from the top of its image to the bottom
+        const Layer* layer;
+        std::vector<UvRow> rows, mirrored;
+    };
+    const auto count = std::size_t(last - first + 1);
+    std::vector<Drawn> drawn;
+    for (const Layer& layer : layers_) {
+        Drawn& d = drawn.emplace_back(Drawn{&layer, std::vector<UvRow>(count), {}});
+        const UvFew few = wantedOf(layer);
+        layer.raster->rows(first, d.rows, few);
+        d.mirrored.resize(foldOf(layer.wrapV) == 2 ? count : 0);
+        layer.raster->rows(2 * height_ - 1 - last, d.mirrored, few);
+    }
+    std::vector<std::vector<Found>> found;
+    std::vector<std::vector<Place>> texels;
+    for (std::size_t k = 0; k < count; ++k) {
+        found.assign(std::size_t(width_), {});
+        for (const Drawn& d : drawn) {
+            addFound(*d.layer, d.rows[k], found);
+            if (!d.mirrored.empty())
+                addFound(*d.layer, d.mirrored[count - 1 - k], found);
+        }
+        texels.assign(std::size_t(width_), {});
+        for (std::size_t x = 0; x < found.size(); ++x)
+            choose(found[x], texels[x]);
+        work(first + int(k), texels);
     }
 }
 

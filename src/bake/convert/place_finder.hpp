@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <span>
 #include <vector>
@@ -25,10 +26,13 @@ class PlaceFinder {
 public:
     PlaceFinder(std::span<const MapUse> uses, int width, int height);
 
-    // The places of row y for each of its texels, in the order of the uses and triangles: those that cover the centre,
-    // or else those that only touch the texel; no more than kMaxPlaces (kMaxAllPlaces), spread over all. From several
-    // threads.
-    void row(int y, std::vector<std::vector<Place>>& texels) const;
+    // Calls work(y, texels) for each row y from `first` to `last`, with the places of each of its texels in the order
+    // of the uses and triangles: those that cover the centre, or else those that only touch the texel; no more than
+    // kMaxPlaces (kMaxAllPlaces), spread over all. Rows of a block, from a multiple of kBlockRows on, take little more
+    // time than one. From several threads.
+    using RowWork = std::function<void(int y, const std::vector<std::vector<Place>>& texels)>;
+    static constexpr int kBlockRows = UvRaster::kBlockRows;
+    void rows(int first, int last, const RowWork& work) const;
 
 private:
     struct Part { // a surface among the triangles of a layer
@@ -49,7 +53,10 @@ private:
     };
 
     void addTo(Layer& layer, std::uint32_t use);
-    void findRow(const Layer& layer, int y, std::vector<std::vector<Found>>& texels) const;
+    UvFew wantedOf(const Layer& layer) const;
+    // To the texels what the raster of a layer found in a row.
+    void addFound(const Layer& layer, const UvRow& row, std::vector<std::vector<Found>>& texels) const;
+    void choose(std::vector<Found>& found, std::vector<Place>& places) const;
 
     std::span<const MapUse> uses_;
     int width_, height_;

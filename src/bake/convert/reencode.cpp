@@ -120,7 +120,7 @@ struct RowCounts {
 };
 
 // Rows whose angles wait in memory until they are counted.
-constexpr int kRowsAtATime = 64;
+constexpr int kRowsAtATime = 128;
 
 class Reencoder {
 public:
@@ -141,12 +141,14 @@ public:
     {
         for (int first = 0; first < map_.height; first += kRowsAtATime) {
             const int last = std::min(first + kRowsAtATime, map_.height);
-            parallelFor(first, last, [&](int y) {
+            eachBlock(first, last, [&](int top, int bottom) {
                 if (rows && rows->stopped())
                     return;
-                solveRow(y);
-                if (rows)
-                    rows->step();
+                finder_.rows(top, bottom, [&](int y, const Texels& texels) {
+                    solveRow(y, texels);
+                    if (rows)
+                        rows->step();
+                });
             });
             countAngles(first, last);
         }
@@ -154,7 +156,15 @@ public:
             return std::move(result_);
         spreadNearest(owner_, map_.width, map_.height, AskFirst::beside);
         markNeeded();
-        parallelFor(0, map_.height, [&](int y) { findPlaces(y); });
+        eachBlock(0, map_.height, [&](int top, int bottom) {
+            if (std::all_of(&nearest_[std::size_t(top)], &nearest_[std::size_t(bottom)] + 1,
+                            [](const std::vector<Lent>& lent) { return lent.empty(); }))
+                return;
+            finder_.rows(top, bottom, [&](int y, const Texels& texels) {
+                for (Lent& lent : nearest_[std::size_t(y)])
+                    lent.place = texels[std::size_t(lent.x)].front();
+            });
+        });
         parallelFor(0, map_.height, [&](int y) { padRow(y); });
         for (const RowCounts& r : rows_) {
             result_.covered += r.covered;
@@ -171,6 +181,8 @@ public:
     }
 
 private:
+    using Texels = std::vector<std::vector<Place>>; // of a row: the places of each
+
     // The stored direction, along (red, green, blue), whatever green means.
     glm::dvec3 oldTexel(int x, int y) const { return f64::cotan_decode(storedTexel(map_, x, y), plain_); }
 
@@ -214,10 +226,16 @@ private:
         put(x, y, stored);
     }
 
-    void solveRow(int y)
+    // Calls work(top, bottom) for blocks of the rows from first to last - 1, on all threads.
+    template<class Work> static void eachBlock(int first, int last, const Work& work)
     {
-        std::vector<std::vector<Place>> texels;
-        finder_.row(y, texels);
+        const int rows = PlaceFinder::kBlockRows;
+        parallelFor(0, (last - first + rows - 1) / rows,
+                    [&](int i) { work(first + i * rows, std::min(first + (i + 1) * rows, last) - 1); });
+    }
+
+    void solveRow(int y, const Texels& texels)
+    {
         RowCounts& counts = rows_[std::size_t(y)];
         std::vector<Demand> demands;
         for (int x = 0; x < map_.width; ++x) {
@@ -279,17 +297,6 @@ private:
         for (std::size_t i = 0; i < needed.size(); ++i)
             if (needed[i])
                 nearest_[i / std::size_t(map_.width)].push_back({int(i % std::size_t(map_.width)), {}});
-    }
-
-    void findPlaces(int y)
-    {
-        auto& lent = nearest_[std::size_t(y)];
-        if (lent.empty())
-            return;
-        std::vector<std::vector<Place>> texels;
-        finder_.row(y, texels);
-        for (Lent& l : lent)
-            l.place = texels[std::size_t(l.x)].front();
     }
 
     void padRow(int y)

@@ -262,57 +262,99 @@ void UvRaster::scanTouching(const Shown& t, int y, const std::uint8_t* taken, co
     }
 }
 
-void UvRaster::row(int y, UvRow& result, const UvFew& few) const
+namespace {
+
+void begin(UvRow& row, int width)
 {
-    // Names of their own: clang 14 captures no structured bindings.
-    auto& found = result.scratch.found;
-    auto& next = result.scratch.next;
-    auto& orders = result.scratch.orders;
-    auto& sorted = result.scratch.sorted;
-    const std::span<const Listed> listed = listedIn(y / kBlockRows);
-    const bool limited = few.most < listed.size();
-    found.clear();
-    orders.clear();
-    next.assign(std::size_t(width_) + 1, 0); // places of each texel, so far
-    std::vector<std::uint8_t>& full = result.scratch.taken;
-    full.assign(std::size_t(width_), 0);
-    std::uint32_t order = 0;
-    const auto emit = [&](int x, const UvSample& place) {
-        if (few.counts && !few.counts(place))
-            return;
-        found.push_back({x, place});
-        orders.push_back(order);
-        full[std::size_t(x)] = ++next[std::size_t(x)] >= few.most;
-    };
-    const std::size_t step = limited && few.most > 1 ? spreadingStep(listed.size()) : 0; // 0: in their order
-    const auto eachShown = [&](const auto& scan) {
-        for (std::size_t i = 0; i < listed.size(); ++i) {
-            if (i % 128 == 0 && !std::memchr(full.data(), 0, full.size()))
-                return;
-            order =
-                std::uint32_t(step > 0 ? std::uint64_t(i) * step % listed.size() : i); // where size_t has 32 bits, too
-            if (const Shown t = shownAt(listed[order]); t.first.y <= y && y <= t.last.y)
-                scan(t);
-        }
-    };
-    eachShown([&](const Shown& t) { scanCentres(t, y, limited ? full.data() : nullptr, emit); });
-    for (std::size_t x = 0; x < full.size(); ++x)
-        full[x] = next[x] > 0;
-    eachShown([&](const Shown& t) { scanTouching(t, y, full.data(), emit); });
-    result.first.assign(std::size_t(width_) + 1, 0);
-    std::inclusive_scan(next.begin(), next.end() - 1, result.first.begin() + 1);
-    std::copy(result.first.begin(), result.first.end(), next.begin());
-    result.places.resize(found.size());
+    row.scratch.found.clear();
+    row.scratch.orders.clear();
+    row.scratch.next.assign(std::size_t(width) + 1, 0); // places of each texel, so far
+    row.scratch.taken.assign(std::size_t(width), 0);
+}
+
+// Sorts what was found by texels, and the places of each texel in the order of the triangles.
+void sortFound(UvRow& row)
+{
+    auto& [found, taken, twice, next, orders, sorted] = row.scratch;
+    row.first.assign(next.size(), 0);
+    std::inclusive_scan(next.begin(), next.end() - 1, row.first.begin() + 1);
+    std::copy(row.first.begin(), row.first.end(), next.begin());
+    row.places.resize(found.size());
     sorted.resize(found.size());
-    for (std::size_t i = 0; i < found.size(); ++i) { // each texel's in the order of the triangles
+    for (std::size_t i = 0; i < found.size(); ++i) {
         const auto [x, place] = found[i];
         std::uint32_t at = next[std::size_t(x)]++;
-        for (; at > result.first[std::size_t(x)] && sorted[at - 1] > orders[i]; --at) {
-            result.places[at] = result.places[at - 1];
+        for (; at > row.first[std::size_t(x)] && sorted[at - 1] > orders[i]; --at) {
+            row.places[at] = row.places[at - 1];
             sorted[at] = sorted[at - 1];
         }
-        result.places[at] = place;
+        row.places[at] = place;
         sorted[at] = orders[i];
+    }
+}
+
+} // namespace
+
+void UvRaster::rowsOfBlock(int first, std::span<UvRow> results, const UvFew& few) const
+{
+    const std::span<const Listed> listed = listedIn(first / kBlockRows);
+    const bool limited = few.most < listed.size();
+    for (UvRow& row : results)
+        begin(row, width_);
+    const std::size_t step = limited && few.most > 1 ? spreadingStep(listed.size()) : 0; // 0: in their order
+    bool isOpen[kBlockRows] = {}; // whether a texel of the row may get a place
+    const auto someAreOpen = [&] {
+        bool some = false;
+        for (std::size_t k = 0; k < results.size(); ++k) {
+            const std::vector<std::uint8_t>& full = results[k].scratch.taken;
+            isOpen[k] = isOpen[k] && std::memchr(full.data(), 0, full.size());
+            some = some || isOpen[k];
+        }
+        return some;
+    };
+    const auto eachShown = [&](const auto& scan) {
+        std::fill(std::begin(isOpen), std::end(isOpen), true);
+        for (std::size_t i = 0; i < listed.size(); ++i) {
+            if (i % 128 == 0 && !someAreOpen())
+                return;
+            const auto order =
+                std::uint32_t(step > 0 ? std::uint64_t(i) * step % listed.size() : i); // where size_t has 32 bits, too
+            const Shown t = shownAt(listed[order]);
+            const int last = std::min(t.last.y - first, int(results.size()) - 1);
+            for (int k = std::max(t.first.y - first, 0); k <= last; ++k)
+                if (isOpen[k])
+                    scan(t, first + k, results[std::size_t(k)], order);
+        }
+    };
+    const auto emitTo = [&](UvRow& row, std::uint32_t order) {
+        return [&row, &few, order](int x, const UvSample& place) {
+            if (few.counts && !few.counts(place))
+                return;
+            row.scratch.found.push_back({x, place});
+            row.scratch.orders.push_back(order);
+            row.scratch.taken[std::size_t(x)] = ++row.scratch.next[std::size_t(x)] >= few.most;
+        };
+    };
+    eachShown([&](const Shown& t, int y, UvRow& row, std::uint32_t order) {
+        scanCentres(t, y, limited ? row.scratch.taken.data() : nullptr, emitTo(row, order));
+    });
+    for (UvRow& row : results)
+        for (std::size_t x = 0; x < row.scratch.taken.size(); ++x)
+            row.scratch.taken[x] = row.scratch.next[x] > 0;
+    eachShown([&](const Shown& t, int y, UvRow& row, std::uint32_t order) {
+        scanTouching(t, y, row.scratch.taken.data(), emitTo(row, order));
+    });
+    for (UvRow& row : results)
+        sortFound(row);
+}
+
+void UvRaster::rows(int first, std::span<UvRow> results, const UvFew& few) const
+{
+    while (!results.empty()) {
+        const std::size_t count = std::min(results.size(), std::size_t(kBlockRows - first % kBlockRows));
+        rowsOfBlock(first, results.first(count), few);
+        first += int(count);
+        results = results.subspan(count);
     }
 }
 

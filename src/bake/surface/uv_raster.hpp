@@ -79,9 +79,11 @@ public:
     // the tile; one that has room for 4 by 4 whole copies in its inscribed circle in 16 of them, evenly chosen.
     UvRaster(const UvTriangles& triangles, int width, int height, glm::ivec2 tile = {0, 0}, bool wrap = false);
 
-    // The places of the row y, 0 at the top. May be called from several threads. With few.most it takes time for each
-    // triangle that is in the row, but not for each of its texels.
-    void row(int y, UvRow& result, const UvFew& few = {}) const;
+    // The places of the rows from `first` on, 0 at the top, one for each of `results`. May be called from several
+    // threads. With few.most it takes time for each triangle that is in a block of rows, but not for each of its
+    // texels.
+    void rows(int first, std::span<UvRow> results, const UvFew& few = {}) const;
+    void row(int y, UvRow& result, const UvFew& few = {}) const { rows(y, {&result, 1}, few); }
 
     // The first places of the texels in rows from kBlockRows * block on. May be called from several threads.
     static constexpr int kBlockRows = 8;
@@ -108,6 +110,8 @@ private:
     static bool covers(const Shown& t, glm::dvec2 p);
     // The texels of the line py that a triangle may reach, and where it begins and ends on it.
     std::pair<int, int> span(const Shown& t, double py, double reach, double& low, double& high) const;
+    // The places of rows of one block.
+    void rowsOfBlock(int first, std::span<UvRow> results, const UvFew& few) const;
     // Call emit(x, place) for each texel of the row y. full, taken: texels that are not asked about; full null: none.
     template<class Emit> void scanCentres(const Shown& t, int y, const std::uint8_t* full, const Emit& emit) const;
     template<class Emit> void scanTouching(const Shown& t, int y, const std::uint8_t* taken, const Emit& emit) const;
