@@ -1,10 +1,12 @@
 // The curved surface through a mesh's vertices and normals, against the surface that the mesh was made of.
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 
 #include <glm/geometric.hpp>
 
+#include "bake/curved_normals.hpp"
 #include "bake/high_surface.hpp"
 #include "truth/random.hpp"
 
@@ -160,6 +162,69 @@ TEST(Curved, flatFacesStayFlat)
             degrees(glm::dvec3(surface->normalOf(hit, HighNormals::curved, {0, 0, -1})), glm::dvec3(hit.faceNormal)),
             1e-3);
     }
+}
+
+TEST(Curved, shapeOperatorsAreTheSecondDerivativesOfAQuadricWhateverDoesNotCountLiesBeside)
+{
+    // z = a x^2 / 2 + b x y + c y^2 / 2 around the first vertex, seven neighbours in an uneven ring.
+    const double a = 0.7, b = -0.3, c = 0.2;
+    std::vector<glm::vec3> positions, normals;
+    const auto add = [&](double x, double y) {
+        positions.emplace_back(x, y, a * x * x / 2 + b * x * y + c * y * y / 2);
+        normals.emplace_back(glm::normalize(glm::dvec3(-a * x - b * y, -b * x - c * y, 1)));
+    };
+    add(0, 0);
+    std::vector<std::uint32_t> indices;
+    for (std::uint32_t i = 0; i < 7; ++i) {
+        const double turn = 0.9 * i, radius = 0.1 + 0.02 * (i % 3);
+        add(radius * std::cos(turn), radius * std::sin(turn));
+        indices.insert(indices.end(), {0, i + 1, (i + 1) % 7 + 1});
+    }
+    const std::array<double, 6> expected{-a, -b, 0, -c, 0, 0}; // dn = -H dp
+    const auto expectFirst = [&](const char* what) {
+        const auto shapes = shapeOperators(positions, normals, indices, 1);
+        ASSERT_EQ(shapes.size(), positions.size());
+        for (std::size_t k = 0; k < 6; ++k)
+            EXPECT_NEAR(shapes[0][k], expected[k], 2e-4) << what << " " << k; // positions in float, over 0.1
+    };
+    expectFirst("quadric");
+    positions.emplace_back(0.05f, 0.05f, 0.08f); // looks away: its normal leans by 85 degrees
+    normals.push_back(glm::normalize(glm::vec3(1, 0, 0.08f)));
+    positions.push_back(positions[0]); // at the vertex itself
+    normals.push_back(glm::normalize(glm::vec3(1, 1, 1)));
+    positions.emplace_back(5, 5, 5); // of no triangle
+    normals.emplace_back(0, 0, 1);
+    indices.insert(indices.end(), {0, 8, 9});
+    expectFirst("and two that do not count");
+    EXPECT_EQ(shapeOperators(positions, normals, indices, 1).back(), ShapeOperator{});
+    normals[0] = {0, 0, 0}; // unknown
+    EXPECT_EQ(shapeOperators(positions, normals, indices, 1)[0], ShapeOperator{});
+}
+
+TEST(Curved, aTriangleThatIsNotNearlyFlatOrSeenFromTheSideHasNoCurvedNormal)
+{
+    const auto leaning = [](float cosine) { return glm::vec3(std::sqrt(1 - cosine * cosine), 0, cosine); };
+    const glm::vec3 up(0, 0, 1);
+    const CurvedTriangle flat{{glm::vec3(0, 0, 0), glm::vec3(1, 0, 0), glm::vec3(0, 1, 0)}, {up, up, up}, {}};
+    for (const float side : {1.0f, -1.0f}) { // either way along the ray, of any length
+        EXPECT_EQ(curvedNormal(flat, 0.2f, 0.3f, side * leaning(0.052f)), up);
+        EXPECT_EQ(curvedNormal(flat, 0.2f, 0.3f, side * leaning(0.048f)), glm::vec3(0));
+        EXPECT_EQ(curvedNormal(flat, 0.2f, 0.3f, side * 7 * leaning(0.052f)), up);
+        EXPECT_EQ(curvedNormal(flat, 0.2f, 0.3f, side * 7 * leaning(0.048f)), glm::vec3(0));
+    }
+    for (std::size_t corner = 0; corner < 3; ++corner)
+        for (const auto& [cosine, curved] : {std::pair(0.11f, true), {0.09f, false}}) {
+            CurvedTriangle t = flat;
+            t.normals[corner] = leaning(cosine);
+            EXPECT_EQ(glm::length(curvedNormal(t, 0.2f, 0.3f, -up)) > 0.99f, curved) << corner << " " << cosine;
+        }
+    CurvedTriangle line = flat;
+    line.positions[2] = {2, 0, 0};
+    EXPECT_EQ(curvedNormal(line, 0.2f, 0.3f, -up), glm::vec3(0));
+    CurvedTriangle steep = flat; // far above its plane: a ray that leans meets it beyond the triangle
+    for (ShapeOperator& w : steep.shapes)
+        w = {-100, 0, 0, -100, 0, 0};
+    EXPECT_EQ(curvedNormal(steep, 0.3f, 0.3f, leaning(0.7f)), glm::vec3(0));
 }
 
 TEST(Curved, rayAlongTheTriangleAndUnpreparedSurfaceGiveTheInterpolatedNormal)

@@ -192,6 +192,75 @@ TEST(UvRaster, firstsAreTheFirstOfEachTexel)
     }
 }
 
+// Of a row: each texel's places.
+using PlacesOfTexels = std::vector<std::vector<UvSample>>;
+
+PlacesOfTexels placesOf(const UvRow& row)
+{
+    PlacesOfTexels places;
+    for (std::size_t x = 0; x + 1 < row.first.size(); ++x)
+        places.emplace_back(row.places.begin() + row.first[x], row.places.begin() + row.first[x + 1]);
+    return places;
+}
+
+void expectEqual(const PlacesOfTexels& a, const PlacesOfTexels& b)
+{
+    ASSERT_EQ(a.size(), b.size());
+    for (std::size_t x = 0; x < a.size(); ++x) {
+        ASSERT_EQ(a[x].size(), b[x].size()) << x;
+        for (std::size_t i = 0; i < a[x].size(); ++i) {
+            EXPECT_EQ(a[x][i].triangle, b[x][i].triangle);
+            EXPECT_EQ(a[x][i].b1, b[x][i].b1);
+            EXPECT_EQ(a[x][i].b2, b[x][i].b2);
+            EXPECT_EQ(a[x][i].covers, b[x][i].covers);
+        }
+    }
+}
+
+TEST(UvRaster, rowsThatCrossBlocksAreThoseOfOneRowAtATime)
+{
+    Layout l = jitteredGrid(7);
+    for (int layer = 0; layer < 3; ++layer) // 4 layers of all triangles
+        l.indices.insert(l.indices.end(), l.indices.begin(), l.indices.begin() + 7 * 7 * 6);
+    for (std::size_t i = 0; i < l.texcoords.size();
+         ++i) // not all of the image: some texels are touched, some are empty
+        l.texcoords[i] = glm::vec2(0.1f, 0.2f) + l.texcoords[i] * glm::vec2(0.6f, 0.5f);
+    const int width = 29, height = 43;
+    const auto odd = [](const UvSample& p) { return p.triangle % 2 == 1; };
+    for (const UvFew& few :
+         {UvFew{}, UvFew{.most = 1}, UvFew{.most = 3}, UvFew{.counts = odd}, UvFew{.most = 2, .counts = odd}})
+        for (const bool wrap : {false, true}) {
+            const UvRaster raster(l.view(), width, height, {0, 0}, wrap);
+            std::vector<PlacesOfTexels> single;
+            UvRow row;
+            std::size_t most = 0, touched = 0;
+            for (int y = 0; y < height; ++y) {
+                raster.row(y, row, few);
+                single.push_back(placesOf(row));
+                for (const std::vector<UvSample>& places : single.back()) {
+                    ASSERT_LE(places.size(), few.most);
+                    if (!places.empty() && places[0].covers)
+                        most = std::max(most, places.size());
+                    touched += !places.empty() && !places[0].covers;
+                    for (const UvSample& p : places) {
+                        EXPECT_TRUE(!few.counts || odd(p));
+                        EXPECT_EQ(p.covers, places[0].covers);
+                    }
+                }
+            }
+            EXPECT_EQ(most, std::min<std::size_t>(few.most, 4));
+            EXPECT_GT(touched, 0u);
+            std::vector<UvRow> rows; // used again and again, of other rows
+            for (const auto& [first, count] :
+                 {std::pair(0, height), {5, 20}, {7, 2}, {8, 8}, {15, 10}, {40, 3}, {42, 1}}) {
+                rows.resize(std::size_t(count));
+                raster.rows(first, rows, few);
+                for (int k = 0; k < count; ++k)
+                    expectEqual(placesOf(rows[std::size_t(k)]), single[std::size_t(first + k)]);
+            }
+        }
+}
+
 TEST(UvRaster, spansAreTheTexelsWhoseCentresAreCovered)
 {
     const Layout l = jitteredGrid(9);

@@ -207,10 +207,8 @@ LowRest restOf(const Scene& low, const BakeModelOptions& options)
 std::string stem(std::string name)
 {
     name = lowerCase(std::move(name));
-    for (const char* word : {"low", "high"})
-        if (const std::size_t at = name.rfind(word); at != std::string::npos)
-            return name.substr(0, at);
-    return name;
+    const std::size_t behind = std::max(name.rfind("low") + 1, name.rfind("high") + 1); // 0: neither
+    return name.substr(0, behind - 1);
 }
 
 Result<std::vector<std::int64_t>> matches(const Scene& low, const HighSurface& high)
