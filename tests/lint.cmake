@@ -6,6 +6,8 @@ add_dependencies(lint_test cotan)
 # The parts of lint and convert by themselves: builds and runs in seconds.
 cotan_test(judgement_test BATCH 1
   SOURCES lint_recommend_test.cpp lint_check_test.cpp lint_parts_test.cpp map_fit_test.cpp convert_parts_test.cpp
+    convert_places_test.cpp mapped_surface_test.cpp
+          lint_bounds_test.cpp lint_scene_test.cpp lint_seen_test.cpp
   LIBRARIES cotan_bake)
 target_include_directories(judgement_test PRIVATE ${PROJECT_SOURCE_DIR}/src/bake/lint ${PROJECT_SOURCE_DIR}/src/bake/convert)
 cotan_test(judgement_command_test

@@ -91,6 +91,8 @@ std::vector<Corner> meeting(float across, float along, float right = 1)
             {{0, 1, 0}, {0, 0}}};
 }
 
+constexpr double kExact = 1e-10; // degrees: these positions and uv are exact as floats
+
 // The steps of a texel tilted by 35 degrees, in eight directions, when its slopes along u and v shrink.
 std::vector<double> stepsWhen(double u, double v)
 {
@@ -117,15 +119,15 @@ TEST(EdgeSteps, ofUvThatAreHalfAsDenseBeyondTheEdgeAreThoseOfHalvedSlopes)
     const std::vector<double> expected = stepsWhen(0.5, 1); // the gradient of v is the longer one on both sides
     EXPECT_EQ(s.edges, 1u);
     EXPECT_EQ(s.cotangent.count, 8u);
-    EXPECT_NEAR(s.cotangent.mean, meanOf(expected), 1e-4);
-    EXPECT_NEAR(s.cotangent.maximum, *std::max_element(expected.begin(), expected.end()), 1e-4);
+    EXPECT_NEAR(s.cotangent.mean, meanOf(expected), kExact);
+    EXPECT_NEAR(s.cotangent.maximum, *std::max_element(expected.begin(), expected.end()), kExact);
     EXPECT_NEAR(s.orthonormal.maximum, 0, 1e-4); // does not see lengths
 }
 
 TEST(EdgeSteps, ofUvThatAreDenserBeyondTheEdgeScaleTheOther)
 {
     const EdgeSteps s = lint::edgeSteps(surfaceOf(meeting(2, 0))); // there, v has half the gradient
-    EXPECT_NEAR(s.cotangent.mean, meanOf(stepsWhen(1, 0.5)), 1e-4);
+    EXPECT_NEAR(s.cotangent.mean, meanOf(stepsWhen(1, 0.5)), kExact);
 }
 
 TEST(EdgeSteps, areWeightedByTheAreasOnBothSides)
@@ -136,7 +138,7 @@ TEST(EdgeSteps, areWeightedByTheAreasOnBothSides)
         c.position.y += 10;
     const EdgeSteps s = lint::edgeSteps(surfaceOf(meeting(1, 0) + far));
     EXPECT_EQ(s.edges, 2u);
-    EXPECT_NEAR(s.cotangent.mean, meanOf(stepsWhen(0.5, 1)) * 2 / 3, 1e-4);
+    EXPECT_NEAR(s.cotangent.mean, meanOf(stepsWhen(0.5, 1)) * 2 / 3, kExact);
 }
 
 TEST(EdgeSteps, orthonormalStepsWhereTheLinesOfEqualVTurn)
@@ -155,8 +157,8 @@ TEST(EdgeSteps, orthonormalStepsWhereTheLinesOfEqualVTurn)
     const double c = std::cos(glm::radians(35.0)),
                  expected = glm::degrees(std::acos(c * c + (1 - c * c) * std::sqrt(0.5)));
     EXPECT_EQ(s.edges, 1u);
-    EXPECT_NEAR(s.orthonormal.mean, expected, 1e-4);
-    EXPECT_NEAR(s.orthonormal.maximum, expected, 1e-4);
+    EXPECT_NEAR(s.orthonormal.mean, expected, kExact);
+    EXPECT_NEAR(s.orthonormal.maximum, expected, kExact);
 }
 
 TEST(EdgeSteps, onlyInteriorEdgesOfOneOrientationCount)
@@ -281,37 +283,6 @@ TEST(Readings, theStoredTangentsAreHeldAgainstGeneratedOnes)
     EXPECT_NEAR(read[5].error.mean, angleBetween({0.4, 0.3, 1}, {0.4, -0.3, 1}), 1e-4);
 }
 
-// A speck above the middle of a floor hides a point of it that is a tenth of the largest pixel wide.
-TEST(Seen, drawsSmallerPicturesWherePixelsAreFew)
-{
-    std::vector<Corner> speck = rectangle({0.495, 0.495}, {0.01, 0.01}, {0, 0}, {1, 1});
-    for (Corner& corner : speck)
-        corner.position.z = 0.4f;
-    const MappedSurface surface = surfaceOf(rectangle({0, 0}, {1, 1}, {0, 0}, {1, 1}) + speck);
-    std::vector<MeshPoint> points;
-    for (int i = 0; i < 4096; ++i) // along the diagonal
-        points.push_back({0, {0.3 + 0.4 * i / 4096, 0, 0.7 - 0.4 * i / 4096}});
-    const auto hidden = [&](double maxPixels) {
-        const std::vector<double> seen = lint::seen(surface, points, false, maxPixels);
-        return std::count_if(seen.begin(), seen.end(), [](double directions) { return directions < 5; });
-    };
-    EXPECT_GT(hidden(lint::kMaxPixels), 0);
-    EXPECT_GT(hidden(1), 3 * hidden(lint::kMaxPixels));
-}
-
-// A floor under a roof of its size: the middle of the floor shows only from below.
-TEST(Seen, countsTheDirectionsThatAPointShowsFrom)
-{
-    std::vector<Corner> roof = rectangle({0, 0}, {1, 1}, {0, 0}, {1, 1});
-    for (Corner& corner : roof)
-        corner.position.z = 0.1f;
-    const MappedSurface surface = surfaceOf(rectangle({0, 0}, {1, 1}, {0, 0}, {1, 1}) + roof);
-    const MeshPoint ofFloor{0, {0.5, 0, 0.5}}, ofRoof{2, {0.5, 0, 0.5}};
-    EXPECT_EQ(lint::seen(surface, {ofFloor, ofRoof}, false), (std::vector<double>{0, 5}));
-    EXPECT_EQ(lint::seen(surface, {ofFloor, ofRoof}, true), (std::vector<double>{5, 5}));
-    EXPECT_EQ(lint::seen(surface, {ofFloor}, false), (std::vector<double>{1})); // hidden in itself: all alike
-}
-
 // ---- overlap --------------------------------------------------------------------------------
 
 // A bent grid of 2 * 40 * 40 triangles: 4,720 edges, and the steps of every tenth are those of all but for chance.
@@ -387,6 +358,24 @@ TEST(Overlap, uvThatRepeatTheImageTooOftenCountAsOverlapping)
     EXPECT_EQ(often(1e7f), 0); // out of range: not drawn at all
 }
 
+// Strips so thin that they cover no texel, of two triangles that each lie over 64 by 64 copies of the image, which have
+// 17 rows on the coarsest raster: where that makes more than ten million, all counts as overlapping, and else nothing.
+TEST(Overlap, uvOfMoreThanTenMillionRowsAreNotLookedAt)
+{
+    for (const auto& [strips, share] : {std::pair(2, 0.0), {72, 1.0}}) {
+        std::vector<Corner> corners;
+        for (int i = 0; i < strips; ++i) {
+            auto strip = rectangle({0, 0}, {1, 1}, {0, 0}, {1, 1});
+            for (Corner& c : strip) // along the diagonal, and past the middles of the texels on it
+                c.uv = glm::vec2(64 * c.uv.x) + glm::vec2(0, 0.0006f + 1e-4f * c.uv.y);
+            corners = corners + strip;
+        }
+        const UvQuality q = overlapsOf({surfaceOf(corners)}, 32)[0];
+        EXPECT_EQ(q.overlapping, share) << strips;
+        EXPECT_EQ(q.overlappingMirrored, 0);
+    }
+}
+
 TEST(Overlap, ofManyTrianglesInOnePlaceIsFoundOnACoarserRaster)
 {
     // In rows of 512 texels these are 10 times what is looked at.
@@ -397,46 +386,6 @@ TEST(Overlap, ofManyTrianglesInOnePlaceIsFoundOnACoarserRaster)
     const MappedSurface surface = makeSurface(mesh, Texture{}, glm::dmat3(1), {});
     EXPECT_GT(rowsUnder(surface, 512), 1e8);
     EXPECT_NEAR(overlapsOf({surface}, 512)[0].overlapping, 1, 1e-9);
-}
-
-// ---- texels ---------------------------------------------------------------------------------
-
-TEST(Texels, areFoundByColumnThenRowInEveryType)
-{
-    Image bytes = makeImage(3, 2, PixelType::unorm8, ""), words = makeImage(3, 2, PixelType::unorm16, "");
-    for (std::size_t i = 0; i < 24; ++i) {
-        bytes.bytes8()[i] = std::uint8_t(10 * i);
-        words.words()[i] = std::uint16_t(1000 * i);
-    }
-    EXPECT_EQ(storedTexel(bytes, 2, 1), glm::dvec3(200, 210, 220) / 255.0);
-    EXPECT_EQ(storedTexel(bytes, 1, 0), glm::dvec3(40, 50, 60) / 255.0);
-    EXPECT_EQ(storedTexel(words, 0, 1), glm::dvec3(12000, 13000, 14000) / 65535.0);
-    const Image floats = floatMap(3, 2, [](int x, int y) { return glm::dvec3(x, y, 7); });
-    EXPECT_EQ(storedTexel(floats, 2, 1), glm::dvec3(2, 1, 7));
-    const auto asMeant = toFormat<f64::cotan_normal_format>(kAsMeant);
-    EXPECT_EQ(decodedAt(floats, Wrap::repeat, Wrap::clamp, asMeant, {-0.1, 1.9}).x, 2); // repeats along u
-    EXPECT_EQ(decodedAt(floats, Wrap::repeat, Wrap::clamp, asMeant, {-0.1, 1.9}).y, 1); // and stays in the last row
-}
-
-TEST(Texels, coordinatesWrapAsTheSamplerSays)
-{
-    EXPECT_EQ(wrappedTexel(0.26, 4, Wrap::repeat), 1);
-    EXPECT_EQ(wrappedTexel(1.26, 4, Wrap::repeat), 1);
-    EXPECT_EQ(wrappedTexel(-0.1, 4, Wrap::repeat), 3);
-    EXPECT_EQ(wrappedTexel(1.26, 4, Wrap::mirror), 2);
-    EXPECT_EQ(wrappedTexel(-0.26, 4, Wrap::mirror), 1);
-    EXPECT_EQ(wrappedTexel(1.26, 4, Wrap::clamp), 3);
-    EXPECT_EQ(wrappedTexel(-5, 4, Wrap::clamp), 0);
-    EXPECT_EQ(wrappedTexel(std::nan(""), 4, Wrap::repeat), 0);
-}
-
-TEST(Texels, anImageHasPixelsOnlyWithAllOfThem)
-{
-    Image image = makeImage(2, 2, PixelType::unorm8, "");
-    EXPECT_TRUE(hasPixels(image));
-    image.data.pop_back();
-    EXPECT_FALSE(hasPixels(image));
-    EXPECT_FALSE(hasPixels(Image{}));
 }
 
 } // namespace

@@ -293,6 +293,8 @@ TEST(Recommend, ofManyNamesThreeAreSaid)
     for (const char* name : {"a", "b", "c", "d", "e"})
         maps.push_back(greenAs(true, false, name));
     EXPECT_TRUE(says(advisedOn({judgedAs(0.1, 0.2)}, {}, maps).defects, "in a, b, c and 2 more "));
+    maps.resize(4);
+    EXPECT_TRUE(says(advisedOn({judgedAs(0.1, 0.2)}, {}, maps).defects, "in a, b, c and 1 more "));
     maps.resize(3);
     EXPECT_TRUE(says(advisedOn({judgedAs(0.1, 0.2)}, {}, maps).defects, "in a, b, c ("));
 }

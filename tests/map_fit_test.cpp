@@ -139,5 +139,188 @@ TEST(MapFit, aMapFitsUpToThreeTenthsOfADegreeOn95PercentOfTheArea)
     EXPECT_TRUE(fitsAsItIs({})); // nothing shows it: nothing asks for another
 }
 
+TEST(MapFit, pointsInATriangleAreTheSequenceOfThePlasticNumber)
+{
+    double rho = 1.3; // rho^3 = rho + 1
+    for (int i = 0; i < 50; ++i)
+        rho = std::cbrt(rho + 1);
+    const std::vector<MeshPoint> points =
+        pointsOver(surfaceOf({{{0, 0, 0}, {0, 0}}, {{2, 0, 0}, {1, 0}}, {{0, 1, 0}, {0, 1}}}), 100);
+    ASSERT_EQ(points.size(), 100u);
+    for (int k = 0; k < 100; ++k) {
+        double a = 0.5 + k / rho, b = 0.5 + k / (rho * rho);
+        a -= std::floor(a);
+        b -= std::floor(b);
+        if (a + b > 1 + 1e-9) // of the square's other half: turned about its middle
+            a = 1 - a, b = 1 - b;
+        const glm::dvec3 found = points[std::size_t(k)].barycentric;
+        EXPECT_NEAR(found.y, a, 1e-11) << k;
+        EXPECT_NEAR(found.z, b, 1e-11) << k;
+        EXPECT_NEAR(found.x, 1 - a - b, 1e-11) << k;
+    }
+}
+
+TEST(MapFit, theAreaOfThePointsIsThatOfTheTrianglesThatShowTheMap)
+{
+    double area = -1;
+    const MappedSurface some = surfaceOf(rectangle({0, 0}, {1, 3}, {0, 0}, {1, 1})
+                                         + rectangle({4, 0}, {2, 2}, {0.5f, 0}, {0.5f, 1})); // no area in uv
+    EXPECT_EQ(pointsOver(some, 5, &area).size(), 5u);
+    EXPECT_NEAR(area, 3, 1e-6);
+    EXPECT_TRUE(pointsOver(surfaceOf({}), 5, &area).empty());
+    EXPECT_EQ(area, 0);
+}
+
+TEST(MapFit, surfacesShareThePointsOf128AndHave16AtLeast)
+{
+    for (const auto& [surfaces, points] : {std::pair(0u, 4096u),
+                                           {1u, 4096u},
+                                           {128u, 4096u},
+                                           {129u, 524288u / 129},
+                                           {1000u, 524u},
+                                           {32768u, 16u},
+                                           {1000000u, 16u}})
+        EXPECT_EQ(pointsOfEach(surfaces), points) << surfaces;
+}
+
+TEST(MapFit, usesShareThePointsOf16AndMayBeGivenFewer)
+{
+    const MapUse use = fitUse(rectangle({0, 0}, {2, 1}, {0, 0}, {1, 1}));
+    const Image map = fitMap();
+    const auto count = [&](std::size_t uses, std::size_t most) {
+        return mapErrors(map, map, std::vector(uses, use), {&kFitCotangent, 1}, {}, most)[0].count;
+    };
+    EXPECT_EQ(count(1, 7), 7u);
+    EXPECT_EQ(count(1, 5000), 4096u);
+    EXPECT_EQ(count(64, 5000), 64u * 1024);
+    EXPECT_EQ(count(64, 100), 6400u);
+}
+
+// Of more than 1,024 uses every second is measured, the first among them.
+TEST(MapFit, ofVeryManyUsesEvenlyChosenOnesAreMeasured)
+{
+    const Image map = fitMap();
+    const MapUse good = fitUse(rectangle({0, 0}, {1, 1}, {0, 0}, {1, 1})),
+                 bad = fitUse(rectangle({0, 0}, {4, 2}, {0, 0}, {1, 1}));
+    std::vector<MapUse> uses;
+    for (int i = 0; i < 1025; ++i)
+        uses.push_back(i % 2 == 0 ? good : bad);
+    const auto errorOf = [&] { return mapErrors(map, map, uses, {&kFitCotangent, 1}, {}, 3)[0]; };
+    EXPECT_EQ(errorOf().count, 513u * 3);
+    EXPECT_NEAR(errorOf().maximum, 0, 1e-4);
+    uses.pop_back();
+    EXPECT_EQ(errorOf().count, 1024u * 3);
+    EXPECT_GT(errorOf().maximum, 1);
+}
+
+TEST(MapFit, whatIsFlattenedToAMillionthDoesNotCount)
+{
+    const Image map = fitMap();
+    for (const auto& [strength, counts] :
+         {std::pair(1e-6, false), {1.001e-6, true}, {-1.001e-6, true}, {-1e-6, false}}) {
+        const MapUse use = fitUse(rectangle({0, 0}, {2, 1}, {0, 0}, {1, 1}), strength);
+        EXPECT_EQ(mapError(map, map, {&use, 1}, kFitCotangent).count > 0, counts) << strength;
+    }
+}
+
+// The same texel twice: signed, and coded about the middle; each is read by its own rule.
+TEST(MapFit, theMapAfterwardsIsReadWithItsOwnExpansion)
+{
+    const MapUse use = fitUse(rectangle({0, 0}, {1, 1}, {0, 0}, {1, 1}));
+    const glm::dvec3 m = glm::normalize(kTexel);
+    const Image before = floatMap(4, 4, [&](int, int) { return m; }),
+                after = floatMap(4, 4, [&](int, int) { return m * 0.5 + 0.5; });
+    const FramePair same{Frame::mikktspace, Frame::orthonormal, TangentOrigin::generated, TangentOrigin::generated};
+    EXPECT_NEAR(mapError(before, after, {&use, 1}, same, Expansion::exact).maximum, 0, 1e-4);
+    EXPECT_NEAR(mapError(before, before, {&use, 1}, same, Expansion::exact).mean, angleBetween(m, m * 2.0 - 1.0), 1e-3);
+    EXPECT_GT(mapError(before, after, {&use, 1}, same).mean, 1);
+}
+
+TEST(MapFit, directionsTurnAsLinesAndSayNothingWhereOneHasNone)
+{
+    Mesh mesh = meshOf(rectangle({0, 0}, {1, 1}, {0, 0}, {1, 1}));
+    const auto turn = [&](double degrees) {
+        const double a = glm::radians(degrees);
+        mesh.tangents.assign(6, degrees == 999 ? glm::vec4(0, 0, 0, 1) : glm::vec4(std::cos(a), std::sin(a), 0, 1));
+        const MappedSurface s = makeSurface(mesh, Texture{});
+        return directionTurn(s, pointsOver(s, 10),
+                             {Frame::mikktspace, Frame::mikktspace, TangentOrigin::stored, TangentOrigin::generated});
+    };
+    for (const auto& [degrees, expected] :
+         {std::pair(0.0, 0.0), {30.0, 30.0}, {-50.0, 50.0}, {90.0, 90.0}, {100.0, 80.0}, {170.0, 10.0}, {180.0, 0.0}}) {
+        const ValueSummary s = turn(degrees);
+        EXPECT_EQ(s.count, 10u);
+        EXPECT_NEAR(s.mean, expected, 1e-4) << degrees;
+        EXPECT_NEAR(s.maximum, expected, 1e-4) << degrees;
+    }
+    EXPECT_EQ(turn(999).count, 0u);
+}
+
+TEST(MapFit, whatIsReadAtVerticesHasToBeDerivedUnlessTheFileHasIt)
+{
+    using enum TangentOrigin;
+    struct Case {
+        FramePair frames;
+        bool storedTangents;
+        std::vector<Frame> derived;
+    };
+    const Case cases[] = {
+        {{Frame::mikktspace, Frame::orthonormal, generated, generated}, true, {Frame::mikktspace}},
+        {{Frame::mikktspace, Frame::orthonormal, stored, generated}, true, {}},
+        {{Frame::mikktspace, Frame::orthonormal, stored, generated}, false, {Frame::mikktspace}},
+        {{Frame::orthonormal, Frame::mikktspace, stored, generated}, true, {Frame::mikktspace}},
+        {{Frame::orthonormal, Frame::mikktspace, generated, stored}, true, {}},
+        {{Frame::smooth, Frame::mikktspace, stored, generated}, true, {Frame::smooth, Frame::mikktspace}},
+        {{Frame::mikktspace, Frame::smooth, stored, stored}, true, {Frame::smooth}}, // no file has those of smooth
+        {{Frame::cotangent, Frame::exact, stored, stored}, false, {}},
+    };
+    for (const Case& c : cases) {
+        FrameSet expected;
+        for (const Frame frame : c.derived)
+            expected.set(std::size_t(frame));
+        EXPECT_EQ(framesRead(c.frames, c.storedTangents), expected) << &c - cases;
+    }
+}
+
+// ---- texels ---------------------------------------------------------------------------------
+
+TEST(Texels, areFoundByColumnThenRowInEveryType)
+{
+    Image bytes = makeImage(3, 2, PixelType::unorm8, ""), words = makeImage(3, 2, PixelType::unorm16, "");
+    for (std::size_t i = 0; i < 24; ++i) {
+        bytes.bytes8()[i] = std::uint8_t(10 * i);
+        words.words()[i] = std::uint16_t(1000 * i);
+    }
+    EXPECT_EQ(storedTexel(bytes, 2, 1), glm::dvec3(200, 210, 220) / 255.0);
+    EXPECT_EQ(storedTexel(bytes, 1, 0), glm::dvec3(40, 50, 60) / 255.0);
+    EXPECT_EQ(storedTexel(words, 0, 1), glm::dvec3(12000, 13000, 14000) / 65535.0);
+    const Image floats = floatMap(3, 2, [](int x, int y) { return glm::dvec3(x, y, 7); });
+    EXPECT_EQ(storedTexel(floats, 2, 1), glm::dvec3(2, 1, 7));
+    const auto asMeant = toFormat<f64::cotan_normal_format>(kAsMeant);
+    EXPECT_EQ(decodedAt(floats, Wrap::repeat, Wrap::clamp, asMeant, {-0.1, 1.9}).x, 2); // repeats along u
+    EXPECT_EQ(decodedAt(floats, Wrap::repeat, Wrap::clamp, asMeant, {-0.1, 1.9}).y, 1); // and stays in the last row
+}
+
+TEST(Texels, coordinatesWrapAsTheSamplerSays)
+{
+    EXPECT_EQ(wrappedTexel(0.26, 4, Wrap::repeat), 1);
+    EXPECT_EQ(wrappedTexel(1.26, 4, Wrap::repeat), 1);
+    EXPECT_EQ(wrappedTexel(-0.1, 4, Wrap::repeat), 3);
+    EXPECT_EQ(wrappedTexel(1.26, 4, Wrap::mirror), 2);
+    EXPECT_EQ(wrappedTexel(-0.26, 4, Wrap::mirror), 1);
+    EXPECT_EQ(wrappedTexel(1.26, 4, Wrap::clamp), 3);
+    EXPECT_EQ(wrappedTexel(-5, 4, Wrap::clamp), 0);
+    EXPECT_EQ(wrappedTexel(std::nan(""), 4, Wrap::repeat), 0);
+}
+
+TEST(Texels, anImageHasPixelsOnlyWithAllOfThem)
+{
+    Image image = makeImage(2, 2, PixelType::unorm8, "");
+    EXPECT_TRUE(hasPixels(image));
+    image.data.pop_back();
+    EXPECT_FALSE(hasPixels(image));
+    EXPECT_FALSE(hasPixels(Image{}));
+}
+
 } // namespace
 } // namespace cotan

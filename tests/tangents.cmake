@@ -1,7 +1,7 @@
 cotan_test(tangents_test BATCH 4
   SOURCES tangents_test.cpp tangents_groups_test.cpp cotangents_test.cpp tangents_oracle_test.cpp
           tangents_fans_test.cpp parallel_test.cpp triangle_test.cpp adjacency_test.cpp
-          meshlets_test.cpp tangents_progress_test.cpp
+          meshlets_test.cpp tangents_progress_test.cpp gpu_meshes_test.cpp
   LIBRARIES cotan_core cotan_truth)
 cotan_test(tangents_gltf_test
   SOURCES tangents_gltf_test.cpp

@@ -30,9 +30,9 @@ public:
         if (!named)
             return named.error();
         if (*named && **named != options_.frames.from)
-            return inputError(fmt::format("{}: its materials say that the normal maps are for the frame {}; expected "
+            return inputError(fmt::format("{}its materials say that the normal maps are for the frame {}; expected "
                                           "that as the frame to convert from, found {}",
-                                          gltfPath(document_).string(), name(**named), name(options_.frames.from)));
+                                          fileOf(document_), name(**named), name(options_.frames.from)));
         named_ = named->has_value();
         const auto jobs = mapJobs(document_, report_.notes);
         if (!jobs)
@@ -75,11 +75,7 @@ public:
     }
 
 private:
-    std::string fieldOf(const MapJob& job) const
-    {
-        const std::filesystem::path& file = gltfPath(document_);
-        return file.empty() ? job.name : fmt::format("{}: {}", file.string(), job.name);
-    }
+    std::string fieldOf(const MapJob& job) const { return fileOf(document_) + job.name; }
 
     Status checkMemory(const std::vector<MapJob>& jobs) const
     {

@@ -65,14 +65,11 @@ UvFew PlaceFinder::wantedOf(const Layer& layer) const
 
 void PlaceFinder::addFound(const Layer& layer, const UvRow& row, std::vector<std::vector<Found>>& texels) const
 {
-    const auto partOf = [&](std::uint32_t triangle) -> const Part& {
-        return *std::prev(std::ranges::upper_bound(layer.parts, triangle, {}, &Part::firstTriangle));
-    };
     for (int x = 0; x < width_ * foldOf(layer.wrapU); ++x) {
         auto& texel = texels[std::size_t(x < width_ ? x : 2 * width_ - 1 - x)];
         for (std::uint32_t i = row.first[std::size_t(x)]; i < row.first[std::size_t(x) + 1]; ++i) {
             const UvSample& p = row.places[i];
-            const Part& part = partOf(p.triangle);
+            const Part& part = *std::prev(std::ranges::upper_bound(layer.parts, p.triangle, {}, &Part::firstTriangle));
             const Place place{part.uses.front(), std::uint32_t(p.triangle - part.firstTriangle), barycentricOf(p),
                               p.covers};
             texel.push_back({&part, std::uint32_t(texel.size()), place});

@@ -97,9 +97,8 @@ Result<std::optional<Frame>> namedFrame(const GltfDocument& document)
         if (!frame || std::ranges::none_of(kNormalSlots, hasMap))
             continue;
         if (named && *named != *frame)
-            return inputError(fmt::format("{}: materials[{}].extras.{}: expected {}, as materials[{}] has it; found {}",
-                                          gltfPath(document).string(), m, gltf::kFrameExtra, name(*named), first,
-                                          name(*frame)));
+            return inputError(fmt::format("{}materials[{}].extras.{}: expected {}, as materials[{}] has it; found {}",
+                                          fileOf(document), m, gltf::kFrameExtra, name(*named), first, name(*frame)));
         if (!named)
             first = m;
         named = frame;

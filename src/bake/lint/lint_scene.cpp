@@ -264,7 +264,7 @@ Result<LintReport> lintScene(const Scene& scene, const LintOptions& options, con
         if (material.coat.normalMap.present())
             ofCoat = makeCoatSurface(held, material.normalMap, material.coat.normalMap, frames);
         const std::size_t count = std::min(placed[i].size(), kMaxPlacings);
-        const double share = double(mesh.triangleCount()) / double(std::max<std::size_t>(count, 1));
+        const double share = double(mesh.triangleCount()) / double(count);
         if (!counted.add(kOfSurface * double(mesh.triangleCount())))
             return stoppedError();
         for (std::size_t k = 0; k < count; ++k) {

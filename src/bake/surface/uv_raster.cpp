@@ -264,14 +264,6 @@ void UvRaster::scanTouching(const Shown& t, int y, const std::uint8_t* taken, co
 
 namespace {
 
-void begin(UvRow& row, int width)
-{
-    row.scratch.found.clear();
-    row.scratch.orders.clear();
-    row.scratch.next.assign(std::size_t(width) + 1, 0); // places of each texel, so far
-    row.scratch.taken.assign(std::size_t(width), 0);
-}
-
 // Sorts what was found by texels, and the places of each texel in the order of the triangles.
 void sortFound(UvRow& row)
 {
@@ -299,21 +291,23 @@ void UvRaster::rowsOfBlock(int first, std::span<UvRow> results, const UvFew& few
 {
     const std::span<const Listed> listed = listedIn(first / kBlockRows);
     const bool limited = few.most < listed.size();
-    for (UvRow& row : results)
-        begin(row, width_);
+    for (UvRow& row : results) {
+        row.scratch.found.clear();
+        row.scratch.orders.clear();
+        row.scratch.next.assign(std::size_t(width_) + 1, 0); // places of each texel, so far
+        row.scratch.taken.assign(std::size_t(width_), 0);
+    }
     const std::size_t step = limited && few.most > 1 ? spreadingStep(listed.size()) : 0; // 0: in their order
     bool isOpen[kBlockRows] = {}; // whether a texel of the row may get a place
     const auto someAreOpen = [&] {
-        bool some = false;
         for (std::size_t k = 0; k < results.size(); ++k) {
             const std::vector<std::uint8_t>& full = results[k].scratch.taken;
             isOpen[k] = isOpen[k] && std::memchr(full.data(), 0, full.size());
-            some = some || isOpen[k];
         }
-        return some;
+        return std::find(std::begin(isOpen), std::end(isOpen), true) != std::end(isOpen);
     };
     const auto eachShown = [&](const auto& scan) {
-        std::fill(std::begin(isOpen), std::end(isOpen), true);
+        std::fill_n(isOpen, results.size(), true);
         for (std::size_t i = 0; i < listed.size(); ++i) {
             if (i % 128 == 0 && !someAreOpen())
                 return;
@@ -350,11 +344,9 @@ void UvRaster::rowsOfBlock(int first, std::span<UvRow> results, const UvFew& few
 
 void UvRaster::rows(int first, std::span<UvRow> results, const UvFew& few) const
 {
-    while (!results.empty()) {
-        const std::size_t count = std::min(results.size(), std::size_t(kBlockRows - first % kBlockRows));
+    for (std::size_t count = 0; !results.empty(); first += int(count), results = results.subspan(count)) {
+        count = std::min(results.size(), std::size_t(kBlockRows - first % kBlockRows));
         rowsOfBlock(first, results.first(count), few);
-        first += int(count);
-        results = results.subspan(count);
     }
 }
 
