@@ -224,4 +224,113 @@ TEST(CFiles, exchangedRedAndGreenAreTold)
     }
 }
 
+// Waves without symmetry, stored as a map of 8 bits in each of the ways that cotan_map_info tells apart: with zero at
+// 128 or between 127 and 128; as if they were a colour, or as if a colour's curve had been taken off them.
+TEST(CFiles, zeroAndTransferOfAMapAreTold)
+{
+    constexpr int kWidth = 96, kHeight = 64;
+    const auto toSrgb = [](double x) { return x <= 0.0031308 ? 12.92 * x : 1.055 * std::pow(x, 1 / 2.4) - 0.055; };
+    const auto toLinear = [](double x) { return x <= 0.04045 ? x / 12.92 : std::pow((x + 0.055) / 1.055, 2.4); };
+    struct Row {
+        double zero, most;
+        int curve;
+        int toldZero, toldSrgb;
+    };
+    for (const Row& row :
+         {Row{128, 127, 0, 128, 0}, {127.5, 127.5, 0, 127, 0}, {127.5, 127.5, 1, -1, 1}, {127.5, 127.5, -1, -1, -1}}) {
+        std::vector<unsigned char> pixels;
+        for (int y = 0; y < kHeight; ++y)
+            for (int x = 0; x < kWidth; ++x) {
+                const double dx = -0.5 * std::cos(x / 4.0 + y / 7.0), dy = 0.3 * std::cos(x / 9.0 - y / 5.0);
+                const double length = std::sqrt(1 + dx * dx + dy * dy);
+                for (const double n : {dx / length, dy / length, 1 / length}) {
+                    const double code = (row.zero + row.most * n) / 255;
+                    const double curved = row.curve > 0 ? toSrgb(code) : row.curve < 0 ? toLinear(code) : code;
+                    pixels.push_back(static_cast<unsigned char>(std::lround(255 * curved)));
+                }
+                pixels.push_back(255);
+            }
+        const cotan_picture map{sizeof map, kWidth, kHeight, 8, pixels.data()};
+        cotan_map_info info = COTAN_INIT(cotan_map_info);
+        ASSERT_EQ(cotan_map_describe(&map, &info, text, sizeof text), COTAN_OK) << text;
+        EXPECT_EQ(info.srgb, row.toldSrgb) << row.zero << " " << row.curve;
+        if (row.toldZero >= 0) {
+            EXPECT_EQ(info.zero, row.toldZero);
+        }
+    }
+}
+
+// A picture goes through a file as it is, of 8 and of 16 bits, rows from the top; nothing is written where it is none.
+TEST(CFiles, picturesComeBackFromTheirFileAsTheyWere)
+{
+    const std::string file = testing::TempDir() + "c_files_picture.png";
+    const auto throughFile = [&](auto number) {
+        std::vector<decltype(number)> pixels(4 * 5 * 3);
+        for (std::size_t i = 0; i < pixels.size(); ++i)
+            pixels[i] = decltype(number)(i * 977 + 3);
+        const cotan_picture given{sizeof given, 5, 3, int(8 * sizeof number), pixels.data()};
+        const cotan_status written = cotan_image_write(file.c_str(), &given, text, sizeof text);
+        if (written == COTAN_UNAVAILABLE)
+            return;
+        ASSERT_EQ(written, COTAN_OK) << text;
+        cotan_image* image = nullptr;
+        ASSERT_EQ(cotan_image_read(file.c_str(), 1, &image, text, sizeof text), COTAN_OK) << text;
+        cotan_picture made = COTAN_INIT(cotan_picture);
+        ASSERT_EQ(cotan_image_picture(image, &made, text, sizeof text), COTAN_OK) << text;
+        EXPECT_EQ(made.size, sizeof made);
+        EXPECT_EQ(made.width, 5);
+        EXPECT_EQ(made.height, 3);
+        EXPECT_EQ(made.bits, given.bits);
+        EXPECT_EQ(std::memcmp(made.pixels, pixels.data(), pixels.size() * sizeof number), 0);
+        cotan_picture shorter = made;
+        shorter.size -= 1;
+        EXPECT_EQ(cotan_image_picture(image, &shorter, text, sizeof text), COTAN_USAGE);
+        cotan_image_free(image);
+    };
+    throughFile(static_cast<unsigned char>(0));
+    throughFile(static_cast<unsigned short>(0));
+    std::remove(file.c_str());
+}
+
+// A model is bytes, or a file or shape that the words name, and not both; and a caller who stops once has stopped.
+TEST(CFiles, renderingRefusesWhatDoesNotGoTogetherAndStops)
+{
+    Caller caller;
+    const cotan_model_files files = caller.files();
+    cotan_render_options options = COTAN_INIT(cotan_render_options);
+    cotan_image* image = nullptr;
+    cotan_bytes* json = nullptr;
+    std::vector<const char*> words = {"--device", "reference", "--size", "8x6",       "--environment",
+                                      "none",     "--frame",   "smooth", "--samples", "1"};
+    const auto render = [&](bool model) {
+        options.words = words.data();
+        options.word_count = words.size();
+        return cotan_render(model ? kModel : nullptr, model ? sizeof kModel - 1 : 0, &files, &options, &image, &json,
+                            text, sizeof text);
+    };
+    const cotan_status status = render(true);
+    if (status == COTAN_UNAVAILABLE)
+        GTEST_SKIP() << text;
+    ASSERT_EQ(status, COTAN_OK) << text;
+    const std::string report(static_cast<const char*>(cotan_bytes_data(json)), cotan_bytes_size(json));
+    for (const char* said :
+         {"cotan-render-result", "\"triangles\"", "\"view\"", "shaded", "reference", "\"frame\": \"smooth\""})
+        EXPECT_NE(report.find(said), std::string::npos) << said << report;
+    cotan_bytes_free(json);
+    cotan_image_free(image);
+    image = nullptr;
+    json = nullptr;
+    words.insert(words.end(), {"--shape", "plane"});
+    EXPECT_EQ(render(true), COTAN_USAGE);
+    EXPECT_STREQ(text, "model: expected bytes or a file or a shape, found also 'plane'");
+    options.threads = -1;
+    EXPECT_EQ(render(false), COTAN_USAGE);
+    EXPECT_STREQ(text, "options.threads: expected 0 or more");
+    options.threads = 1;
+    options.progress = [](void*, double) { return 1; };
+    EXPECT_EQ(render(false), COTAN_STOPPED);
+    EXPECT_EQ(image, nullptr);
+    EXPECT_EQ(json, nullptr);
+}
+
 } // namespace

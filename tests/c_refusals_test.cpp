@@ -332,4 +332,63 @@ TEST(CRefusals, modelsAndConversionsNeedTheirPointers)
     EXPECT_EQ(glb, nullptr);
 }
 
+// A mesh without a name is called by its number.
+TEST(CRefusals, meshesAreCalledByTheirNameOrTheirNumber)
+{
+    const Square square;
+    const cotan_mesh good = square.mesh();
+    cotan_mesh bad = good;
+    bad.index_count = 5;
+    const cotan_mesh* meshes[] = {&good, &bad};
+    cotan_model* model = nullptr;
+    for (const char* name : {"lid", "", static_cast<const char*>(nullptr)}) {
+        const char* names[] = {"box", name};
+        expectRefused(cotan_model_of_meshes(2, meshes, names, &model, refusal, sizeof refusal),
+                      std::string(name && *name ? name : "meshes[1]") + ".index_count: expected a multiple of 3");
+    }
+    expectRefused(cotan_model_of_meshes(2, meshes, nullptr, &model, refusal, sizeof refusal), "meshes[1].index_count");
+    bad = good;
+    bad.positions = nullptr;
+    expectRefused(cotan_model_of_meshes(2, meshes, nullptr, &model, refusal, sizeof refusal),
+                  "meshes[1]: expected positions, found null");
+    EXPECT_EQ(model, nullptr);
+    bad.vertex_count = bad.index_count = 0; // nothing of it is read
+    EXPECT_EQ(cotan_model_of_meshes(2, meshes, nullptr, &model, refusal, sizeof refusal), COTAN_OK) << refusal;
+    cotan_model_free(model);
+    EXPECT_EQ(cotan_bytes_data(nullptr), nullptr);
+    EXPECT_EQ(cotan_bytes_size(nullptr), 0u);
+    EXPECT_STREQ(cotan_model_warnings(nullptr), "");
+}
+
+TEST(CRefusals, shaderTextIsOfTheStageThatIsNamed)
+{
+    const auto text = [](const char* frame) {
+        std::size_t size = 0;
+        EXPECT_EQ(cotan_shader_text("glsl", frame, "gltf", nullptr, &size, refusal, sizeof refusal), COTAN_OK)
+            << refusal;
+        std::string made(size, '\0');
+        EXPECT_EQ(cotan_shader_text("glsl", frame, "gltf", made.data(), &size, refusal, sizeof refusal), COTAN_OK)
+            << refusal;
+        return made;
+    };
+    EXPECT_NE(text("triangle,vertex"), text("triangle,fragment"));
+    EXPECT_NE(text("triangle,vertex"), text("triangle"));
+    std::size_t size = 0;
+    const auto said = [&](const char* language, const char* frame, const char* convention) {
+        return cotan_shader_text(language, frame, convention, nullptr, &size, refusal, sizeof refusal);
+    };
+    expectRefused(said("glsl", "triangle,pixel", "gltf"),
+                  "stage: expected fragment, vertex, mesh or compute, found 'pixel'");
+    expectRefused(said("glsl", "triangle,", "gltf"), "stage: expected fragment, vertex, mesh or compute, found ''");
+    expectRefused(said("glsl", "tangent,vertex", "gltf"), "frame: there is none named 'tangent'");
+    expectRefused(said("basic", "triangle", "gltf"), "language: expected ");
+    expectRefused(said("glsl", "triangle", "x"), "convention: ");
+    expectRefused(said(nullptr, "triangle", "gltf"), "language: expected a name, found null");
+    expectRefused(said("glsl", nullptr, "gltf"), "frame: expected a name, found null");
+    expectRefused(said("glsl", "triangle", nullptr), "convention: expected a name, found null");
+    expectRefused(cotan_shader_text("glsl", "triangle", "gltf", nullptr, nullptr, refusal, sizeof refusal),
+                  "text_size: expected a place");
+    EXPECT_EQ(size, 0u);
+}
+
 } // namespace

@@ -128,4 +128,197 @@ TEST(GltfFromScene, refusesPicturesOfFloats)
     EXPECT_NE(document.error().message.find("light.exr"), std::string::npos);
 }
 
+json jsonOf(const Scene& scene)
+{
+    const auto document = gltfDocumentOf(scene);
+    EXPECT_TRUE(document) << (document ? "" : document.error().message);
+    return document ? json::parse(rootOf(*document).dump()) : json();
+}
+
+// Nothing is written that says no more than glTF's defaults, and all else as the specification names it.
+TEST(GltfFromScene, writesWhatIsNotADefaultAndNoMore)
+{
+    Scene scene;
+    scene.meshes = {makePatch(1, 0.25f, false, 2)};
+    scene.meshes[0].name = "sheet";
+    scene.meshes[0].positions[0] = {-3, 5, 0.5f};
+    scene.meshes[0].positions[1] = {7, -2, 4};
+    scene.materials.resize(1);
+    scene.instances = {{"", 0, glm::mat4(1)}, {"moved", 0, glm::translate(glm::mat4(1), {1, 2, 3})}};
+    json root = jsonOf(scene);
+    EXPECT_EQ(root["asset"], (json{{"version", "2.0"}, {"generator", "cotan"}}));
+    EXPECT_EQ(root["scene"], 0);
+    EXPECT_EQ(root["scenes"], (json{{{"nodes", {0, 1}}}}));
+    EXPECT_EQ(root["nodes"],
+              (json{{{"mesh", 0}},
+                    {{"mesh", 0}, {"name", "moved"}, {"matrix", {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 1, 2, 3, 1}}}}));
+    EXPECT_FALSE(root.contains("extensionsUsed"));
+    EXPECT_EQ(root["meshes"][0]["name"], "sheet");
+    const json attributes = root["meshes"][0]["primitives"][0]["attributes"];
+    const json& positions = root["accessors"][attributes["POSITION"].get<int>()];
+    glm::vec3 low = scene.meshes[0].positions[0], high = low;
+    for (const glm::vec3& p : scene.meshes[0].positions)
+        low = glm::min(low, p), high = glm::max(high, p);
+    EXPECT_EQ(positions["min"], (json{low.x, low.y, low.z}));
+    EXPECT_EQ(positions["max"], (json{high.x, high.y, high.z}));
+    for (const char* const absent : {"COLOR_0", "TEXCOORD_1"})
+        EXPECT_FALSE(attributes.contains(absent)) << absent;
+    const json plain = {
+        {"name", ""},
+        {"pbrMetallicRoughness", {{"baseColorFactor", {1, 1, 1, 1}}, {"metallicFactor", 1}, {"roughnessFactor", 1}}}};
+    json material = root["materials"][0];
+    EXPECT_EQ(material, plain);
+    Material& m = scene.materials[0];
+    m.emissive = {0.25f, 0.5f, 1}; // as bright as glTF's own factor goes
+    m.alphaMode = AlphaMode::blend;
+    m.alphaCutoff = 0.25f; // is of masks
+    m.normalScale = 0.5f;  // are of maps
+    m.occlusionStrength = 0.5f;
+    m.normalFrame = Frame::smooth;
+    material = jsonOf(scene)["materials"][0];
+    EXPECT_EQ(material["emissiveFactor"], (json{0.25, 0.5, 1}));
+    EXPECT_EQ(material["alphaMode"], "BLEND");
+    EXPECT_EQ(material["extras"]["cotanFrame"], "smooth");
+    for (const char* const absent : {"extensions", "alphaCutoff", "normalTexture", "occlusionTexture", "doubleSided"})
+        EXPECT_FALSE(material.contains(absent)) << absent;
+    for (int k = 0; k < 3; ++k) { // the brightest may be any of them
+        m.emissive = glm::vec3(0.5f);
+        m.emissive[k] = 8;
+        root = jsonOf(scene);
+        material = root["materials"][0];
+        json factor = {0.0625, 0.0625, 0.0625};
+        factor[std::size_t(k)] = 1;
+        EXPECT_EQ(material["emissiveFactor"], factor);
+        EXPECT_EQ(material["extensions"]["KHR_materials_emissive_strength"]["emissiveStrength"], 8);
+        EXPECT_EQ(root["extensionsUsed"], json{"KHR_materials_emissive_strength"});
+    }
+    m.unlit = m.doubleSided = true;
+    m.alphaMode = AlphaMode::mask;
+    m.emissive = glm::vec3(0);
+    material = jsonOf(scene)["materials"][0];
+    EXPECT_EQ(material["extensions"], (json{{"KHR_materials_unlit", json::object()}}));
+    EXPECT_EQ(material["alphaMode"], "MASK");
+    EXPECT_EQ(material["alphaCutoff"], 0.25);
+    EXPECT_EQ(material["doubleSided"], true);
+    EXPECT_FALSE(material.contains("emissiveFactor"));
+}
+
+TEST(GltfFromScene, comesBackWithBothUvSetsAndTangentsAsTheFileHadThem)
+{
+    for (const bool reversed : {false, true}) { // what was read with green turned is written as it was
+        Scene scene = twoPatches();
+        Mesh& mesh = scene.meshes[1];
+        mesh.texcoords[1] = mesh.texcoords[0];
+        for (glm::vec2& uv : mesh.texcoords[1])
+            uv = {3 * uv.y + 1, 2 * uv.x};
+        mesh.tangents.assign(mesh.vertexCount(), glm::vec4(1, 0, 0, 1));
+        mesh.tangents[0].w = -1;
+        scene.materials[1].greenReversed = reversed;
+        const cotan::test::TemporaryFolder folder;
+        const auto document = gltfDocumentOf(scene);
+        ASSERT_TRUE(document);
+        ASSERT_TRUE(writeGltf(*document, folder.path / "scene.glb"));
+        const ReadBack file = readBack(folder.path / "scene.glb");
+        const json& attributes = file.root["meshes"][1]["primitives"][0]["attributes"];
+        const auto uv = floatsOf(file, attributes["TEXCOORD_1"].get<int>(), 2);
+        const auto tangents = floatsOf(file, attributes["TANGENT"].get<int>(), 4);
+        ASSERT_EQ(uv.size(), 2 * mesh.vertexCount());
+        ASSERT_EQ(tangents.size(), 4 * mesh.vertexCount());
+        for (std::size_t v = 0; v < mesh.vertexCount(); ++v) {
+            EXPECT_EQ(glm::vec2(uv[2 * v], uv[2 * v + 1]), mesh.texcoords[1][v]);
+            EXPECT_EQ(tangents[4 * v + 3], mesh.tangents[v].w * (reversed ? -1.0f : 1.0f)) << v;
+            EXPECT_EQ(tangents[4 * v], 1);
+        }
+        EXPECT_EQ(file.root["meshes"][0]["primitives"][0]["material"], 0);
+        EXPECT_EQ(file.root["meshes"][1]["primitives"][0]["material"], 1);
+    }
+}
+
+// Each map of a material stands in its own slot, with its own image, uv set and sampler.
+TEST(GltfFromScene, everyMapComesBackInItsOwnSlot)
+{
+    Scene scene = twoPatches();
+    scene.meshes[0].texcoords[1] = scene.meshes[0].texcoords[0];
+    scene.images.push_back(makeReliefMap(Relief::domes, 16));
+    Material& m = scene.materials[0];
+    const auto use = [](int image, int set, Wrap u, Wrap v) {
+        Texture t;
+        t.image = image;
+        t.texcoord = set;
+        t.sampler.wrapU = u;
+        t.sampler.wrapV = v;
+        return t;
+    };
+    m.baseColorMap = use(2, 1, Wrap::clamp, Wrap::repeat);
+    m.metallicRoughnessMap = use(1, 0, Wrap::mirror, Wrap::clamp);
+    m.occlusionMap = use(0, 1, Wrap::repeat, Wrap::mirror);
+    m.emissiveMap = use(1, 1, Wrap::repeat, Wrap::clamp);
+    m.normalMap = use(2, 0, Wrap::mirror, Wrap::repeat);
+    const Material back = written(scene).materials.at(0);
+    for (const auto slot : {&Material::baseColorMap, &Material::metallicRoughnessMap, &Material::occlusionMap,
+                            &Material::emissiveMap, &Material::normalMap}) {
+        const Texture &made = back.*slot, &given = m.*slot;
+        EXPECT_TRUE(made.present());
+        EXPECT_EQ(made.texcoord, given.texcoord);
+        EXPECT_EQ(made.sampler.wrapU, given.sampler.wrapU);
+        EXPECT_EQ(made.sampler.wrapV, given.sampler.wrapV);
+    }
+    const json material = jsonOf(scene)["materials"][0];
+    EXPECT_FALSE(material["normalTexture"].contains("texCoord")); // 0 is the default
+    EXPECT_FALSE(material["normalTexture"].contains("extensions"));
+    EXPECT_EQ(material["pbrMetallicRoughness"]["baseColorTexture"]["texCoord"], 1);
+}
+
+// KHR_texture_transform: a turn, a scale for each axis of uv, negative ones and none too, and an offset. What leans
+// against that by more than rounding is said.
+TEST(GltfFromScene, uvTransformsComeBackAndShearsAreSaid)
+{
+    struct Row {
+        double turn, scaleU, scaleV, shear;
+        bool said;
+    };
+    for (const Row& row : {Row{0.5, 2, 3, 0, false},
+                           {-2.5, 0.5, 4, 0, false},
+                           {1, 2, -3, 0, false},
+                           {3, 1, 1, 0, false},
+                           {0, 0, 2, 0, false},
+                           {0, 1, 0, 0, false},
+                           {0.5, 2, 3, 2e-5, false}, // 1e-5 of the scales together
+                           {0.5, 2, -3, 8e-5, true},
+                           {0.5, 2, 3, 8e-5, true},
+                           {0, 0, 2, 1, true}}) {
+        Scene scene = twoPatches();
+        Texture& map = scene.materials[0].normalMap;
+        const double c = std::cos(row.turn), s = std::sin(row.turn);
+        map.uRow = {c * row.scaleU, s * row.scaleV + c * row.shear, 0.25f};
+        map.vRow = {-s * row.scaleU, c * row.scaleV - s * row.shear, -0.75f};
+        const auto document = gltfDocumentOf(scene);
+        ASSERT_TRUE(document);
+        const std::vector<std::string> said = {
+            "normalTexture: the shear of its texture coordinates cannot be stored in glTF"};
+        EXPECT_EQ(document->notes, row.said ? said : std::vector<std::string>()) << row.turn << " " << row.shear;
+        const Texture back = written(scene).materials.at(0).normalMap;
+        const auto near = [](const glm::vec3& a, double x, double y, double z) {
+            EXPECT_LT(glm::distance(a, glm::vec3(x, y, z)), 1e-5f) << a.x << " " << a.y << " " << a.z;
+        };
+        near(back.uRow, c * row.scaleU, s * row.scaleV, 0.25);
+        near(back.vRow, -s * row.scaleU, c * row.scaleV, -0.75);
+    }
+}
+
+TEST(GltfFromScene, picturesWithoutPixelsAreRefusedByName)
+{
+    for (const bool floats : {false, true}) {
+        Scene scene = twoPatches();
+        scene.images[1] = floats ? makeImage(2, 2, PixelType::float32, "light.exr") : cotan::Image{};
+        scene.images[1].name = "second";
+        const auto document = gltfDocumentOf(scene);
+        ASSERT_FALSE(document);
+        EXPECT_EQ(document.error().message,
+                  std::string("second: expected pixels of 8 or 16 bits, which glTF can hold; found ")
+                      + (floats ? "floats" : "none"));
+        EXPECT_EQ(document.error().kind, ErrorKind::input);
+    }
+}
+
 } // namespace

@@ -153,7 +153,11 @@ private:
                     + (3 * t2 - 2 * t3) * v.next[i] + (t3 - t2) * at.seconds * v.inTangent[i];
             else
                 now[i] = v.value[i] + (v.next[i] - v.value[i]) * t;
-        return now; // a rotation is normalised where it is used
+        if (rotation) // a spline leaves the unit sphere between its keys, and is brought back to it (appendix C)
+            if (const double length = glm::length(glm::dvec4(now[0], now[1], now[2], now[3])); length > 0)
+                for (double& x : now)
+                    x /= length;
+        return now;
     }
 
     static std::vector<double> turned(const std::vector<double>& from, const std::vector<double>& to, double part)

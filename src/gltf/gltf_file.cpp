@@ -188,22 +188,6 @@ private:
 
 // ---- URIs -----------------------------------------------------------------------------------
 
-// "%20" becomes a space. A percent sign that starts no code stands for itself: files named so
-// exist, written by exporters that do not encode.
-std::string decodePercent(std::string_view uri)
-{
-    std::string text;
-    for (std::size_t i = 0; i < uri.size(); ++i) {
-        unsigned code = 0;
-        const char* const digits = uri.data() + i + 1;
-        const bool coded =
-            uri[i] == '%' && i + 2 < uri.size() && std::from_chars(digits, digits + 2, code, 16).ptr == digits + 2;
-        text += coded ? char(code) : uri[i];
-        i += coded ? 2 : 0;
-    }
-    return text;
-}
-
 // The value of each base64 character, -1 for all others.
 constexpr std::array<signed char, 256> kBase64 = [] {
     std::array<signed char, 256> values{};
@@ -268,6 +252,20 @@ std::span<const std::byte> bufferFile(GltfFile& file, const fs::path& path, cons
 }
 
 } // namespace
+
+std::string decodePercent(std::string_view uri)
+{
+    std::string text;
+    for (std::size_t i = 0; i < uri.size(); ++i) {
+        unsigned code = 0;
+        const char* const digits = uri.data() + i + 1;
+        const bool coded =
+            uri[i] == '%' && i + 2 < uri.size() && std::from_chars(digits, digits + 2, code, 16).ptr == digits + 2;
+        text += coded ? char(code) : uri[i];
+        i += coded ? 2 : 0;
+    }
+    return text;
+}
 
 Json parseGltfJson(std::span<const std::byte> text)
 {

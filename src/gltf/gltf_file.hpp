@@ -81,6 +81,10 @@ void loadGltfBuffers(GltfFile& file, const LoadLimits& limits);
 // The bytes of a buffer view. field: for the message. Throws GltfProblem where it ends behind its buffer.
 std::span<const std::byte> gltfViewBytes(const GltfFile& file, const gltf::BufferView& view, const std::string& field);
 
+// The name of a file as a URI has it: "%20" becomes a space. A percent sign that starts no code stands for itself:
+// files named so exist, written by exporters that do not encode.
+std::string decodePercent(std::string_view uri);
+
 // What a URI of the model stands for. Data URIs are decoded. Files are looked up in the model's folder; schemes,
 // absolute paths and anything that leads out of the folder, be it by ".." or by a symbolic link, are refused. field:
 // where the URI stands, for messages. mayMiss: a file that does not exist gives an empty resource instead of a failure.

@@ -175,7 +175,7 @@ std::uint64_t GltfMaterials::bytesOfFiles() const
             continue;
         bool outside = false;
         std::error_code error;
-        if (const auto file = findInFolder(model_.file.folder, std::string(*entry.uri), outside))
+        if (const auto file = findInFolder(model_.file.folder, decodePercent(*entry.uri), outside))
             if (const std::uintmax_t size = fs::file_size(*file, error); !error)
                 bytes += size;
     }

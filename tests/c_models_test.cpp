@@ -1,0 +1,358 @@
+// Models and options of cotan.h: both sides of each bound of the options of bake, lint and convert, what their structs
+// may lack, and what a model of two maps gives: its pictures, its figures, and a conversion in two steps. The caller
+// decodes.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstring>
+#include <functional>
+#include <limits>
+#include <numbers>
+#include <regex>
+#include <string>
+#include <vector>
+
+#include "cotan.h"
+
+namespace {
+
+char why[512];
+
+void expectSaid(cotan_status status, const std::string& said, cotan_status expected = COTAN_USAGE)
+{
+    EXPECT_EQ(status, expected) << said << ": " << why;
+    EXPECT_TRUE(std::string(why).starts_with(said)) << said << ": " << why;
+    why[0] = '\0';
+}
+
+// A rectangle of 2 x 1 under a square of uv.
+const float kPositions[] = {0, 0, 0, 2, 0, 0, 2, 1, 0, 0, 1, 0}, kNormals[] = {0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1},
+            kUvs[] = {0, 1, 1, 1, 1, 0, 0, 0};
+const std::uint32_t kIndices[] = {0, 1, 2, 0, 2, 3};
+
+cotan_mesh rectangle() { return {sizeof(cotan_mesh), 4, kPositions, kNormals, kUvs, 6, kIndices}; }
+
+// Two meshes of that rectangle; the map of the first is flat, that of the second leans; the second has a colour too.
+constexpr char kTwoMaps[] =
+    R"({"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0, 1]}],
+  "nodes": [{"mesh": 0}, {"mesh": 1, "translation": [0, 5, 0]}], "buffers": [{"uri": "data.bin", "byteLength": 140}],
+  "bufferViews": [{"buffer": 0, "byteOffset": 0, "byteLength": 48}, {"buffer": 0, "byteOffset": 48, "byteLength": 48},
+    {"buffer": 0, "byteOffset": 96, "byteLength": 32}, {"buffer": 0, "byteOffset": 128, "byteLength": 12}],
+  "accessors": [
+    {"bufferView": 0, "componentType": 5126, "count": 4, "type": "VEC3", "min": [0, 0, 0], "max": [2, 1, 0]},
+    {"bufferView": 1, "componentType": 5126, "count": 4, "type": "VEC3"},
+    {"bufferView": 2, "componentType": 5126, "count": 4, "type": "VEC2"},
+    {"bufferView": 3, "componentType": 5123, "count": 6, "type": "SCALAR"}],
+  "images": [{"uri": "paint.png", "name": "colour"}, {"uri": "lean.png", "name": "leaning"},
+             {"uri": "flat.png", "name": "even"}],
+  "textures": [{"source": 0}, {"source": 1}, {"source": 2}],
+  "materials": [{"normalTexture": {"index": 2}},
+                {"normalTexture": {"index": 1}, "pbrMetallicRoughness": {"baseColorTexture": {"index": 0}}}],
+  "meshes": [
+    {"primitives": [{"attributes": {"POSITION": 0, "NORMAL": 1, "TEXCOORD_0": 2}, "indices": 3, "material": 0}]},
+    {"primitives": [{"attributes": {"POSITION": 0, "NORMAL": 1, "TEXCOORD_0": 2}, "indices": 3, "material": 1}]}]})";
+
+struct Reader {
+    std::vector<unsigned char> binary = std::vector<unsigned char>(140), leaning, flat;
+    std::string png = std::string("\x89PNG\r\n\x1A\n", 8);
+    Reader()
+    {
+        const unsigned short indices[] = {0, 1, 2, 0, 2, 3};
+        std::memcpy(&binary[0], kPositions, 48);
+        std::memcpy(&binary[48], kNormals, 48);
+        std::memcpy(&binary[96], kUvs, 32);
+        std::memcpy(&binary[128], indices, 12);
+        for (int i = 0; i < 8 * 8; ++i) {
+            const unsigned char lean[] = {166, 153, 246, 255}, even[] = {128, 128, 255, 255};
+            leaning.insert(leaning.end(), lean, lean + 4);
+            flat.insert(flat.end(), even, even + 4);
+        }
+    }
+    cotan_model_files files()
+    {
+        cotan_model_files f = COTAN_INIT(cotan_model_files);
+        f.user = this;
+        f.read = [](void* user, const char* uri, const void** bytes, std::size_t* size) {
+            Reader& self = *static_cast<Reader*>(user);
+            const bool data = std::strcmp(uri, "data.bin") == 0;
+            *bytes = data ? static_cast<const void*>(self.binary.data()) : self.png.data();
+            *size = data ? self.binary.size() : self.png.size();
+            return 0;
+        };
+        f.decode = [](void* user, const char* name, const void*, std::size_t, cotan_picture* picture) {
+            Reader& self = *static_cast<Reader*>(user);
+            const bool leans = std::strstr(name, "lean") != nullptr;
+            picture->width = 8;
+            picture->height = leans ? 8 : 4;
+            picture->bits = 8;
+            picture->pixels = leans ? self.leaning.data() : self.flat.data();
+            return 0;
+        };
+        return f;
+    }
+};
+
+std::string taken(cotan_bytes* bytes)
+{
+    const std::string made(static_cast<const char*>(cotan_bytes_data(bytes)), cotan_bytes_size(bytes));
+    cotan_bytes_free(bytes);
+    return made;
+}
+
+// All numbers that a report has by that name, in its order.
+std::vector<std::string> valuesOf(const std::string& report, const std::string& name)
+{
+    const std::regex member("\"" + name + "\":\\s*\"?([^\",\\n}\\]]*)");
+    std::vector<std::string> all;
+    for (std::sregex_iterator at(report.begin(), report.end(), member), end; at != end; ++at)
+        all.push_back((*at)[1]);
+    return all;
+}
+
+TEST(CModels, optionsOfBakingAreHeldToTheirBounds)
+{
+    const cotan_mesh mesh = rectangle();
+    std::vector<std::uint8_t> pixels(4 * 6 * 4, 77), masked(pixels);
+    cotan_picture map = {sizeof map, 6, 4, 8, pixels.data()}, mask = {sizeof mask, 6, 4, 8, masked.data()};
+    using Options = cotan_bake_options;
+    const auto bake = [&](const auto& change) {
+        Options o = COTAN_INIT(cotan_bake_options);
+        change(o);
+        return cotan_bake(&mesh, &mesh, &o, &map, nullptr, why, sizeof why);
+    };
+    if (bake([](Options&) {}) == COTAN_UNAVAILABLE)
+        GTEST_SKIP() << why;
+    std::fill(pixels.begin(), pixels.end(), 77);
+    constexpr float kInf = std::numeric_limits<float>::infinity();
+    for (const auto& [field, name] : {std::pair(&Options::max_distance, "max_distance"),
+                                      {&Options::extrusion, "extrusion"},
+                                      {&Options::cage_reach, "cage_reach"}})
+        for (const float bad : {-0.001f, kInf, NAN})
+            expectSaid(bake([&](Options& o) { o.*field = bad; }),
+                       "options." + std::string(name) + ": expected 0 or more");
+    for (const auto& [field, bad, said] : {std::tuple(&Options::threads, -1, "threads: expected 0 or more"),
+                                           {&Options::padding, -2, "padding: expected -1 or more"},
+                                           {&Options::occlusion_rays, -1, "occlusion_rays: expected 0 to 65536"},
+                                           {&Options::occlusion_rays, 65537, "occlusion_rays: expected 0 to 65536"},
+                                           {&Options::material, -1, "material: expected 0 or more"},
+                                           {&Options::material, 2, "material: expected 0 to 1, found 2"},
+                                           {&Options::samples, 3, "samples: expected 1, 2 or 4"}})
+        expectSaid(bake([&](Options& o) { o.*field = bad; }), "options." + std::string(said));
+    for (const auto& [field, said] :
+         {std::pair(&Options::kind, "kind: expected normal, object-normal, height or occlusion, found 'x'"),
+          {&Options::search, "search: expected first or nearest"},
+          {&Options::tangents, "tangents: expected stored or generated"},
+          {&Options::high_normals, "high_normals: expected smooth, curved, face or map, found 'x'"},
+          {&Options::frame, "frame: expected one of cotangent, "},
+          {&Options::convention, "convention: expected gltf"},
+          {&Options::high_frame,
+           "high_normals: expected map where a map, frame or convention is given, found 'smooth'"},
+          {&Options::high_convention,
+           "high_normals: expected map where a map, frame or convention is given, found 'smooth'"}})
+        expectSaid(bake([&](Options& o) { o.*field = "x"; }), "options." + std::string(said));
+    expectSaid(bake([](Options& o) { o.high_map_count = 1; }), "options.high_normals: expected map where");
+    expectSaid(bake([](Options& o) { o.high_map_count = 1, o.high_normals = "map"; }),
+               "options.high_maps: expected an array");
+    expectSaid(bake([](Options& o) { o.high_normals = "map", o.high_convention = "x"; }),
+               "options.high_convention: expected gltf");
+    for (const auto& [width, height, bits] : {std::tuple(6, 3, 8), {5, 4, 8}, {6, 4, 16}, {4, 6, 8}})
+        expectSaid(bake([&](Options& o) {
+                       mask.width = width, mask.height = height, mask.bits = bits;
+                       o.mask = &mask;
+                   }),
+                   "options.mask: expected 8 bits and the size of the map");
+    for (const std::size_t least : {offsetof(Options, cage)}) {
+        expectSaid(bake([&](Options& o) { o.size = least - 1; }),
+                   "options.size: expected " + std::to_string(least) + " or more, found " + std::to_string(least - 1));
+        EXPECT_TRUE(std::all_of(pixels.begin(), pixels.end(), [](int x) { return x == 77; })); // nothing until here
+        EXPECT_EQ(bake([&](Options& o) { o.size = least; }), COTAN_OK) << why;
+    }
+    EXPECT_EQ(bake([](Options& o) { o.padding = -1, o.occlusion_rays = 65536, o.material = 1, o.samples = 4; }),
+              COTAN_OK)
+        << why;
+    EXPECT_EQ(bake([](Options& o) { o.search = "nearest", o.tangents = "generated", o.high_normals = "face"; }),
+              COTAN_OK)
+        << why;
+    cotan_bake_result result = COTAN_INIT(cotan_bake_result);
+    result.size = offsetof(cotan_bake_result, further) - 1;
+    expectSaid(cotan_bake(&mesh, &mesh, nullptr, &map, &result, why, sizeof why), "result.size: expected ");
+}
+
+TEST(CModels, optionsOfLintAndConvertAreHeldToTheirBounds)
+{
+    Reader reader;
+    const cotan_model_files files = reader.files();
+    const cotan_mesh mesh = rectangle();
+    const cotan_mesh* meshes[] = {&mesh};
+    cotan_model* model = nullptr; // without maps, which is quick
+    ASSERT_EQ(cotan_model_of_meshes(1, meshes, nullptr, &model, why, sizeof why), COTAN_OK) << why;
+    cotan_lint_result result = COTAN_INIT(cotan_lint_result);
+    using Lint = cotan_lint_options;
+    const auto lint = [&](const auto& change) {
+        Lint o = COTAN_INIT(cotan_lint_options);
+        change(o);
+        return cotan_lint_model(model, &o, &result, nullptr, why, sizeof why);
+    };
+    if (lint([](Lint&) {}) == COTAN_UNAVAILABLE)
+        GTEST_SKIP() << why;
+    for (const auto& [field, bad, said] : {std::tuple(&Lint::distance, -0.1, "distance: expected 0 or more"),
+                                           {&Lint::distance, double(NAN), "distance: expected 0 or more"},
+                                           {&Lint::limit, -0.1, "limit: expected degrees from 0 to 180"},
+                                           {&Lint::limit, 180.1, "limit: expected degrees from 0 to 180"},
+                                           {&Lint::limit_area, -0.1, "limit_area: expected percent from 0 to 100"},
+                                           {&Lint::limit_area, 100.1, "limit_area: expected percent from 0 to 100"}})
+        expectSaid(lint([&](Lint& o) { o.*field = bad; }), "options." + std::string(said));
+    for (const char* frame : {"unit", "", "Stored"})
+        expectSaid(lint([&](Lint& o) { o.frame = frame; }),
+                   "options.frame: expected cotangent, orthonormal, smooth, exact, triangle or stored");
+    for (const char* frame : {"cotangent", "orthonormal", "smooth", "exact", "triangle", "stored"})
+        EXPECT_EQ(lint([&](Lint& o) { o.frame = frame, o.limit = 180, o.limit_area = 100; }), COTAN_OK) << why;
+    expectSaid(lint([](Lint& o) { o.size = offsetof(Lint, limit) - 1; }), "options.size");
+    EXPECT_EQ(lint([](Lint& o) { o.size = offsetof(Lint, limit), o.limit = 999; }), COTAN_OK) << why; // not read
+    result.size -= 1;
+    expectSaid(lint([](Lint&) {}), "result.size");
+    cotan_model_free(model);
+
+    using Convert = cotan_convert_options;
+    cotan_bytes* glb = nullptr;
+    cotan_convert_result converted = COTAN_INIT(cotan_convert_result);
+    const auto convert = [&](const auto& change) {
+        Convert o = COTAN_INIT(cotan_convert_options);
+        change(o);
+        const cotan_status status =
+            cotan_convert_gltf(kTwoMaps, sizeof kTwoMaps - 1, &files, &o, &converted, &glb, nullptr, why, sizeof why);
+        cotan_bytes_free(glb);
+        glb = nullptr;
+        return status;
+    };
+    expectSaid(convert([](Convert& o) { o.threads = -1; }), "options.threads: expected 0 or more");
+    expectSaid(convert([](Convert& o) { o.from = "x"; }), "options.from: expected one of cotangent, ");
+    expectSaid(convert([](Convert& o) { o.to = "x"; }), "options.to: expected one of cotangent, ");
+    expectSaid(convert([](Convert& o) { o.expansion = "x"; }), "options.expansion: expected biased or exact");
+    expectSaid(convert([](Convert& o) { o.keep_maps = 1, o.to = "vertex"; }),
+               "options.to: expected a frame without tangents for maps that are kept, found vertex");
+    expectSaid(convert([](Convert& o) { o.keep_maps = 1, o.bits = 8; }),
+               "options.bits: expected 0 where maps are kept");
+    expectSaid(convert([](Convert& o) { o.size = offsetof(Convert, expansion) - 1; }), "options.size");
+    EXPECT_EQ(convert([](Convert& o) { o.size = offsetof(Convert, expansion); }), COTAN_OK) << why;
+    EXPECT_EQ(converted.maps_converted + converted.maps_kept, 2u);
+    EXPECT_EQ(convert([](Convert& o) { o.keep_maps = 1; }), COTAN_OK) << why;
+    EXPECT_EQ(converted.maps_kept, 2u);
+    EXPECT_EQ(converted.maps_converted, 0u);
+    EXPECT_EQ(converted.worst_degrees_before, converted.worst_degrees_after);
+    converted.size -= 1;
+    expectSaid(convert([](Convert&) {}), "result.size");
+}
+
+// The figures are of the worst map, wherever it stands: u of the rectangle is half as steep for frames that stretch.
+TEST(CModels, figuresOfLintAreThoseOfItsReportAndOfTheWorstMap)
+{
+    Reader reader;
+    const cotan_model_files files = reader.files();
+    cotan_lint_result r = COTAN_INIT(cotan_lint_result);
+    cotan_bytes* json = nullptr;
+    const cotan_status status =
+        cotan_lint_gltf(kTwoMaps, sizeof kTwoMaps - 1, &files, nullptr, &r, &json, why, sizeof why);
+    if (status == COTAN_UNAVAILABLE)
+        GTEST_SKIP() << why;
+    ASSERT_EQ(status, COTAN_OK) << why;
+    const std::string report = taken(json);
+    EXPECT_EQ(r.primitives, 2u);
+    EXPECT_EQ(r.maps, 2u);
+    EXPECT_EQ(r.green_against, 0u);
+    EXPECT_EQ(r.distrust_stored, 0);
+    const double x = 38, y = 25, z = 118, dot = x * x / 2 + y * y + z * z;
+    const double off = std::acos(dot / std::sqrt((x * x + y * y + z * z) * (x * x / 4 + y * y + z * z)));
+    EXPECT_NEAR(r.cotangent_degrees, off * 180 / std::numbers::pi, 0.01);
+    EXPECT_NEAR(r.orthonormal_degrees, 0, 0.01);
+    EXPECT_GT(r.smooth_degrees, 1);
+    EXPECT_EQ(valuesOf(report, "advice"), std::vector<std::string>{r.advice});
+    EXPECT_EQ(valuesOf(report, "maps_converted"), std::vector<std::string>{std::to_string(r.maps_to_convert)});
+    EXPECT_NE(report.find(std::string(r.recommendation).substr(0, 40)), std::string::npos);
+    EXPECT_NE(report.find("cotan-lint-result"), std::string::npos);
+}
+
+TEST(CModels, picturesArriveInTheirOrderWithTheirNamesUntilOneStops)
+{
+    Reader reader;
+    const cotan_model_files files = reader.files();
+    struct Seen {
+        std::vector<std::string> names;
+        std::string stopAt;
+    } seen;
+    const auto take = [](void* user, const char* name, const void* bytes, std::size_t size) {
+        Seen& s = *static_cast<Seen*>(user);
+        EXPECT_TRUE(size == 8 && std::memcmp(bytes, "\x89PNG", 4) == 0);
+        s.names.emplace_back(name);
+        return int(name == s.stopAt);
+    };
+    const auto pictures = [&](int mapsOnly, const char* stopAt = "none") {
+        seen = {{}, stopAt};
+        return cotan_gltf_pictures(kTwoMaps, sizeof kTwoMaps - 1, &files, mapsOnly, take, &seen, why, sizeof why);
+    };
+    if (pictures(0) == COTAN_UNAVAILABLE)
+        GTEST_SKIP() << why;
+    EXPECT_EQ(seen.names, (std::vector<std::string>{"colour", "leaning", "even"}));
+    EXPECT_EQ(pictures(1), COTAN_OK);
+    EXPECT_EQ(seen.names, (std::vector<std::string>{"leaning", "even"}));
+    expectSaid(pictures(0, "leaning"), "stopped by the caller", COTAN_STOPPED);
+    EXPECT_EQ(seen.names, (std::vector<std::string>{"colour", "leaning"}));
+}
+
+// Both maps are made anew where bits are asked for. Each PNG file goes to its own picture, whichever is given first.
+TEST(CModels, aConversionOfTwoPicturesTakesTheFileOfEach)
+{
+    Reader reader;
+    const cotan_model_files files = reader.files();
+    for (const std::size_t first : {std::size_t(0), std::size_t(1)}) {
+        cotan_convert_options options = COTAN_INIT(cotan_convert_options);
+        options.bits = 8;
+        cotan_convert_result result = COTAN_INIT(cotan_convert_result);
+        cotan_conversion* conversion = nullptr;
+        const cotan_status begun =
+            cotan_convert_begin(kTwoMaps, sizeof kTwoMaps - 1, &files, &options, &result, &conversion, why, sizeof why);
+        if (begun == COTAN_UNAVAILABLE)
+            GTEST_SKIP() << why;
+        ASSERT_EQ(begun, COTAN_OK) << why;
+        EXPECT_EQ(result.maps_converted, 2u);
+        EXPECT_EQ(result.maps_kept, 0u);
+        EXPECT_EQ(result.primitives_given, 0u);
+        EXPECT_EQ(result.tangent_bytes_dropped, 0u);
+        EXPECT_GT(result.worst_degrees_before, 5); // of the leaning one, not of the flat one
+        EXPECT_LT(result.worst_degrees_after, 0.5);
+        ASSERT_EQ(cotan_conversion_count(conversion), 2u);
+        cotan_picture picture = COTAN_INIT(cotan_picture);
+        std::vector<std::string> given(2);
+        const auto set = [&](std::size_t number) {
+            EXPECT_EQ(cotan_conversion_picture(conversion, number, &picture, why, sizeof why), COTAN_OK) << why;
+            EXPECT_EQ(picture.width, 8);
+            EXPECT_TRUE(picture.height == 8 || picture.height == 4);
+            given[number] = reader.png + (picture.height == 8 ? "of the leaning one" : "of the flat one, longer");
+            return cotan_conversion_set(conversion, number, given[number].data(), given[number].size(), why,
+                                        sizeof why);
+        };
+        cotan_bytes *glb = nullptr, *json = nullptr;
+        expectSaid(cotan_conversion_set(conversion, first, "", 0, why, sizeof why), "png: expected bytes, found none");
+        expectSaid(cotan_conversion_set(conversion, first, nullptr, 1, why, sizeof why), "png: expected bytes");
+        ASSERT_EQ(set(first), COTAN_OK) << why;
+        expectSaid(set(first), "number: expected a picture that has no PNG file yet");
+        expectSaid(cotan_convert_end(conversion, &glb, nullptr, why, sizeof why),
+                   "conversion: expected the PNG files of all");
+        expectSaid(cotan_conversion_picture(conversion, 2, &picture, why, sizeof why),
+                   "number: expected less than 2, found 2");
+        ASSERT_EQ(set(1 - first), COTAN_OK) << why;
+        expectSaid(cotan_convert_end(conversion, nullptr, nullptr, why, sizeof why), "conversion and glb");
+        ASSERT_EQ(cotan_convert_end(conversion, &glb, &json, why, sizeof why), COTAN_OK) << why;
+        cotan_conversion_free(conversion);
+        const std::string whole = taken(glb), report = taken(json);
+        for (const std::string& file : given)
+            EXPECT_NE(whole.find(file), std::string::npos) << file;
+        EXPECT_EQ(whole.find("that cotan_conversion_set gives"), std::string::npos);
+        EXPECT_EQ(valuesOf(report, "bytes_after"),
+                  (std::vector<std::string>{std::to_string(given[0].size()), std::to_string(given[1].size())}));
+    }
+}
+
+} // namespace
