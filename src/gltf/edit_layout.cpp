@@ -13,39 +13,28 @@ namespace {
 
 // ---- what is compressed: KHR_draco_mesh_compression, EXT_ and KHR_meshopt_compression --------
 
-bool isAsRead(const GltfDocument& document, const char* collection, std::size_t index)
-{
-    const Json& now = rootOf(document)[collection];
-    return index < now.size() && now[index] == document.source->file.json[collection][index];
-}
-
 // What of a stream the primitive still has, as the extension names it: ids by attribute. Empty where the positions or
 // the triangles are others than in the file.
-Json attributesLeft(const GltfDocument& document, const Json& primitive, const GltfPacked::Primitive& packed)
+Json attributesLeft(const Json& primitive, const GltfPacked::Primitive& packed)
 {
-    const auto isSame = [&](int accessor) { return isAsRead(document, "accessors", std::size_t(accessor)); };
-    if (gltf::valueOr(primitive, "indices", -1) != packed.indices || !isSame(packed.indices)
+    if (gltf::valueOr(primitive, "indices", -1) != packed.indices
         || gltf::valueOr(primitive, "mode", gltf::kTriangles) != gltf::kTriangles)
         return Json::object();
     Json left = Json::object();
     for (const auto& [name, id] : packed.draco["attributes"].items()) {
         const int accessor = packed.attributes[name].get<int>();
-        if (gltf::valueOr(primitive["attributes"], name, -1) == accessor && isSame(accessor))
+        if (gltf::valueOr(primitive["attributes"], name, -1) == accessor)
             left[name] = id;
     }
     return left.contains("POSITION") ? left : Json::object();
 }
 
-// Lists an extension as used, and as required where the file requires it.
+// Lists an extension, which unpacking took off the lists, as used, and as required where the file requires it.
 void addExtension(Json& root, const GltfPacked& packed, const std::string& name)
 {
-    const auto addTo = [&](Json& names) {
-        if (std::find(names.begin(), names.end(), name) == names.end())
-            names.push_back(name);
-    };
-    addTo(root["extensionsUsed"]);
+    root["extensionsUsed"].push_back(name);
     if (std::ranges::find(packed.required, name) != packed.required.end())
-        addTo(root["extensionsRequired"]);
+        root["extensionsRequired"].push_back(name);
 }
 
 // The extension by which a view is compressed with meshoptimizer.
@@ -71,7 +60,7 @@ void restoreDraco(GltfDocument& document)
     std::size_t restored = 0, withMore = 0;
     for (const GltfPacked::Primitive& p : packed.primitives) {
         Json& primitive = root["meshes"][p.mesh]["primitives"][p.primitive];
-        Json left = attributesLeft(document, primitive, p);
+        Json left = attributesLeft(primitive, p);
         if (left.empty())
             continue;
         for (const auto& [name, id] : left.items())
@@ -100,13 +89,12 @@ void restoreDraco(GltfDocument& document)
                                              packed.primitives.size()));
 }
 
-// The view that meshoptimizer compressed, where it still is that of the file: its JSON as the file has it; else null.
+// The JSON of a view that meshoptimizer compressed as the file has it; null for others.
 const Json* packedView(const GltfDocument& document, std::size_t view)
 {
-    const auto found = document.source->file.packed.views.find(view);
-    if (found == document.source->file.packed.views.end() || !isAsRead(document, "bufferViews", view))
-        return nullptr;
-    return &found->second;
+    const std::map<std::size_t, Json>& views = document.source->file.packed.views;
+    const auto found = views.find(view);
+    return found == views.end() ? nullptr : &found->second;
 }
 
 // Notes the bytes of views that were compressed and are written plain: those that are used and not packedView().

@@ -74,8 +74,6 @@ void renewSparse(GltfDocument& document, const gltf::Elements& old, Json& access
 
 bool allAmong(std::size_t count, Sources sources)
 {
-    if (sources.size() < count)
-        return false;
     std::vector<bool> among(count, false);
     for (const std::uint32_t s : sources)
         among[s] = true;
