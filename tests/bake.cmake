@@ -6,7 +6,7 @@ cotan_test(bake_test BATCH 4 # four in a line are compiled at once; names of two
     bake_bounds_test.cpp
   LIBRARIES cotan_app cotan_bake cotan_model cotan_scene cotan_truth cotan_core)
 cotan_test(bake_command_test BATCH 1
-  SOURCES bake_command_test.cpp bake_features_test.cpp bake_high_map_command_test.cpp bake_objects_command_test.cpp
+  SOURCES bake_command_test.cpp bake_features_test.cpp bake_high_map_command_test.cpp bake_objects_command_test.cpp bake_said_test.cpp
   LIBRARIES cotan_model cotan_scene cotan_truth cotan_core nlohmann_json::nlohmann_json fmt::fmt)
 target_compile_definitions(bake_command_test PRIVATE COTAN_TOOL="$<TARGET_FILE:cotan>")
 add_dependencies(bake_command_test cotan)

@@ -234,6 +234,17 @@ TEST_F(BatchRun, aJobThatCrashesHangsOrEatsMemoryIsOneResultAndNotTheEnd)
     EXPECT_EQ(results[0].record.signal, SIGSEGV);
     EXPECT_EQ(results[3].record.signal, SIGTERM) << "too slow, and asked to end";
     EXPECT_EQ(results[4].record.signal, SIGKILL);
+    const auto inUse = [&](std::size_t i) {
+        return fmt::format(" with {:.0f} MiB in use", results[i].record.megabytes);
+    };
+    EXPECT_EQ(results[0].record.reason, "crashed (signal 11, Segmentation fault)" + inUse(0) + ": it printed nothing");
+    EXPECT_EQ(results[2].record.reason, "was killed (signal 9)" + inUse(2) + ", perhaps for want of memory");
+    EXPECT_EQ(results[3].record.reason, "took longer than 1 s and was ended");
+    if (!kSanitized) {
+        EXPECT_EQ(results[5].record.reason, "wanted more memory than 256 MiB");
+    }
+    EXPECT_GT(results[6].record.megabytes, 1) << "of a process that does little";
+    EXPECT_LT(results[6].record.megabytes, 256);
     EXPECT_EQ(results[8].record.code, 0);
     EXPECT_EQ(results[9].record.state, JobState::failed);
     EXPECT_EQ(results[9].record.reason, "a.glb: broken");

@@ -1,5 +1,6 @@
 # Drawing and verifying as a program calls them: no file, no process.
 cotan_test(draw_test
-  SOURCES draw_test.cpp draw_random_test.cpp scene_check_test.cpp scene_parts_test.cpp
+  SOURCES draw_test.cpp draw_random_test.cpp scene_check_test.cpp scene_parts_test.cpp scene_parts_bounds_test.cpp
+    exposure_meter_test.cpp
     verify_frames_test.cpp verify_test.cpp
   LIBRARIES cotan_app cotan_render cotan_inspect cotan_bake cotan_gltf cotan_scene)

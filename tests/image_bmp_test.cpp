@@ -76,5 +76,33 @@ TEST_F(PictureFile, bmpOfRunsOfMorePixelsThanTheLimitIsRefusedBeforeTheyAreRead)
     }
 }
 
+// Of the headers only their sizes tell them apart: OS/2's, Windows' of 40 bytes and the four that go on behind it.
+TEST_F(PictureFile, bmpHeadersOfKnownSizesAreReadAndTheOthersAndTheirMistakesToldWhole)
+{
+    const std::string sound = makeBmp(8, 0), broken = "a.bmp: broken bmp image: ";
+    const auto told = [](const std::string& file, const LoadLimits& limits = {}) {
+        return messageOf(decodeImage(bytesOf(file), "a.bmp", limits));
+    };
+    for (const std::uint32_t size : {12u, 40u, 52u, 56u, 108u, 124u}) {
+        const std::string file = std::string(sound).replace(14, 4, words({size}));
+        EXPECT_EQ(told(file).find("headers of"), std::string::npos) << size;
+        EXPECT_EQ(told(file.substr(0, 13 + size)), broken + "its header goes on behind the end of the file");
+        EXPECT_EQ(told(file.substr(0, 14 + size)).find("its header"), std::string::npos) << size;
+        for (const std::uint32_t other : {size - 1, size + 1})
+            EXPECT_EQ(told(std::string(sound).replace(14, 4, words({other}))),
+                      broken + "headers of " + std::to_string(other) + " bytes are not read here");
+    }
+    EXPECT_EQ(told(makeBmp(24, 1)), broken + "it has 24 bits a pixel, its compression 1 has 8");
+    EXPECT_EQ(told(makeBmp(8, 2)), broken + "it has 8 bits a pixel, its compression 2 has 4");
+    EXPECT_EQ(told(makeBmp(8, 3)).find("its compression"), std::string::npos);
+    // Pixels of runs: 5 x 3 take 15 bytes, before anything else is known of them.
+    LoadLimits limits;
+    const std::string runs = makeBmp(8, 1).replace(18, 8, words({5, 3}));
+    limits.imageBytes = 14;
+    EXPECT_EQ(told(runs, limits), broken + "5 x 3 pixels of a byte, the limit is 14 bytes");
+    limits.imageBytes = 15;
+    EXPECT_EQ(told(runs, limits), "a.bmp: 5 x 3 pixels take 60 bytes, the limit is 15");
+}
+
 } // namespace
 } // namespace cotan::test

@@ -107,5 +107,66 @@ TEST_F(PictureFile, ddsOfPlainPixelsNeedsAllOfThem)
         std::string::npos);
 }
 
+// Microsoft's DXGI_FORMAT and the letters of DDS_PIXELFORMAT, each with the bytes of a block of 4 x 4 pixels or of a
+// pixel. 5 x 7 pixels are 2 x 2 blocks.
+TEST_F(PictureFile, ddsOfEveryFormatIsHeldToItsBytesAndToldThemAll)
+{
+    const struct {
+        std::uint32_t first, last;
+        int block, pixel;
+    } ranges[] = {{1, 4, 0, 16},  {5, 8, 0, 12},  {9, 18, 0, 8},   {23, 43, 0, 4},  {48, 59, 0, 2},
+                  {60, 65, 0, 1}, {70, 72, 8, 0}, {73, 78, 16, 0}, {79, 81, 8, 0},  {82, 84, 16, 0},
+                  {85, 86, 0, 2}, {87, 88, 0, 4}, {90, 93, 0, 4},  {94, 96, 16, 0}, {97, 99, 16, 0}};
+    const auto expectHeld = [](const std::string& header, int block, int pixel) {
+        const std::size_t each = std::size_t(block + pixel), count = block > 0 ? 4 : 35;
+        const auto told = [&](std::size_t found) {
+            return "a.dds: broken dds image: 5 x 7 pixels take " + std::to_string(count) + " times "
+                + std::to_string(each) + " bytes, the file has " + std::to_string(found) + " behind its header";
+        };
+        for (const std::size_t found : {std::size_t(0), each * count - 1})
+            EXPECT_EQ(messageOf(decodeImage(bytesOf(header + std::string(found, '\0')), "a.dds")), told(found));
+        const std::string all = header + std::string(each * count, '\0');
+        EXPECT_EQ(messageOf(decodeImage(bytesOf(all), "a.dds")).find("behind its header"), std::string::npos);
+    };
+    const std::string unknown = "a.dds: broken dds image: its pixel format is not read here";
+    for (std::uint32_t format = 0; format < 120; ++format) {
+        SCOPED_TRACE(format);
+        const auto* const known = std::ranges::find_if(
+            ranges, [&](const auto& range) { return format >= range.first && format <= range.last; });
+        if (known == std::end(ranges))
+            EXPECT_EQ(messageOf(decodeImage(bytesOf(dx10(5, 7, format) + std::string(999, '\0')), "a.dds")), unknown);
+        else
+            expectHeld(dx10(5, 7, format), known->block, known->pixel);
+    }
+    const std::string plain = dx10(5, 7, 0).substr(0, 128);
+    for (const char* const letters : {"DXT1", "ATI1", "BC4U", "BC4S"})
+        expectHeld(std::string(plain).replace(84, 4, letters), 8, 0);
+    for (const char* const letters : {"DXT3", "DXT5", "ATI2", "BC5U", "BC5S"})
+        expectHeld(std::string(plain).replace(84, 4, letters), 16, 0);
+    for (const char* const letters : {"DXT2", "DXT4", "DX11", "BC6H"})
+        EXPECT_EQ(messageOf(decodeImage(bytesOf(std::string(plain).replace(84, 4, letters) + std::string(999, '\0')),
+                                        "a.dds")),
+                  unknown);
+    for (const std::uint32_t bits : {8u, 16u, 24u, 32u})
+        expectHeld(std::string(plain).replace(80, 28, words({0x41, 0, bits, 0xc0, 0x30, 0x0c, 0x03})), 0,
+                   int(bits) / 8);
+}
+
+TEST_F(PictureFile, ddsHeadersEndWhereTheirKindEndsAndLevelsAreAtMost32)
+{
+    const std::string cut = "a.dds: broken dds image: its header goes on behind the end of the file";
+    const std::string newer = dx10(5, 7, 83), older = std::string(newer).replace(84, 4, "DXT5").substr(0, 128);
+    for (const std::string& header : {newer, older}) {
+        EXPECT_EQ(messageOf(decodeImage(bytesOf(header.substr(0, header.size() - 1)), "a.dds")), cut);
+        EXPECT_EQ(messageOf(decodeImage(bytesOf(header), "a.dds")),
+                  "a.dds: broken dds image: 5 x 7 pixels take 4 times 16 bytes, the file has 0 behind its header");
+    }
+    const std::string many = dx10(4, 4, 83) + std::string(16, '\0');
+    EXPECT_EQ(messageOf(decodeImage(bytesOf(std::string(many).replace(28, 1, 1, '\x21')), "a.dds")),
+              "a.dds: broken dds image: it has 33 levels, the most is 32");
+    EXPECT_EQ(messageOf(decodeImage(bytesOf(std::string(many).replace(28, 1, 1, '\x20')), "a.dds")).find("levels"),
+              std::string::npos);
+}
+
 } // namespace
 } // namespace cotan::test

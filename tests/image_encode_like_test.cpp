@@ -1,16 +1,22 @@
 // Pictures in the format of another file.
 #include "cotan/image.hpp"
 
+#include <cmath>
+#include <cstdint>
 #include <cstdlib>
+#include <string>
 
 #include <gtest/gtest.h>
 #include <webp/encode.h>
 
 #include "cotan/scene.hpp"
 #include "jpeg_maker.hpp"
+#include "webp_maker.hpp"
 
 namespace cotan::test {
 namespace {
+
+using namespace std::string_literals;
 
 std::vector<std::byte> webpOf(const Image& image, float quality)
 {
@@ -100,6 +106,181 @@ TEST(EncodeLike, brokenOldFilesDoNoHarm)
             ASSERT_TRUE(made) << size;
             ASSERT_TRUE(decodeImage(made->bytes, "new")) << size;
         }
+}
+
+// The content of the segments of a JPEG that begin with a marker, behind their length.
+std::string segments(std::span<const std::byte> file, unsigned char marker)
+{
+    const std::string text(reinterpret_cast<const char*>(file.data()), file.size());
+    const auto at = [&](std::size_t i) { return std::size_t(static_cast<unsigned char>(text[i])); };
+    std::string found;
+    for (std::size_t i = 2; i + 4 <= text.size() && at(i + 1) != 0xda;) {
+        const std::size_t length = at(i + 2) << 8 | at(i + 3);
+        if (at(i + 1) == marker)
+            found += text.substr(i + 4, length - 2);
+        i += 2 + length;
+    }
+    return found;
+}
+
+// Of the frame's header: precision, height, width, then each component's number, sampling and table (ITU-T T.81).
+TEST(EncodeLike, aJpegHasTheOldStepsAndSamplingByteByByte)
+{
+    Image image = makeImage(37, 21, PixelType::unorm8);
+    for (std::size_t i = 0; i < 4 * image.pixelCount(); ++i)
+        image.bytes8()[i] = i % 4 == 3 ? 255 : std::uint8_t(i * 7);
+    for (const JpegMaking& making : {JpegMaking{.quality = 40},
+                                     {.quality = 40, .halved = true},
+                                     {.quality = 85, .halvedAcross = true},
+                                     {.quality = 85, .halvedAcross = true, .progressive = true},
+                                     {.quality = 60, .rgb = true}}) {
+        const auto old = jpegOf(image, making);
+        const auto made = encodeLike(image, old);
+        ASSERT_TRUE(made) << made.error().message;
+        const unsigned char frame = making.progressive ? 0xc2 : 0xc0, other = making.progressive ? 0xc0 : 0xc2;
+        ASSERT_EQ(segments(made->bytes, frame).size(), 15u);
+        EXPECT_EQ(segments(made->bytes, frame), segments(old, frame));
+        EXPECT_EQ(segments(made->bytes, other), "");
+        EXPECT_EQ(segments(made->bytes, 0xdb), segments(old, 0xdb));
+        const auto again = decodeImage(made->bytes, "new.jpg");
+        ASSERT_TRUE(again);
+        EXPECT_EQ(again->channels, 3);
+    }
+    for (const int quality : {25, 49, 50, 51, 97}) // below 25 libjpeg holds some steps at 255
+        EXPECT_NEAR(encodeLike(image, jpegOf(image, {.quality = quality}))->quality, quality, 1);
+}
+
+// The boolean encoder of RFC 6386, 7.3, for flags that are as likely as not.
+class FlagsOut {
+public:
+    void flag(bool value)
+    {
+        const std::uint32_t split = 1 + (((range_ - 1) * 128) >> 8);
+        bottom_ += value ? split : 0;
+        range_ = value ? range_ - split : split;
+        for (; range_ < 128; range_ *= 2) {
+            if (bottom_ >> 31 != 0)
+                carry();
+            bottom_ <<= 1;
+            if (--left_ == 0) {
+                bytes_ += char(bottom_ >> 24);
+                bottom_ &= 0xffffff;
+                left_ = 8;
+            }
+        }
+    }
+
+    FlagsOut& number(int value, int bits)
+    {
+        while (bits-- > 0)
+            flag((value >> bits & 1) != 0);
+        return *this;
+    }
+
+    // Whether it is there, its size, its sign.
+    FlagsOut& optional(int value, int bits)
+    {
+        number(1, 1).number(std::abs(value), bits).flag(value < 0);
+        return *this;
+    }
+
+    // Enough flags behind it that what came before is in whole bytes.
+    std::string done() { return number(0, 32).bytes_; }
+
+private:
+    void carry()
+    {
+        std::size_t i = bytes_.size();
+        while (i > 0 && bytes_[i - 1] == '\xff')
+            bytes_[--i] = '\0';
+        if (i > 0)
+            ++bytes_[i - 1];
+    }
+
+    std::string bytes_;
+    std::uint32_t range_ = 255, bottom_ = 0;
+    int left_ = 24;
+};
+
+// RFC 6386, 9.2 to 9.6, and libwebp's own curve from a quality to the quantiser: 127 (1 - cbrt(linear)), where linear
+// is two thirds of the share up to 0.75 and twice the share less 1 above.
+TEST(EncodeLike, aWebpHasTheQualityOfTheQuantiserThatItsHeaderStates)
+{
+    const Image image = mapOf(16);
+    const auto expectQuality = [&](double quantiser, FlagsOut bits, const std::string& before) {
+        const std::string data = "\x10\x02\0\x9d\x01\x2a\x10\0\x10\0"s + bits.done();
+        const std::string file = riffWebp(before + riffChunk("VP8 ", data) + riffChunk("EXIF", "behind it"));
+        const auto made = encodeLike(image, std::as_bytes(std::span(file)));
+        ASSERT_TRUE(made) << made.error().message;
+        const auto quantiserOf = [](double quality) {
+            const double share = quality / 100;
+            return 127 * (1 - std::cbrt(share < 0.75 ? share * 2 / 3 : 2 * share - 1));
+        };
+        // Of all whole qualities the nearest in the curve's argument; those beside it are further off.
+        EXPECT_GE(made->quality, 1);
+        EXPECT_LE(made->quality, 100);
+        if (made->quality > 1) {
+            EXPECT_GE(quantiserOf(made->quality - 0.51), quantiser);
+        }
+        if (made->quality < 100) {
+            EXPECT_LE(quantiserOf(made->quality + 0.51), quantiser);
+        }
+    };
+    for (const int quantiser : {0, 1, 2, 17, 26, 27, 60, 90, 126, 127})
+        expectQuality(
+            quantiser,
+            FlagsOut().number(0, 2).number(0, 1).number(0x155, 10).number(0, 1).number(0, 2).number(quantiser, 7), "");
+    // Segments: a map of them, and data; a quantiser each, or what is added to that of all; their loop filter, too.
+    for (const bool map : {false, true})
+        for (const bool absolute : {false, true}) {
+            FlagsOut bits;
+            bits.number(3, 2).number(1, 1).number(map, 1).number(1, 1).number(absolute, 1);
+            bits.optional(44, 7).optional(absolute ? 12 : -20, 7).number(0, 1).optional(16, 7);
+            bits.optional(-63, 6).number(0, 1).optional(5, 6).number(0, 1);
+            if (map)
+                bits.number(1, 1).number(0xa5, 8).number(0, 1).number(1, 1).number(0x3c, 8);
+            bits.number(0x2aa, 10).number(1, 1).number(1, 1); // filter by reference and mode
+            for (int i = 0; i < 8; ++i)
+                i % 3 == 0 ? bits.optional(i - 4, 6) : bits.number(0, 1);
+            bits.number(2, 2).number(50, 7);
+            expectQuality(absolute ? (44 + 12 + 0 + 16) / 4.0 : 50 + (44 - 20 + 0 + 16) / 4.0, bits,
+                          riffChunk("ALPH", "odd"));
+        }
+    // Segments whose quantisers stay as they were, and a filter of which nothing is changed.
+    expectQuality(33,
+                  FlagsOut()
+                      .number(0, 2)
+                      .number(1, 1)
+                      .number(1, 1)
+                      .number(0, 1)
+                      .number(0, 3)
+                      .number(0x155, 10)
+                      .number(1, 1)
+                      .number(0, 1)
+                      .number(3, 2)
+                      .number(33, 7),
+                  "");
+}
+
+TEST(EncodeLike, whyAPictureIsPngIsSaidByTheOldFormat)
+{
+    const Image image = mapOf(16);
+    const auto whyNot = [&](const std::string& old, const Image& picture) {
+        const auto made = encodeLike(picture, std::as_bytes(std::span(old)));
+        EXPECT_EQ(made->mime, "image/png");
+        EXPECT_EQ(made->quality, 0);
+        EXPECT_EQ(decodeImage(made->bytes, "new")->data, picture.data);
+        return made->whyNot;
+    };
+    EXPECT_EQ(whyNot("II*\0"s, image), "TIFF is not written here");
+    EXPECT_EQ(whyNot("GIF89a", image), "GIF is not written here");
+    EXPECT_EQ(whyNot("\xff\xd8\xff", image), "a grey JPEG has no directions, or this build has no libjpeg");
+    EXPECT_EQ(whyNot("RIFF1234WEBP", makeImage(2, 3, PixelType::unorm16)), "WebP has 8 bits, and 16 are wanted");
+    Image clear = image;
+    clear.bytes8()[4 * 255 + 3] = 0;
+    EXPECT_EQ(whyNot("\xff\xd8\xff", clear), "JPEG has no alpha");
+    const std::string webp = riffWebp("");
+    EXPECT_EQ(encodeLike(clear, std::as_bytes(std::span(webp)))->format, "WebP");
 }
 
 } // namespace

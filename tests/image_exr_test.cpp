@@ -255,5 +255,123 @@ TEST_F(PictureFile, exrOfDeepOrSubsampledPixelsIsRefusedByItsName)
             EXPECT_NE(message.find(why), std::string::npos) << message;
 }
 
+std::string toldOfExr(const std::string& file, const LoadLimits& limits = {})
+{
+    return messageOf(decodeImage(bytesOf(file), "a.exr", limits));
+}
+
+const std::string kExrStart("\x76\x2f\x31\x01\2\0\0\0", 8);
+const std::string kBrokenExr = "a.exr: broken openexr image: ";
+const std::string kLacking = kBrokenExr + "its header lacks a data window, a compression or channels";
+
+// "OpenEXR File Layout", predefined attribute types.
+TEST_F(PictureFile, exrAttributesOfEveryTypeHaveItsBytesAndStayWithinTheFile)
+{
+    const std::pair<const char*, std::uint32_t> types[] = {{"box2i", 16},         {"box2f", 16}, {"chromaticities", 32},
+                                                           {"compression", 1},    {"double", 8}, {"envmap", 1},
+                                                           {"float", 4},          {"int", 4},    {"keycode", 28},
+                                                           {"lineOrder", 1},      {"m33f", 36},  {"m44f", 64},
+                                                           {"m33d", 72},          {"m44d", 128}, {"rational", 8},
+                                                           {"tiledesc", 9},       {"v2i", 8},    {"v2f", 8},
+                                                           {"v2d", 16},           {"v3i", 12},   {"v3f", 12},
+                                                           {"deepImageState", 1}, {"v3d", 24},   {"timecode", 8}};
+    for (const auto& [type, size] : types)
+        for (const std::uint32_t stored : {size - 1, size, size + 1})
+            EXPECT_EQ(toldOfExr(kExrStart + exrHeader({{"a", type, stored, std::string(stored, '\1')}})),
+                      stored == size ? kLacking
+                                     : kBrokenExr + "an attribute of its header has " + std::to_string(stored)
+                              + " bytes, which its type does not take")
+                << type;
+    for (const std::uint32_t stored : {0u, 1u, 7u}) // no more than the size counts
+        EXPECT_EQ(toldOfExr(kExrStart
+                            + exrHeader({{"a", "string", stored, std::string(stored, 's')},
+                                         {"b", "somebody's", stored, std::string(stored, 's')}})),
+                  kLacking);
+    const auto open = [](std::uint32_t size) { return kExrStart + std::string("a\0string\0", 9) + words({size}); };
+    EXPECT_EQ(toldOfExr(open(5) + "abcd"),
+              kBrokenExr + "an attribute of its header takes 5 bytes, the file has 4 left");
+    EXPECT_EQ(toldOfExr(open(4) + "abcd"), kBrokenExr + "its header goes on behind the end of the file");
+    EXPECT_EQ(toldOfExr(kExrStart + exrHeader({{std::string(255, 'n'), std::string(255, 't'), 1, "x"}})), kLacking);
+    EXPECT_EQ(toldOfExr(kExrStart + exrHeader({{std::string(256, 'n'), "int", 4, "1234"}})),
+              kBrokenExr + "an attribute of its header has a name without an end");
+    EXPECT_NE(toldOfExr(kExrStart + exrHeader({{"n", std::string(256, 't'), 4, "1234"}}))
+                  .find("an attribute of its header takes"),
+              std::string::npos);
+}
+
+// Rows of a block by compression: none, RLE, ZIPS, ZIP, PIZ, PXR24, B44, B44A, DWAA, DWAB. The table is of zeros.
+TEST_F(PictureFile, exrBlocksAreCountedByTheirRowsOrTilesAndTheirBytesAgainstTheLimits)
+{
+    const auto file = [](std::uint32_t width, std::uint32_t height, char compression, std::uint32_t across = 0,
+                         std::uint32_t down = 0) {
+        ExrAttributes attributes = exrAttributes(words({3, 4, 3 + width - 1, 4 + height - 1}), 2, compression);
+        if (across > 0)
+            attributes.emplace_back("tiles", "tiledesc", 9, words({across, down}) + '\0');
+        return kExrStart + exrHeader(attributes) + std::string(8, '\0');
+    };
+    const auto missing = [](std::uint32_t count) {
+        return kBrokenExr + "block 0 of " + std::to_string(count) + " is not in the file";
+    };
+    const std::uint32_t rows[] = {1, 1, 1, 16, 32, 16, 32, 32, 32, 256};
+    for (char compression = 0; compression < 10; ++compression) {
+        const std::uint32_t each = rows[std::size_t(compression)];
+        for (const std::uint32_t height : {1u, 256u, 257u, 300u})
+            EXPECT_EQ(toldOfExr(file(3, height, compression)), missing((height + each - 1) / each))
+                << int(compression) << ' ' << height;
+        // 3 pixels of 4 bytes in each row of a block.
+        LoadLimits limits;
+        limits.imageBytes = 12 * each - 1;
+        const auto refused = decodeImage(bytesOf(file(3, 300, compression)), "a.exr", limits);
+        ASSERT_FALSE(refused);
+        EXPECT_TRUE(refused.error().memory);
+        EXPECT_EQ(refused.error().message,
+                  kBrokenExr + "its blocks have " + std::to_string(3 * each) + " pixels of 4 bytes, the limit is "
+                      + std::to_string(12 * each - 1) + " bytes");
+        limits.imageBytes = 12 * each;
+        EXPECT_EQ(toldOfExr(file(3, 300, compression), limits), missing((300 + each - 1) / each));
+    }
+    EXPECT_EQ(toldOfExr(file(3, 9, 10)), missing(9)); // of a compression that nobody knows
+    EXPECT_EQ(toldOfExr(file(5, 7, 0, 2, 3)), missing(3 * 3));
+    EXPECT_EQ(toldOfExr(file(5, 7, 0, 3, 2)), missing(2 * 4));
+    EXPECT_EQ(toldOfExr(file(6, 7, 0, 3, 7)), missing(2 * 1));
+    LoadLimits limits;
+    limits.imageBytes = 4 * 30 * 20 - 1;
+    EXPECT_EQ(toldOfExr(file(5, 7, 0, 30, 20), limits),
+              kBrokenExr + "its blocks have 600 pixels of 4 bytes, the limit is 2399 bytes");
+    limits.imageBytes += 1;
+    EXPECT_EQ(toldOfExr(file(5, 7, 0, 30, 20), limits), missing(1));
+    limits = {};
+    limits.imageSide = 6;
+    EXPECT_EQ(toldOfExr(file(7, 5, 0), limits), kBrokenExr + "7 x 5 pixels, the limit is 6 a side");
+    EXPECT_EQ(toldOfExr(file(5, 7, 0), limits), kBrokenExr + "5 x 7 pixels, the limit is 6 a side");
+    EXPECT_EQ(toldOfExr(file(6, 6, 0), limits), missing(6));
+}
+
+// Every block of a file, at the edges too, has as many bytes as the pixels in it; halves two a pixel and floats four.
+TEST_F(PictureFile, exrBlocksOfOneByteLessThanTheirPixelsAreToldByNumber)
+{
+    for (const std::uint32_t type : {1u, 2u})
+        for (const std::uint32_t tile : {0u, 2u}) {
+            const std::uint32_t width = 3, height = 5, bytes = type == 1 ? 2 : 4;
+            const std::string file = plainExr(7, 5, width, height, type, tile);
+            ASSERT_TRUE(decodeImage(bytesOf(file), "a.exr"));
+            const std::uint32_t across = tile > 0 ? 2 : 1, count = across * (tile > 0 ? 3 : height);
+            const std::size_t before = tile > 0 ? 16 : 4;
+            std::size_t at = file.size() - width * height * bytes - count * (before + 4);
+            for (std::uint32_t i = 0; i < count; ++i) {
+                const std::uint32_t pixels = tile == 0 ? width : (i % across == 0 ? 2 : 1) * (i / across < 2 ? 2 : 1);
+                const std::string told = "block " + std::to_string(i) + " has " + std::to_string(pixels * bytes - 1)
+                    + " bytes, expected " + std::to_string(pixels * bytes);
+                EXPECT_EQ(toldOfExr(std::string(file).replace(at + before, 4, words({pixels * bytes - 1}))),
+                          kBrokenExr + told);
+                const std::string beyond = "block " + std::to_string(i) + " takes 99999 bytes from "
+                    + std::to_string(at + before + 4) + ", the file has " + std::to_string(file.size());
+                EXPECT_EQ(toldOfExr(std::string(file).replace(at + before, 4, words({99999}))), kBrokenExr + beyond);
+                at += before + 4 + pixels * bytes;
+            }
+            EXPECT_EQ(at, file.size());
+        }
+}
+
 } // namespace
 } // namespace cotan::test

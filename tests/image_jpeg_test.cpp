@@ -100,5 +100,39 @@ TEST_F(PictureFile, jpegWhosePixelsEndEarlyOrAreNoCodesIsRefused)
     }
 }
 
+// A hundred scans are read, whatever looks like one inside of other segments, and one more is not.
+TEST_F(PictureFile, jpegOfAHundredScansIsReadAndOfOneMoreToldWithItsNumbers)
+{
+    const std::string file = makeJpeg(40, 24, true);
+    std::size_t scans = 0;
+    for (std::size_t at = file.find("\xff\xda"); at != std::string::npos; at = file.find("\xff\xda", at + 1))
+        ++scans;
+    // The first one, coarse, may come again before the others; a table of codes is behind it.
+    const std::size_t first = file.find("\xff\xda"), behind = file.find("\xff\xc4", first);
+    ASSERT_NE(behind, std::string::npos);
+    const auto with = [&](std::size_t count) {
+        std::string many = file.substr(0, behind);
+        for (std::size_t i = scans; i < count; ++i)
+            many += file.substr(first, behind - first);
+        return many + file.substr(behind);
+    };
+    EXPECT_EQ(messageOf(decodeImage(bytesOf(with(100)), "a.jpg")), "accepted");
+    EXPECT_EQ(
+        messageOf(decodeImage(bytesOf(with(101)), "a.jpg")),
+        "a.jpg: expected at most 100 scans and 4000000000 pixels in all of them, found 101 scans of 40 x 24 pixels");
+    std::string comment;
+    for (int i = 0; i < 150; ++i)
+        comment += "\xff\xda";
+    const std::string noted = file.substr(0, 2) + std::string("\xff\xfe\x01\x2e", 4) + comment + file.substr(2);
+    EXPECT_EQ(messageOf(decodeImage(bytesOf(noted), "a.jpg")), "accepted");
+    // Coefficients: 5 x 3 blocks of 64 in each of 3 components, of two bytes.
+    LoadLimits limits;
+    limits.imageBytes = 2 * 3 * 15 * 64 - 1;
+    EXPECT_EQ(messageOf(decodeImage(bytesOf(file), "a.jpg", limits)),
+              "a.jpg: its " + std::to_string(scans) + " scans of 40 x 24 pixels take 5760 bytes, the limit is 5759");
+    limits.imageBytes += 1;
+    EXPECT_EQ(messageOf(decodeImage(bytesOf(file), "a.jpg", limits)), "accepted");
+}
+
 } // namespace
 } // namespace cotan::test

@@ -264,5 +264,46 @@ TEST(Ktx2, aPlainLevelOfMoreBytesThanItsPixelsIsRefused)
         std::string::npos);
 }
 
+TEST(Ktx2, componentsOfTwoAndFourBytesComeIntoTheirPlaces)
+{
+    using V = std::vector<double>;
+    const std::string halves = "\x00\x3c\x00\xc0\x00\x38\x00\x34"s; // 1, -2, 0.5, 0.25
+    const std::string floats = "\0\0\x80\x3f\0\0\0\xc0\0\0\0\x3f\0\0\x80\x3e"s;
+    const V all{1, -2, 0.5, 0.25};
+    const std::pair<std::uint32_t, std::uint32_t> kinds[] = {{76, 100}, {83, 103}, {90, 106}, {97, 109}};
+    for (std::size_t channels = 1; channels <= 4; ++channels) {
+        const V expected = channels == 1 ? V{1, 1, 1, 1}
+            : channels == 2              ? V{1, -2, 0.5, 1}
+            : channels == 3              ? V{1, -2, 0.5, 1}
+                                         : all;
+        const auto [half, whole] = kinds[channels - 1];
+        EXPECT_EQ(texel(*ktx2Image(makeKtx2({.format = half, .levels = {{halves.substr(0, 2 * channels)}}})), 0),
+                  expected);
+        EXPECT_EQ(texel(*ktx2Image(makeKtx2({.format = whole, .levels = {{floats.substr(0, 4 * channels)}}})), 0),
+                  expected);
+    }
+    EXPECT_EQ(texel(*ktx2Image(makeKtx2({.format = 84, .levels = {{"\1\0\2\0\3\0"s}}})), 0), (V{1, 2, 3, 65535}));
+    EXPECT_EQ(texel(*ktx2Image(makeKtx2({.format = 51, .levels = {{"\1\2\3\4"}}})), 0), (V{1, 2, 3, 4}));
+    EXPECT_EQ(texel(*ktx2Image(makeKtx2({.format = 70, .levels = {{"\1\2"}}, .keys = {"KTXswizzle\0r01r\0"s}})), 0),
+              (V{513, 0, 65535, 513}));
+}
+
+// What is left of blue and alpha says how many channels there are.
+TEST(Ktx2, aSwizzleWithoutBlueAndAlphaLeavesTwoChannels)
+{
+    const auto channels = [](std::uint32_t format, const std::string& swizzle) {
+        const std::size_t bytes = format == 37 ? 4 : format == 16 ? 2 : 1;
+        return ktx2Image(
+                   makeKtx2({.format = format, .levels = {{ramp(bytes)}}, .keys = {"KTXswizzle\0"s + swizzle + '\0'}}))
+            ->channels;
+    };
+    for (const char* const swizzle : {"rg01", "rg00", "ga11", "br10"})
+        EXPECT_EQ(channels(37, swizzle), 2) << swizzle;
+    for (const char* const swizzle : {"rgb1", "rg0a", "rg1r", "rgba", "00ba"})
+        EXPECT_EQ(channels(37, swizzle), 4) << swizzle;
+    EXPECT_EQ(channels(16, "rrrg"), 2);
+    EXPECT_EQ(channels(9, "r001"), 1);
+}
+
 } // namespace
 } // namespace cotan

@@ -165,5 +165,170 @@ TEST_F(PictureFile, tiffOfSharedColoursIsReadWholeAndByRows)
         }
 }
 
+std::string toldOfTiff(const std::string& file, const LoadLimits& limits = {})
+{
+    return messageOf(decodeImage(bytesOf(file), "a.tif", limits));
+}
+
+const std::string kBrokenTiff = "a.tif: broken tiff image: ";
+
+// 3 x 3 pixels of a byte in strips of two rows, in one plane or two: rows 0 and 1, then row 2.
+std::string tiffOfStrips(const std::vector<std::uint32_t>& counts, std::uint64_t planes = 1)
+{
+    std::vector<std::uint32_t> offsets;
+    for (std::uint32_t at = 8; offsets.size() < counts.size(); at += offsets.size() % 2 == 1 ? 6 : 3)
+        offsets.push_back(at);
+    const std::uint64_t n = counts.size(), listed = 8 + 20;
+    return tiffOf({{256, kLong, 1, 3},
+                   {257, kLong, 1, 3},
+                   {258, kShort, planes, planes == 1 ? 8u : 0x00080008u},
+                   {259, kShort, 1, 1},
+                   {262, kShort, 1, 1},
+                   {273, kLong, n, listed},
+                   {277, kShort, 1, planes},
+                   {278, kLong, 1, 2},
+                   {279, kLong, n, listed + 4 * n},
+                   {284, kShort, 1, planes == 1 ? 1u : 2u}},
+                  "abcdefghijklmnopqr__" + words(offsets) + words(counts));
+}
+
+TEST_F(PictureFile, tiffStripsAreHeldToTheirRowsOneByOneAndTold)
+{
+    EXPECT_EQ(toldOfTiff(tiffOfStrips({6, 3})), "accepted");
+    EXPECT_EQ(toldOfTiff(tiffOfStrips({5, 3})), kBrokenTiff + "strip 0 has 5 bytes, expected 6");
+    EXPECT_EQ(toldOfTiff(tiffOfStrips({6, 2})), kBrokenTiff + "strip 1 has 2 bytes, expected 3");
+    EXPECT_EQ(toldOfTiff(tiffOfStrips({6, 0})), kBrokenTiff + "strip 1 has no bytes");
+    EXPECT_EQ(toldOfTiff(tiffOfStrips({6, 3, 6, 3}, 2)), "accepted");
+    EXPECT_EQ(toldOfTiff(tiffOfStrips({6, 3, 5, 3}, 2)), kBrokenTiff + "strip 2 has 5 bytes, expected 6");
+    EXPECT_EQ(toldOfTiff(tiffOfStrips({6, 3, 6, 2}, 2)), kBrokenTiff + "strip 3 has 2 bytes, expected 3");
+    EXPECT_EQ(toldOfTiff(tiffOfStrips({6, 3, 6}, 2)), kBrokenTiff + "its directory lists 3 strips, expected 4");
+    const auto image = decodeImage(bytesOf(tiffOfStrips({6, 3})), "a.tif");
+    ASSERT_TRUE(image);
+    for (int i = 0; i < 9; ++i)
+        EXPECT_EQ(component(*image, i % 3, i / 3, 0), 'a' + i);
+    // Tiles of 16 x 16 over 20 x 33 pixels, of each plane.
+    const auto tiles = [](std::uint64_t planes) {
+        return toldOfTiff(tiffOf({{256, kLong, 1, 20},
+                                  {257, kLong, 1, 33},
+                                  {258, kShort, 1, 8},
+                                  {259, kShort, 1, 1},
+                                  {262, kShort, 1, 1},
+                                  {277, kShort, 1, planes},
+                                  {284, kShort, 1, planes == 1 ? 1u : 2u},
+                                  {322, kLong, 1, 16},
+                                  {323, kLong, 1, 16},
+                                  {324, kLong, 1, 8},
+                                  {325, kLong, 1, 256}},
+                                 std::string(256, 'x')));
+    };
+    EXPECT_EQ(tiles(1), kBrokenTiff + "its directory lists 1 tiles, expected 6");
+    EXPECT_EQ(tiles(3), kBrokenTiff + "its directory lists 1 tiles, expected 18");
+}
+
+// Without a list of sizes they follow from the picture's.
+TEST_F(PictureFile, tiffStripsOfNoStatedSizeHaveToEndWithinTheFile)
+{
+    const auto file = [](std::uint64_t offset) {
+        auto entries = OneStrip{.width = 3, .height = 2, .bytes = 6}.entries();
+        entries.pop_back();
+        entries[5][3] = offset;
+        return tiffOf(entries, "abcdef");
+    };
+    const std::size_t size = file(8).size();
+    EXPECT_EQ(toldOfTiff(file(size - 5)),
+              kBrokenTiff + "strip 0 takes 6 bytes from " + std::to_string(size - 5) + ", the file has "
+                  + std::to_string(size));
+    EXPECT_EQ(toldOfTiff(file(size - 6)), "accepted");
+    EXPECT_EQ(toldOfTiff(file(8)), "accepted");
+}
+
+// TIFF 6.0, section 2: whole numbers are BYTE, SHORT, LONG, SBYTE, SSHORT and SLONG; in BigTIFF LONG8 and SLONG8 too.
+// The height, 2, is of each type; where it is read, one strip of one row is too few.
+TEST_F(PictureFile, tiffNumbersAreReadOfEveryWholeTypeAndOfNoOther)
+{
+    const std::string few = kBrokenTiff + "its directory lists 1 strips, expected 2";
+    const auto told = [](std::uint64_t type, bool large) {
+        auto entries = OneStrip{.width = 3, .height = 2, .bytes = 3}.entries();
+        entries[1] = {257, type, 1, 2};
+        entries[5][3] = large ? 16 : 8;
+        entries[7][3] = 1;
+        return toldOfTiff(tiffOf(entries, "abcdef", large));
+    };
+    for (const std::uint64_t type : {1u, 3u, 4u, 6u, 8u, 9u}) {
+        EXPECT_EQ(told(type, false), few) << type;
+        EXPECT_EQ(told(type, true), few) << type;
+    }
+    for (const std::uint64_t type : {16u, 17u})
+        EXPECT_EQ(told(type, true), few) << type;
+    for (const std::uint64_t type : {0u, 2u, 5u, 7u, 10u, 11u, 12u, 15u, 18u, 99u})
+        EXPECT_EQ(told(type, true).find("expected 2"), std::string::npos) << type;
+}
+
+TEST_F(PictureFile, tiffOfEveryCompressionThatIsKnownIsGivenToItsReaderAndOfOthersNone)
+{
+    const auto told = [](std::uint64_t compression) {
+        return toldOfTiff(
+            tiffOf(OneStrip{.width = 3, .height = 2, .bytes = 6, .compression = compression}.entries(), "abcdef"));
+    };
+    const std::uint64_t known[] = {1, 2, 3, 4, 5, 7, 8, 32773, 32946, 34925, 50000, 50001};
+    for (const std::uint64_t compression : known) {
+        EXPECT_EQ(told(compression).find("is not read here"), std::string::npos) << compression;
+        for (const std::uint64_t other : {compression - 1, compression + 1})
+            if (std::ranges::find(known, other) == std::end(known)) {
+                EXPECT_EQ(told(other), kBrokenTiff + "its compression " + std::to_string(other) + " is not read here");
+            }
+    }
+}
+
+// Memory for all rows of a strip, of four channels: 3 pixels of 4 or 8 bytes in each of 100.
+TEST_F(PictureFile, tiffStripsOfMoreRowsThanThePictureCountAgainstTheLimit)
+{
+    for (const std::uint64_t bits : {8u, 16u}) {
+        auto entries = OneStrip{.width = 3, .height = 2, .bytes = 6 * bits / 8, .bits = bits}.entries();
+        entries[7][3] = 100;
+        const std::string file = tiffOf(entries, std::string(12, 'x'));
+        LoadLimits limits;
+        limits.imageBytes = 3 * 4 * bits / 8 * 100;
+        EXPECT_EQ(toldOfTiff(file, limits), "accepted");
+        limits.imageBytes -= 1;
+        EXPECT_EQ(toldOfTiff(file, limits), kBrokenTiff + "its strips have 100 rows, the picture 2");
+    }
+}
+
+TEST_F(PictureFile, rowsOverALimitAreToldWithTheirSizeAndTheLimits)
+{
+    const auto file = [&](std::uint64_t width, std::uint64_t height) {
+        return write("a.tif",
+                     tiffOf(OneStrip{.width = width, .height = height, .bytes = 15}.entries(), std::string(15, 'x')));
+    };
+    const std::string name = (folder / "a.tif").string();
+    LoadLimits limits;
+    limits.imageSide = 4;
+    limits.imageBytes = 1000;
+    EXPECT_EQ(messageOf(openRows(file(5, 3), limits)),
+              name + ": 5 x 3 pixels in rows of 80 bytes, the limit is 4 a side and 1000 bytes");
+    EXPECT_EQ(messageOf(openRows(file(3, 5), limits)),
+              name + ": 3 x 5 pixels in rows of 48 bytes, the limit is 4 a side and 1000 bytes");
+    limits.imageSide = 5;
+    std::size_t expected = 0;
+    limits.expect = [&](std::size_t bytes) { expected = bytes; };
+    EXPECT_TRUE(openRows(file(5, 3), limits));
+    EXPECT_EQ(expected, 80u);
+    EXPECT_TRUE(openRows(file(3, 5), limits));
+    limits.imageBytes = 79;
+    const auto refused = openRows(file(5, 3), limits);
+    ASSERT_FALSE(refused);
+    EXPECT_TRUE(refused.error().memory);
+    EXPECT_EQ(refused.error().message, name + ": 5 x 3 pixels in rows of 80 bytes, the limit is 5 a side and 79 bytes");
+    // Whole: what is stored, and what it becomes. 64 channels of 2 x 2 bytes are 256.
+    limits = {};
+    limits.imageBytes = 255;
+    EXPECT_EQ(toldOfTiff(tiffOfChannels(64), limits), "a.tif: the pixels take 256 bytes as stored, the limit is 255");
+    limits.imageBytes = 59;
+    EXPECT_EQ(
+        toldOfTiff(tiffOf(OneStrip{.width = 5, .height = 3, .bytes = 15}.entries(), std::string(15, 'x')), limits),
+        "a.tif: 5 x 3 pixels take 60 bytes, the limit is 59");
+}
+
 } // namespace
 } // namespace cotan::test

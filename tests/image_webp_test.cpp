@@ -122,5 +122,72 @@ TEST(Webp, sizesOverTheLimitAreRefusedBeforeTheyAreDecoded)
     EXPECT_TRUE(told);
 }
 
+// kLossy is one chunk of 22 bytes behind 20, of which 10 are the header of its frame; RFC 9649 and RFC 6386, 9.1.
+TEST(Webp, whatIsWrongIsToldWithItsNumbersAndOnlyBeyondEachBound)
+{
+    const std::string broken = "a.webp: broken webp image: ";
+    const auto lossy = [](std::size_t bytes) { return riffWebp(riffChunk("VP8 ", kLossy.substr(20, bytes))); };
+    EXPECT_EQ(refusal(lossy(9)), broken + "its VP8 chunk has 9 bytes, expected at least 10");
+    EXPECT_EQ(refusal(lossy(10)),
+              broken + "the first part of its picture takes 9 bytes, its chunk has 0 behind the header");
+    EXPECT_EQ(refusal(lossy(18)),
+              broken + "the first part of its picture takes 9 bytes, its chunk has 8 behind the header");
+    EXPECT_EQ(refusal(lossy(19)).find("the first part"), std::string::npos);
+    std::string file = kLossy;
+    file[21] = '\x02'; // the first part has 9 + 8 bytes of the 12 that are there
+    EXPECT_EQ(refusal(file),
+              broken + "the first part of its picture takes 17 bytes, its chunk has 12 behind the header");
+    for (const std::size_t mark : {23u, 24u, 25u}) {
+        file = kLossy;
+        file[mark] ^= 1;
+        EXPECT_EQ(refusal(file), broken + "its VP8 chunk does not begin with a key frame") << mark;
+    }
+    file = kLossy; // two bits of each size say how it is to be scaled, which no reader does
+    file[27] ^= '\x40', file[29] ^= '\x80';
+    EXPECT_EQ(refusal(file), "accepted");
+
+    const std::string data = test::losslessData(5, 3, webpTexels(15));
+    EXPECT_EQ(refusal(riffWebp(riffChunk("VP8L", data.substr(0, 4)))),
+              broken + "its VP8L chunk has 4 bytes, expected at least 5");
+    EXPECT_EQ(refusal(riffWebp(riffChunk("VP8L", data.substr(0, 5)))).find("expected at least"), std::string::npos);
+    for (const auto& [at, bit] : {std::pair(0, 1), {4, 0x20}, {4, 0x40}, {4, 0x80}}) {
+        std::string other = data;
+        other[std::size_t(at)] = char(other[std::size_t(at)] ^ bit);
+        EXPECT_EQ(refusal(riffWebp(riffChunk("VP8L", other))),
+                  broken + "its VP8L chunk begins with another mark or version");
+    }
+
+    const std::string whole = riffWebp(riffChunk("VP8L", data));
+    const auto count = [](std::size_t n) { return std::to_string(n); };
+    EXPECT_EQ(refusal(whole + "and more"), "accepted");
+    EXPECT_EQ(refusal(whole.substr(0, whole.size() - 1)),
+              broken + "its header promises " + count(whole.size()) + " bytes, the file has "
+                  + count(whole.size() - 1));
+    const std::size_t left = whole.size() - 20; // behind the chunk's name and size
+    std::string longer = whole;
+    longer.replace(16, 4, little(left + 1, 4));
+    EXPECT_EQ(refusal(longer),
+              broken + "a chunk takes " + count(left + 1) + " bytes from 20, the file has " + count(whole.size()));
+    longer.replace(16, 4, little(left, 4));
+    EXPECT_EQ(refusal(longer), "accepted");
+
+    const auto canvas = [&](std::size_t bytes, int width, int height) {
+        return riffChunk("VP8X",
+                         (std::string("\x10\0\0\0", 4) + little(std::uint64_t(width) - 1, 3)
+                          + little(std::uint64_t(height) - 1, 3))
+                             .substr(0, bytes))
+            + riffChunk("VP8L", data);
+    };
+    EXPECT_EQ(refusal(riffWebp(canvas(10, 5, 3))), "accepted");
+    EXPECT_EQ(refusal(riffWebp(canvas(9, 5, 3))), broken + "its VP8X chunk has 9 bytes, expected 10");
+    EXPECT_EQ(refusal(riffWebp(canvas(10, 6, 3))), broken + "its canvas is 6 x 3, its picture 5 x 3");
+    EXPECT_EQ(refusal(riffWebp(canvas(10, 5, 70000))), broken + "its canvas is 5 x 70000, its picture 5 x 3");
+    LoadLimits limits;
+    limits.imageBytes = 59;
+    EXPECT_EQ(refusal(whole, limits), "a.webp: 5 x 3 pixels take 60 bytes, the limit is 59");
+    limits.imageBytes = 60;
+    EXPECT_EQ(refusal(whole, limits), "accepted");
+}
+
 } // namespace
 } // namespace cotan

@@ -13,7 +13,8 @@ namespace cotan::test {
 
 struct JpegMaking {
     int quality = 75;
-    bool halved = false; // colours at half the size
+    bool halved = false;       // colours at half the size
+    bool halvedAcross = false; // at half the width
     bool progressive = false;
     bool rgb = false; // stored as red, green and blue, not as luminance and colour
 };
@@ -35,7 +36,8 @@ inline std::vector<std::byte> jpegOf(const Image& image, const JpegMaking& makin
     jpeg_set_defaults(&jpeg);
     jpeg_set_colorspace(&jpeg, making.rgb ? JCS_RGB : JCS_YCbCr);
     jpeg_set_quality(&jpeg, making.quality, TRUE);
-    jpeg.comp_info[0].h_samp_factor = jpeg.comp_info[0].v_samp_factor = making.halved ? 2 : 1;
+    jpeg.comp_info[0].h_samp_factor = making.halved || making.halvedAcross ? 2 : 1;
+    jpeg.comp_info[0].v_samp_factor = making.halved ? 2 : 1;
     if (making.progressive)
         jpeg_simple_progression(&jpeg);
     jpeg_start_compress(&jpeg, TRUE);

@@ -251,6 +251,25 @@ TEST(Bc7, codesOnALineAreKeptWithinHalfASixteenthOfItAndAlphaOfOneStays)
             EXPECT_EQ(texel[3], 255);
 }
 
+// Whichever channels run along a line or against each other, and whichever stay: red says nothing of the others.
+TEST(Bc7, channelsThatRunAgainstEachOtherAreKept)
+{
+    const float steps[][4] = {{0, 3, -3, 0}, {3, -3, 0, 0},  {0, 0, 4, -4}, {0, 5, -5, 5},
+                              {3, 0, -3, 0}, {-2, 4, 0, -4}, {0, 3, 3, 0},  {0, 0, 0, 5}};
+    for (const auto& step : steps) {
+        Image ramp = makeImage(4, 4, PixelType::float32);
+        const auto code = [&](int i, int c) { return 150 + step[c] * float(i - 8); };
+        for (int i = 0; i < 16; ++i)
+            for (int c = 0; c < 4; ++c)
+                ramp.floats()[4 * i + c] = c < 3 ? ((code(i, c) - 128) / 127 + 1) / 2 : code(i, c) / 255;
+        const auto back = decodedMode6(encodeBc7(ramp, {}, true).data());
+        for (int i = 0; i < 16; ++i)
+            for (int c = 0; c < 4; ++c)
+                EXPECT_NEAR(float(back[std::size_t(i)][std::size_t(c)]), code(i, c), 2)
+                    << step[0] << step[1] << step[2] << step[3] << ' ' << i << c;
+    }
+}
+
 TEST(Bc7, flatNormalsStayFlat)
 {
     const auto back =

@@ -2,7 +2,8 @@
 cotan_test(map_test BATCH 4 # those in a line are compiled at once; names of two lines may be the same
   SOURCES blend_formula_test.cpp map_blend_test.cpp map_charts_test.cpp map_kernel_test.cpp
     map_detect_test.cpp map_height_test.cpp map_small_test.cpp map_zero_test.cpp
-    map_mips_test.cpp map_recode_test.cpp map_block_test.cpp
+    map_mips_test.cpp map_recode_test.cpp map_block_test.cpp map_told_test.cpp
+    map_lines_test.cpp
   LIBRARIES cotan_loops cotan_map_files cotan_maps cotan_model cotan_scene)
 find_package(JPEG REQUIRED)
 find_package(ZLIB REQUIRED)

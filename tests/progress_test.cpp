@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <thread>
 
 #include <fmt/format.h>
@@ -124,6 +125,63 @@ TEST(ProgressLine, fitsTheTerminalWhateverTheNameHolds)
             for (const char c : line)
                 EXPECT_GE(static_cast<unsigned char>(c), 32) << line;
         }
+}
+
+// Each state as a whole, of steps that are further apart than the line is drawn.
+std::vector<std::string> drawnBy(unsigned short columns, std::size_t total, const std::string& name,
+                                 const std::function<void(ProgressLine&, const std::function<void()>&)>& work)
+{
+    auto lines = states(onTerminal(columns, [&] {
+        ProgressLine progress(false, total, name);
+        work(progress, [] { std::this_thread::sleep_for(std::chrono::milliseconds(120)); });
+    }));
+    for (std::string& line : lines) // of a machine that is so busy that there was a time to tell
+        line = line.substr(0, line.find(", about "));
+    return lines;
+}
+
+TEST(ProgressLine, countsItsStepsAndNeverSays100)
+{
+    const auto lines = drawnBy(80, 3, "work", [](ProgressLine& progress, const auto& later) {
+        for (int i = 0; i < 4; ++i) { // one more than there are
+            later();
+            progress.step();
+        }
+    });
+    EXPECT_EQ(lines, (Words{"work: 0 %", "work: 33 %", "work: 66 %", "work: 99 %", "work: 99 %", ""}));
+    // 0 begins the next step; a share that is none, or goes back, counts for nothing.
+    const auto parts = drawnBy(80, 2, "p", [](ProgressLine& progress, const auto& later) {
+        const Progress within = progress.within();
+        for (const double share : {0.5, 0.25, 1.5, 0.0}) {
+            later();
+            EXPECT_TRUE(within(share));
+        }
+    });
+    EXPECT_EQ(parts, (Words{"p: 0 %", "p: 25 %", "p: 25 %", "p: 50 %", "p: 50 %", ""}));
+    const auto unknown = drawnBy(80, 0, "of who knows how many", [](ProgressLine& progress, const auto& later) {
+        later();
+        progress.step();
+    });
+    EXPECT_EQ(unknown, (Words{"of who knows how many ...", "of who knows how many ...", ""}));
+}
+
+// One column of the terminal stays free, and of 79 at most are used: what does not fit ends in three dots.
+TEST(ProgressLine, cutsALongNameByWholeLettersAndKeepsTheShare)
+{
+    const auto first = [](unsigned short columns, const std::string& name) {
+        return drawnBy(columns, 3, name, [](ProgressLine&, const auto&) {}).at(0);
+    };
+    EXPECT_EQ(first(20, std::string(14, 'x')), std::string(14, 'x') + ": 0 %");
+    EXPECT_EQ(first(20, std::string(15, 'x')), std::string(11, 'x') + "...: 0 %");
+    EXPECT_EQ(first(80, std::string(74, 'x')), std::string(74, 'x') + ": 0 %");
+    EXPECT_EQ(first(300, std::string(75, 'x')), std::string(71, 'x') + "...: 0 %");
+    std::string umlauts;
+    for (int i = 0; i < 15; ++i)
+        umlauts += "\xc3\xa4";
+    EXPECT_EQ(first(20, umlauts.substr(0, 28)), umlauts.substr(0, 28) + ": 0 %");
+    EXPECT_EQ(first(20, umlauts), umlauts.substr(0, 22) + "...: 0 %");
+    EXPECT_EQ(first(20, "a\nb\x7f~"), "a?b?~: 0 %");
+    EXPECT_EQ(first(6, "work"), "wo..."); // no room for a share
 }
 
 TEST(ProgressLine, isSilentWhereNobodyLooks)

@@ -277,7 +277,37 @@ TEST(ReferenceRaster, sizesOutOfRangeAreUsageErrors)
         Result<Image> result = renderReference({}, view);
         ASSERT_FALSE(result);
         EXPECT_EQ(result.error().kind, ErrorKind::usage);
-        EXPECT_NE(result.error().message.find("16384"), std::string::npos);
+        EXPECT_EQ(result.error().message,
+                  "picture size: expected 1 to 16384 pixels a side, found " + std::to_string(width) + "x"
+                      + std::to_string(height));
+    }
+}
+
+// A step for each tile of 32 x 32 pixels, and of 16 samples for each tile of each of them; whoever says no ends it.
+TEST(ReferenceRaster, progressIsToldInEqualStepsUpToTheWhole)
+{
+    const Scene scene = sceneOf(meshOf(Patch{}));
+    for (const auto& [samples, steps] : {std::pair(1, 6), {4, 6}, {16, 96}}) {
+        View view = viewOf(Output::shaded);
+        view.width = 70;
+        view.height = 40;
+        view.samples = samples;
+        std::vector<double> told;
+        const auto whole = renderReference(scene, view, 1, [&](double share) {
+            told.push_back(share);
+            return true;
+        });
+        ASSERT_TRUE(whole);
+        ASSERT_EQ(told.size(), std::size_t(steps));
+        for (std::size_t i = 0; i < told.size(); ++i)
+            EXPECT_NEAR(told[i], double(i + 1) / steps, 1e-9) << samples;
+        for (const int last : {1, steps / 2, steps}) {
+            int count = 0;
+            const auto stopped = renderReference(scene, view, 1, [&](double) { return ++count < last; });
+            ASSERT_FALSE(stopped) << samples << " " << last;
+            EXPECT_EQ(stopped.error().kind, ErrorKind::stopped);
+            EXPECT_EQ(count, last) << samples << ": asked no more";
+        }
     }
 }
 

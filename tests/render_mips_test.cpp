@@ -1,9 +1,12 @@
 // Mip chains: what is averaged is what the texels mean.
 #include <array>
+#include <cmath>
 #include <cstring>
 #include <limits>
 
 #include <gtest/gtest.h>
+
+#include <glm/gtc/packing.hpp>
 
 #include "cotan/portable.hpp"
 #include "texture_mips.hpp"
@@ -129,6 +132,162 @@ TEST(RenderMips, sixteenBitColourIsStoredLinear)
     // sRGB 0.5 is 0.2140 of the light (IEC 61966-2-1); alpha stays.
     EXPECT_NEAR(words[0] / 65535.0, 0.21404, 1e-4);
     EXPECT_EQ(words[3], 32768);
+}
+
+// How an image of each type is stored: with all of its precision where the device filters that, or as floats.
+TEST(RenderMips, theFormatKeepsThePrecisionThatTheDeviceCanFilter)
+{
+    using enum TexelFormat;
+    struct Row {
+        PixelType type;
+        bool filterable16, filterable32;
+        TexelFormat color, data;
+    };
+    for (const Row& row : {Row{PixelType::unorm8, true, true, srgb8, unorm8},
+                           {PixelType::unorm8, false, false, srgb8, unorm8},
+                           {PixelType::unorm16, true, true, unorm16, unorm16},
+                           {PixelType::unorm16, true, false, unorm16, unorm16},
+                           {PixelType::unorm16, false, true, float32, float32},
+                           {PixelType::unorm16, false, false, float16, float16},
+                           {PixelType::float32, true, true, float32, float32},
+                           {PixelType::float32, true, false, float16, float16}}) {
+        const auto formatOf = [&](TextureKind kind) {
+            return texelFormat(row.type, kind, row.filterable16, row.filterable32);
+        };
+        EXPECT_EQ(formatOf(TextureKind::color), row.color);
+        EXPECT_EQ(formatOf(TextureKind::data), row.data);
+        EXPECT_EQ(formatOf(TextureKind::normal), row.data);
+    }
+    for (const auto& [format, bytes] :
+         {std::pair(srgb8, 4u), {unorm8, 4u}, {unorm16, 8u}, {float16, 8u}, {float32, 16u}})
+        EXPECT_EQ(bytesPerTexel(format), bytes);
+}
+
+// The finest level is the image's own bytes where its codes are what is stored: no texel is changed, none copied.
+TEST(RenderMips, theFinestLevelIsTheImageItselfOnlyWhereItsCodesAreStored)
+{
+    using enum TexelFormat;
+    struct Row {
+        PixelType type;
+        TextureKind kind;
+        TexelFormat format;
+        bool opaque, own;
+    };
+    for (const Row& row : {Row{PixelType::unorm8, TextureKind::color, srgb8, false, true},
+                           {PixelType::unorm8, TextureKind::data, unorm8, false, true},
+                           {PixelType::unorm8, TextureKind::normal, unorm8, true, true},
+                           {PixelType::unorm8, TextureKind::normal, unorm8, false, false},
+                           {PixelType::unorm8, TextureKind::data, float16, true, false},
+                           {PixelType::unorm16, TextureKind::data, unorm16, false, true},
+                           {PixelType::unorm16, TextureKind::normal, unorm16, true, true},
+                           {PixelType::unorm16, TextureKind::normal, unorm16, false, false},
+                           {PixelType::unorm16, TextureKind::color, unorm16, true, false},
+                           {PixelType::unorm16, TextureKind::data, float32, true, false},
+                           {PixelType::float32, TextureKind::data, float32, true, false},
+                           {PixelType::float32, TextureKind::data, float16, true, false}}) {
+        Image image = makeImage(2, 3, row.type);
+        for (std::size_t i = 0; i < 4 * image.pixelCount(); ++i) {
+            const bool full = i % 4 == 3 && (row.opaque || i > 4); // only the first texel is transparent
+            if (row.type == PixelType::unorm8)
+                image.bytes8()[i] = full ? 255 : std::uint8_t(40 + 5 * i);
+            else if (row.type == PixelType::unorm16)
+                image.words()[i] = full ? 65535 : std::uint16_t(10000 + 1000 * i);
+            else
+                image.floats()[i] = full ? 1 : float(i) / 32;
+        }
+        MipRequest request;
+        request.image = &image;
+        request.kind = row.kind;
+        request.format = row.format;
+        const MipChain chain = buildMips(request);
+        const MipLevel& finest = chain.levels.at(0);
+        const std::string of = ::testing::PrintToString(int(row.type)) + " " + ::testing::PrintToString(int(row.kind));
+        EXPECT_EQ(finest.width, 2) << of;
+        EXPECT_EQ(finest.height, 3) << of;
+        EXPECT_EQ(finest.data.size(), 6 * bytesPerTexel(row.format)) << of;
+        EXPECT_EQ(finest.data.data() == image.data.data(), row.own) << of;
+        ASSERT_EQ(chain.levels.size(), 2u) << of; // 2 x 3, 1 x 1
+        EXPECT_EQ(chain.levels[1].data.size(), bytesPerTexel(row.format)) << of;
+        const auto half = [&](std::size_t i) {
+            std::uint16_t word = 0;
+            std::memcpy(&word, finest.data.data() + 2 * i, 2);
+            return glm::unpackHalf1x16(word);
+        };
+        const auto number = [&](std::size_t i) {
+            float value = 0;
+            std::memcpy(&value, finest.data.data() + 4 * i, 4);
+            return value;
+        };
+        for (std::size_t i = 0; i < 24; ++i) { // every component of every texel, in its place
+            const double value = row.type == PixelType::unorm8 ? image.bytes8()[i] / 255.0
+                : row.type == PixelType::unorm16               ? image.words()[i] / 65535.0
+                                                               : double(image.floats()[i]);
+            const double expected = row.kind == TextureKind::normal && i % 4 == 3 ? 1 : value;
+            const double found = row.format == float16 ? double(half(i))
+                : row.format == float32                ? double(number(i))
+                : row.format == unorm8                 ? byteAt(finest, i) / 255.0
+                                                       : expected; // looked at where it is the image itself
+            EXPECT_NEAR(found, expected, row.format == float16 ? 5e-4 : 1e-6) << of << " " << i;
+        }
+    }
+}
+
+// Directions count alike, whatever their codes' alpha says, and one that has no direction counts for nothing. The
+// fourth channel of a smaller level is how long their mean is: 1 where they agree, less where they spread.
+TEST(RenderMips, theLengthOfAMeanNormalIsKeptBesideIt)
+{
+    const auto levelOf = [](std::initializer_list<std::array<int, 4>> texels) {
+        const MipChain chain = chainOf(image8(int(texels.size()), 1, texels), TextureKind::normal);
+        std::array<int, 4> last{};
+        for (std::size_t c = 0; c < 4; ++c)
+            last[c] = byteAt(chain.levels.back(), c);
+        return last;
+    };
+    const auto same = levelOf({{{128 + 76, 128, 128 + 102, 10}}, {{128 + 76, 128, 128 + 102, 200}}});
+    EXPECT_NEAR(same[0], 128 + 76, 1); // 3-4-5
+    EXPECT_NEAR(same[2], 128 + 102, 1);
+    EXPECT_EQ(same[3], 255);
+    // Along x and along y: the mean lies between them and is the root of a half long.
+    const auto spread = levelOf({{{255, 128, 128, 255}}, {{128, 255, 128, 255}}});
+    EXPECT_NEAR(spread[0], 128 + 127 * 0.7071, 1);
+    EXPECT_NEAR(spread[1], 128 + 127 * 0.7071, 1);
+    EXPECT_NEAR(spread[3], 255 * 0.7071, 1.5);
+    // Floats, which have an exact zero.
+    const auto meanOf = [](glm::vec3 a, glm::vec3 b) {
+        Image image = makeImage(2, 1, PixelType::float32);
+        for (int c = 0; c < 3; ++c) {
+            image.floats()[c] = a[c];
+            image.floats()[4 + c] = b[c];
+        }
+        Convention format;
+        format.expansion = Expansion::signedValues;
+        const MipChain chain = chainOf(image, TextureKind::normal, format);
+        glm::vec4 mean(0);
+        std::memcpy(&mean, chain.levels.at(1).data.data(), sizeof mean);
+        return mean;
+    };
+    EXPECT_EQ(meanOf({2, 0, 0}, {-3, 0, 0}), glm::vec4(0, 0, 1, 0)); // nothing is left: straight up
+    EXPECT_EQ(meanOf({0, 5, 0}, {0, 0, 0}), glm::vec4(0, 1, 0, 1));  // the second has no direction
+    EXPECT_EQ(meanOf({0, 0, 0}, {0, 0, 0}), glm::vec4(0, 0, 1, 1));
+}
+
+TEST(RenderMips, heightsAndWidthsAreHalvedEachByItself)
+{
+    Image image = makeImage(5, 3, PixelType::unorm8);
+    for (std::size_t i = 0; i < image.pixelCount(); ++i)
+        image.bytes8()[4 * i] = std::uint8_t(10 * (i % 5) + 60 * (i / 5));
+    const MipChain chain = chainOf(image, TextureKind::data);
+    ASSERT_EQ(chain.levels.size(), 3u);
+    EXPECT_EQ(chain.levels[1].width, 2);
+    EXPECT_EQ(chain.levels[1].height, 1);
+    // Along a row (0 + 10 + 20 / 2) / 2.5 = 8 and (20 / 2 + 30 + 40) / 2.5 = 32; rows add their mean, 60.
+    EXPECT_EQ(byteAt(chain.levels[1], 0), 68);
+    EXPECT_EQ(byteAt(chain.levels[1], 4), 92);
+    EXPECT_EQ(byteAt(chain.levels[2], 0), 80);
+    const MipChain high = chainOf(makeImage(1, 4, PixelType::unorm8), TextureKind::data);
+    ASSERT_EQ(high.levels.size(), 3u);
+    EXPECT_EQ(high.levels[1].height, 2);
+    EXPECT_EQ(high.levels[1].width, 1);
 }
 
 } // namespace cotan

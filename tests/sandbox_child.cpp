@@ -10,6 +10,8 @@
 #include <map>
 #include <new>
 #include <random>
+#include <string>
+#include <vector>
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -81,6 +83,25 @@ void answerError(const std::string& message)
     const Error error{ErrorKind::input, message};
     exchangeError(out, error);
     out.flush();
+}
+
+// What SANDBOX_CHILD_PICTURE says: width, height, channels, bytes.
+struct Claim {
+    std::string name = "picture", frame;
+    int width = 0, height = 0, channels = 0;
+    PixelType type = PixelType::unorm8;
+    bool alpha = false, whole = false;
+    std::vector<std::byte> data;
+};
+
+Claim claimed()
+{
+    Claim claim;
+    const char* const words = std::getenv("SANDBOX_CHILD_PICTURE");
+    std::size_t bytes = 0;
+    if (words && std::sscanf(words, "%d %d %d %zu", &claim.width, &claim.height, &claim.channels, &bytes) == 4)
+        claim.data.resize(bytes, std::byte(7));
+    return claim;
 }
 
 void expectFor(std::function<bool()> more)
@@ -197,6 +218,28 @@ const std::map<std::string, void (*)(const ReaderRequest&)> kActs = {
          out.array(std::string("mesh"));
          out.number(int(0));
          out.number(std::uint64_t(1) << 28);
+         out.flush();
+     }},
+    {"picture",
+     [](const ReaderRequest&) {
+         const Claim claim = claimed();
+         WireOut out(sendAll);
+         out.choice(ReaderFrame::value, ReaderFrame::error);
+         exchangeImage(out, claim);
+         out.flush();
+     }},
+    {"rows", // once
+     [](const ReaderRequest&) {
+         const Claim claim = claimed();
+         WireOut out(sendAll);
+         out.choice(ReaderFrame::value, ReaderFrame::error);
+         exchangeRowFacts(out, claim);
+         out.flush();
+         std::int32_t asked = 0;
+         if (::recv(0, &asked, sizeof asked, MSG_WAITALL) != sizeof asked)
+             return;
+         out.choice(ReaderFrame::value, ReaderFrame::error);
+         out.array(claim.data);
          out.flush();
      }},
     {"flood",

@@ -157,6 +157,62 @@ TEST_F(Sandboxed, aProgramThatIgnoresItsChildrenReadsAllTheSame)
     ::signal(SIGCHLD, SIG_DFL);
 }
 
+// A reader that has been taken over may say anything of a picture; what does not fit together goes no further.
+TEST_F(Sandboxed, whatAReaderSaysOfAPictureHasToFitTogether)
+{
+    const auto file = folder / "a.tga";
+    ASSERT_TRUE(writeImage(file, makeImage(3, 2, PixelType::unorm8)));
+    limits.imageSide = 9;
+    limits.imageBytes = 100;
+    const std::string name = file.string() + ": ";
+    const auto told = [&](const char* claim) {
+        ::setenv("SANDBOX_CHILD_PICTURE", claim, 1);
+        const Act acting("picture");
+        const auto image = readImage(file, limits);
+        ::unsetenv("SANDBOX_CHILD_PICTURE");
+        return image ? "accepted" : image.error().message;
+    };
+    EXPECT_EQ(told("3 2 1 24"), "accepted");
+    EXPECT_EQ(told("3 2 4 24"), "accepted");
+    EXPECT_EQ(told("3 2 0 24"), name + "expected 1 to 4 channels, found 0");
+    EXPECT_EQ(told("3 2 5 24"), name + "expected 1 to 4 channels, found 5");
+    EXPECT_EQ(told("3 2 4 23"), name + "expected the bytes of 3 x 2 pixels, found 23");
+    EXPECT_EQ(told("3 2 4 25"), name + "expected the bytes of 3 x 2 pixels, found 25");
+    EXPECT_EQ(told("9 1 4 36"), "accepted");
+    EXPECT_EQ(told("10 1 4 40"), name + "the image size is 10 x 1, the limit is 9 a side");
+    EXPECT_EQ(told("1 10 4 40"), name + "the image size is 1 x 10, the limit is 9 a side");
+    EXPECT_EQ(told("0 2 4 0"), name + "the image size is 0 x 2");
+    EXPECT_EQ(told("5 5 4 100"), "accepted");
+    EXPECT_EQ(told("2 13 4 104"), name + "the image size is 2 x 13, the limit is 9 a side");
+    EXPECT_EQ(told("9 3 4 108"), name + "9 x 3 pixels take 108 bytes, the limit is 100");
+}
+
+TEST_F(Sandboxed, whatAReaderSaysOfRowsHasToFitTogether)
+{
+    const auto file = folder / "a.tif";
+    ASSERT_TRUE(writeImage(file, makeImage(3, 2, PixelType::unorm8)));
+    limits.imageSide = 9;
+    const auto told = [&](const char* claim, int rows) {
+        ::setenv("SANDBOX_CHILD_PICTURE", claim, 1);
+        const Act acting("rows");
+        auto reader = openRows(file, limits);
+        ::unsetenv("SANDBOX_CHILD_PICTURE");
+        if (!reader)
+            return reader.error().message;
+        Image strip = makeImage((*reader)->width, rows, (*reader)->type);
+        const Status read = (*reader)->read(strip);
+        return read ? std::to_string((*reader)->height) + " rows of " + std::to_string(int(strip.data.back()))
+                    : read.error().message;
+    };
+    EXPECT_EQ(told("3 2 1 24", 2), "2 rows of 7");
+    EXPECT_EQ(told("3 2 4 12", 1), "2 rows of 7");
+    EXPECT_EQ(told("9 9 4 36", 1), "9 rows of 7");
+    for (const char* const claim : {"3 2 0 24", "3 2 5 24", "0 2 4 24", "3 0 4 24", "-3 2 4 24", "10 2 4 80",
+                                    "3 10 4 24", "3 2 4 23", "3 2 4 25"})
+        EXPECT_NE(told(claim, 2).find("gave an answer that makes no sense"), std::string::npos)
+            << claim << ": " << told(claim, 2);
+}
+
 TEST_F(Sandboxed, aPictureForNobodyDoesNotEndUs)
 {
     const Act acting("unread");

@@ -117,11 +117,57 @@ TEST(VerifyConversion, picturesOfAnotherNumberOrSizeAreRefused)
     const auto few = drawSides(*renderer, {scene, Frame::cotangent}, {all->cameras[0]}, kPixels);
     const auto small = drawSides(*renderer, {scene, Frame::cotangent}, all->cameras, kPixels / 2);
     ASSERT_TRUE(few && small);
-    for (const DrawnSides* other : {&*few, &*small}) {
+    for (const auto& [other, said] : {std::pair(&*few, "expected as many pictures after as before, 5; found 1"),
+                                      {&*small, "expected pictures of one size, 96 x 96; found 48 x 48"}}) {
         const auto compared = compareSides(*all, *other);
         ASSERT_FALSE(compared);
         EXPECT_EQ(compared.error().kind, ErrorKind::usage);
+        EXPECT_EQ(compared.error().message, "verify: " + std::string(said));
     }
+    DrawnSides upright, level;
+    upright.normals = {makeImage(2, 3, PixelType::float32)};
+    for (const auto& [width, height] : {std::pair(2, 4), {4, 3}, {3, 2}}) {
+        level.normals = {makeImage(width, height, PixelType::float32)};
+        const auto compared = compareSides(upright, level);
+        ASSERT_FALSE(compared);
+        EXPECT_EQ(compared.error().message,
+                  "verify: expected pictures of one size, 2 x 3; found " + std::to_string(width) + " x "
+                      + std::to_string(height));
+    }
+    level.normals = upright.normals;
+    EXPECT_TRUE(compareSides(upright, level));
+}
+
+// From the front, turned by quarters, and from above; all as far away, with the middle of the model in the middle.
+TEST(VerifyConversion, theSidesAreFourAroundAndOneFromAbove)
+{
+    const auto renderer = reference();
+    Scene scene = quadWith(kFlatTexel);
+    scene.instances[0].toWorld[2][2] = 3;
+    scene.instances[0].toWorld[3] = {5, 6, 7, 1};
+    Instance behind = scene.instances[0]; // which makes it deep
+    behind.toWorld[3] = {5, 6, 9, 1};
+    scene.instances.push_back(behind);
+    const auto sides = drawSides(*renderer, {scene, Frame::cotangent}, {}, 16);
+    ASSERT_TRUE(sides);
+    ASSERT_EQ(sides->cameras.size(), 5u);
+    ASSERT_EQ(sides->normals.size(), 5u);
+    const auto from = [&](std::size_t k) { return glm::normalize(sides->cameras[k].eye - sides->cameras[k].target); };
+    const float away = glm::length(sides->cameras[0].eye - sides->cameras[0].target);
+    for (std::size_t k = 0; k < 5; ++k) {
+        EXPECT_LT(glm::length(sides->cameras[k].target - glm::vec3(5, 6, 8)), 1e-5f) << k;
+        EXPECT_NEAR(glm::length(sides->cameras[k].eye - sides->cameras[k].target), away, 1e-4f) << k;
+        EXPECT_EQ(sides->normals[k].width, 16) << k;
+        EXPECT_EQ(sides->normals[k].height, 16) << k;
+    }
+    for (std::size_t k = 1; k < 4; ++k) { // z to x, x to -z: counter-clockwise from above
+        EXPECT_NEAR(from(k).x, from(k - 1).z, 1e-5f) << k;
+        EXPECT_NEAR(from(k).y, from(0).y, 1e-5f) << k;
+        EXPECT_NEAR(from(k).z, -from(k - 1).x, 1e-5f) << k;
+    }
+    EXPECT_GT(from(0).z, 0.5f);
+    EXPECT_NEAR(from(4).y, 1, 1e-5f);
+    EXPECT_EQ(sides->cameras[4].up, glm::vec3(0, 0, -1));
 }
 
 // A quad at z = 0, and above it one that rises by `slope` along x.

@@ -43,7 +43,7 @@ Tables tablesOf(const RecodeSettings& s)
 {
     Tables t;
     Image out = makeImage(256, 1, PixelType::unorm8);
-    std::vector<glm::vec4> row(256);
+    std::vector<glm::vec4> row(std::size_t(out.width));
     for (int k = 0; k < 3; ++k) {
         for (int code = 0; code < 256; ++code) {
             glm::vec4 texel(0, 0, 0, 1);

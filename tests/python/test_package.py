@@ -6,6 +6,7 @@ import pathlib
 import shutil
 import subprocess
 import sys
+import types
 import typing
 
 import pytest
@@ -65,6 +66,37 @@ def test_a_missing_library_is_said_when_it_is_needed_with_what_to_do(copy):
         pytest.skip("skipped: this system has a libcotan")
     assert said.startswith("libcotan is missing") and "COTAN_LIBRARY" in said and "libcotan0" in said
     assert "/nowhere/libcotan.so" in said and "\n" not in said
+
+
+def test_the_first_library_that_is_new_enough_is_taken_and_the_others_are_said(monkeypatch):
+    from cotan import _library
+
+    least = _library.API_VERSION
+    found = {"older": least - 1, "least": least, "newer": least + 1, "ancient": 0}
+    prepared = []
+
+    def opened(name):
+        if name not in found:
+            raise OSError("no such library")
+        return types.SimpleNamespace(cotan_api_version=lambda: found[name], name=name)
+
+    def taken(*names):
+        prepared.clear()
+        monkeypatch.setattr(_library, "_candidates", lambda: iter(names))
+        library, candidate = _library._open()
+        assert library.name == candidate and prepared == [candidate, (candidate, candidate)]
+        return candidate
+
+    monkeypatch.setattr(_library.ctypes, "CDLL", opened)
+    monkeypatch.setattr(_library, "_declare", lambda library: prepared.append(library.name))
+    monkeypatch.setattr(_library, "_read_elsewhere", lambda library, candidate: prepared.append((library.name, candidate)))
+    assert taken("least", "newer") == "least"
+    assert taken("newer", "least") == "newer"
+    assert taken("missing", "older", "ancient", "newer", "least") == "newer"
+    with pytest.raises(cotan.UnavailableError) as refused:
+        taken("missing", "older", "ancient")
+    expected = f"expected version {least} of its interface or later, found"
+    assert str(refused.value).endswith(f"(missing: no such library; older: {expected} {least - 1}; ancient: {expected} 0)")
 
 
 def test_what_is_no_libcotan_is_said(copy, tmp_path):

@@ -139,8 +139,11 @@ Line principal(const Texels& t)
                 sum += (t.codes[a][i] - mean[a]) * (t.codes[b][i] - mean[b]);
             covariance[a][b] = covariance[b][a] = sumOf(sum);
         }
-    for (std::size_t c = 1; c < 4; ++c) // the box's diagonal may be across
-        way[c] = covariance[0][c] < 0 ? -way[c] : way[c];
+    std::size_t widest = 0; // the box's diagonal may be across: signs are those beside what varies most
+    for (std::size_t c = 1; c < 4; ++c)
+        widest = covariance[c][c] > covariance[widest][widest] ? c : widest;
+    for (std::size_t c = 1; c < 4; ++c)
+        way[c] = std::signbit(covariance[widest][c]) != std::signbit(covariance[widest][0]) ? -way[c] : way[c];
     for (int round = 0; round < 6; ++round) {
         Color next{};
         float largest = 0;

@@ -37,7 +37,7 @@ OptionHelp helpOf(const CLI::Option& option, const Argument::Facts& facts)
     help.closed = facts.closed;
     help.positional = option.get_positional();
     if (help.positional)
-        help.names = {option.get_name(true)};
+        help.names = {option.get_name()};
     for (const std::string& name : option.get_snames())
         help.names.push_back("-" + name);
     for (const std::string& name : option.get_lnames())

@@ -1,0 +1,124 @@
+// What `cotan bake` says of a bake, whole lines with their numbers; and what it says in other cases only.
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <sstream>
+
+#include <fmt/format.h>
+
+#include "run_tool.hpp"
+
+namespace cotan::test {
+namespace {
+
+// A square of side 1 at height z above the xy plane, from x = `from` to `to`; uv as x and y, moved by `u`.
+std::string square(double z, double from = 0, double to = 1, double u = 0)
+{
+    std::string text;
+    for (const auto& [x, y] : {std::pair(from, 0), {to, 0}, {to, 1}, {from, 1}})
+        text += fmt::format("v {} {} {}\nvt {} {}\n", x, y, z, x + u, y);
+    return text + "f 1/1 2/2 3/3\nf 1/1 3/3 4/4\n";
+}
+
+class BakeSaid : public ::testing::Test {
+protected:
+    BakeSaid()
+    {
+        write("low.obj", square(0));
+        write("high.obj", square(0));
+        write("above.obj", square(0.5));
+        write("half.obj", square(0, 0, 0.5));
+        write("third.obj", square(0, 0, 1, 2));  // its uv lie on the third tile
+        write("sliver.obj", square(0, 0, 0.01)); // between the middles of texels
+    }
+    void write(const char* name, const std::string& text) { std::ofstream(folder / name) << text; }
+
+    ToolRun bake(const std::string& words)
+    {
+        std::vector<std::string> all = {"bake", "--size", "8", "--overwrite", "-o", "m.png"};
+        std::istringstream stream(words);
+        for (std::string word; stream >> word;)
+            all.push_back(word);
+        return runTool(all, folder.path());
+    }
+
+    // Standard error is these lines, one of each.
+    void expectWarned(const std::string& words, const std::vector<std::string>& lines)
+    {
+        std::string expected;
+        for (const std::string& line : lines)
+            expected += "cotan: warning: " + line + "\n";
+        const ToolRun run = bake(words);
+        EXPECT_EQ(run.code, 0) << words;
+        EXPECT_EQ(run.err, expected) << words;
+    }
+
+    TemporaryFolder folder;
+};
+
+TEST_F(BakeSaid, aSoundBakeIsDescribedAndWarnsOfNothing)
+{
+    for (const auto& [words, covered] :
+         {std::pair("", "64 of 64 texels covered, 0 more filled at the edges of charts; "), {"--low half.obj", ""}}) {
+        const ToolRun run =
+            bake("--high high.obj --frame mikktspace " + std::string(*covered ? "--low low.obj" : words));
+        EXPECT_EQ(run.err, "") << words;
+        EXPECT_NE(run.out.find(*covered ? covered : "32 of 64 texels covered, "), std::string::npos) << run.out;
+        EXPECT_NE(run.out.find("map in m.png (normal, mikktspace, opengl, 8 bit); peak memory "), std::string::npos);
+        EXPECT_NE(run.out.find("the map is for the frame mikktspace: Unity, Unreal, Godot, Blender and glTF viewers"),
+                  std::string::npos);
+    }
+    const ToolRun smooth = bake("--high high.obj --low low.obj --frame smooth --bits 16 --convention directx");
+    EXPECT_NE(smooth.out.find("map in m.png (normal, smooth, directx, 16 bit)"), std::string::npos) << smooth.out;
+    EXPECT_NE(smooth.out.find("the map is for the frame smooth: read it by that; engines make MikkTSpace tangents and "
+                              "show it wrongly (--frame mikktspace is for them)"),
+              std::string::npos);
+    const ToolRun occlusion = bake("--high high.obj --low low.obj --kind ao --ao-rays 4");
+    EXPECT_NE(occlusion.out.find("map in m.png (ao, world axes, 8 bit)"), std::string::npos) << occlusion.out;
+    EXPECT_EQ(occlusion.out.find("the map is for"), std::string::npos);
+}
+
+TEST_F(BakeSaid, whatRaysDidNotFindIsCountedAndTheOptionsAreNamed)
+{
+    expectWarned("--high above.obj --low low.obj --search nearest --max-distance 0.25",
+                 {"64 of 64 covered texels found no high surface within 0.25 units; there is one further away "
+                  "(--max-distance, --cage; --mask shows where)"});
+    expectWarned(
+        "--high half.obj --low low.obj",
+        {"32 of 64 covered texels have no high surface before or behind them at any distance: it has holes, or "
+         "ends before the low mesh does (--mask shows where)"});
+    write("cage.obj", square(0.25));
+    expectWarned(
+        "--high above.obj --low low.obj --cage cage.obj --max-distance 0.125",
+        {"64 of 64 covered texels found no high surface within the reach of the cage; there is one further away "
+         "(--mask shows where)"});
+    expectWarned("--high above.obj --high high.obj --low low.obj --extrusion 1",
+                 {"64 of 64 covered texels show the first surface from outside, not the nearest one: parts stand off "
+                  "there (--search nearest)"});
+}
+
+TEST_F(BakeSaid, framesOfTrianglesAndTilesWithoutTexelsAreWarnedOf)
+{
+    const std::string crease =
+        " changes from triangle to triangle: filtering shows a crease one texel wide at edges of "
+        "curved meshes; bake and draw with smooth to avoid it";
+    for (const char* frame : {"cotangent", "gradient"})
+        expectWarned("--high high.obj --low low.obj --frame " + std::string(frame),
+                     {"the frame " + std::string(frame) + crease});
+    for (const char* frame : {"vertex", "orthonormal"})
+        expectWarned("--high high.obj --low low.obj --frame " + std::string(frame), {});
+    expectWarned("--high high.obj --low low.obj --frame cotangent --kind height", {});
+    expectWarned("--high high.obj --low third.obj --udim 1003", {});
+    expectWarned("--high sliver.obj --low sliver.obj",
+                 {"no triangle covers the centre of a texel on tile 1001; only edges touch it (--udim, --size)"});
+    expectWarned("--high high.obj --low low.obj --kind height --high-normals map",
+                 {"--high-normals map changes nothing in a map of the kind height"});
+    write("twice.obj", square(0) + "f 1/1 2/2 3/3\n");
+    const ToolRun twice = bake("--high high.obj --low twice.obj");
+    EXPECT_NE(twice.err.find(" of 64 covered texels are claimed by several triangles; the first in the file won\n"),
+              std::string::npos)
+        << twice.err;
+}
+
+} // namespace
+} // namespace cotan::test

@@ -1,0 +1,158 @@
+// KTX 2.0 files: what each number of a format asks for, and what is said of files that lie.
+#include <algorithm>
+#include <string>
+
+#include <gtest/gtest.h>
+#include <zstd.h>
+
+#include "cotan/image.hpp"
+#include "deflate.hpp"
+#include "ktx2_maker.hpp"
+#include "picture_file.hpp"
+
+namespace cotan::test {
+namespace {
+
+using namespace std::string_literals;
+
+Result<Image> ktx2Image(const std::string& file) { return decodeImage(bytesOf(file), "a.ktx2"); }
+
+std::string ktx2Refusal(const std::string& file) { return messageOf(ktx2Image(file)); }
+
+std::string ramp(std::size_t bytes)
+{
+    std::string text;
+    for (std::size_t i = 0; i < bytes; ++i)
+        text += char(i * 37 + 11);
+    return text;
+}
+
+std::string zstd(const std::string& text)
+{
+    std::string packed(ZSTD_compressBound(text.size()), '\0');
+    packed.resize(ZSTD_compress(packed.data(), packed.size(), text.data(), text.size(), 3));
+    return packed;
+}
+
+const std::string kBrokenKtx2 = "a.ktx2: broken ktx2 image: ";
+
+// The numbers of VkFormat with the bytes of a pixel, or of a block of 4 x 4; 5 x 7 pixels are 2 x 2 blocks.
+TEST(Ktx2, everyFormatByNumberAsksForItsBytesAndTheOthersAreRefused)
+{
+    const struct {
+        std::uint32_t linear, srgb;
+        int channels, bytes, block;
+    } formats[] = {{9, 15, 1, 1, 0},     {16, 22, 2, 2, 0},    {23, 29, 3, 3, 0},    {30, 36, 3, 3, 0},
+                   {37, 43, 4, 4, 0},    {44, 50, 4, 4, 0},    {51, 57, 4, 4, 0},    {70, 70, 1, 2, 0},
+                   {76, 76, 1, 2, 0},    {77, 77, 2, 4, 0},    {83, 83, 2, 4, 0},    {84, 84, 3, 6, 0},
+                   {90, 90, 3, 6, 0},    {91, 91, 4, 8, 0},    {97, 97, 4, 8, 0},    {100, 100, 1, 4, 0},
+                   {103, 103, 2, 8, 0},  {106, 106, 3, 12, 0}, {109, 109, 4, 16, 0}, {131, 132, 4, 0, 8},
+                   {133, 134, 4, 0, 8},  {135, 136, 4, 0, 16}, {137, 138, 4, 0, 16}, {139, 139, 1, 0, 8},
+                   {141, 141, 2, 0, 16}, {145, 146, 4, 0, 16}};
+    for (std::uint32_t number = 1; number < 200; ++number) {
+        SCOPED_TRACE(number);
+        const auto* const format =
+            std::ranges::find_if(formats, [&](const auto& f) { return f.linear == number || f.srgb == number; });
+        const std::string told = ktx2Refusal(makeKtx2({.format = number, .width = 5, .height = 7, .levels = {{"x"}}}));
+        if (number >= 147 && number <= 184) {
+            EXPECT_EQ(told, "a.ktx2: "s + (number <= 156 ? "ETC2" : "ASTC") + " is not decoded here");
+            continue;
+        }
+        if (format == std::end(formats)) {
+            EXPECT_EQ(told, kBrokenKtx2 + "its format " + std::to_string(number) + " (VkFormat) is not read here");
+            continue;
+        }
+        const std::size_t bytes = std::size_t(format->block > 0 ? 4 * format->block : 35 * format->bytes);
+        EXPECT_EQ(told, kBrokenKtx2 + "level 0 has 1 bytes, 1 as stored; its size asks for " + std::to_string(bytes));
+        const auto sound = [&](std::uint32_t n) {
+            return ktx2Image(makeKtx2({.format = n, .width = 5, .height = 7, .levels = {{ramp(bytes)}}}));
+        };
+        const auto image = sound(number), linear = sound(format->linear);
+        ASSERT_TRUE(image && linear) << image.error().message;
+        EXPECT_EQ(image->channels, format->channels);
+        EXPECT_EQ(image->width, 5);
+        EXPECT_EQ(image->height, 7);
+        EXPECT_EQ(image->data, linear->data); // values stay as they are stored
+    }
+    for (const auto& [number, name] : {std::pair(1000065999u, ""),
+                                       {1000066000u, "KTX2 with ASTC"},
+                                       {1000066013u, "KTX2 with ASTC"},
+                                       {1000066014u, ""},
+                                       {146u, ""},
+                                       {147u, "KTX2 with ETC2"},
+                                       {157u, "KTX2 with ASTC"},
+                                       {185u, ""}}) {
+        const std::string file = makeKtx2({.format = number, .levels = {{"some"}}});
+        EXPECT_EQ(foreignFormat(std::as_bytes(std::span(file))), name) << number;
+    }
+}
+
+TEST(Ktx2, whatIsWrongIsToldWithItsNumbersAndOnlyBeyondEachBound)
+{
+    const std::string texels = ramp(96);
+    const Ktx2File good{.width = 6, .height = 4, .levels = {{texels}}};
+    const std::string file = makeKtx2(good);
+    const auto told = [](const Ktx2File& k) { return ktx2Refusal(makeKtx2(k)); };
+    const auto count = [](std::size_t n) { return std::to_string(n); };
+    EXPECT_EQ(ktx2Refusal(file.substr(0, 79)), kBrokenKtx2 + "its header takes 80 bytes, the file has 79");
+    for (const std::size_t size : {80u, 90u, 103u})
+        EXPECT_EQ(ktx2Refusal(file.substr(0, size)),
+                  kBrokenKtx2 + "the list of its levels lies behind the end of the file");
+    EXPECT_EQ(ktx2Refusal(file.substr(0, file.size() - 1)),
+              kBrokenKtx2 + "level 0 takes 96 bytes from " + count(file.size() - 96) + ", the file has "
+                  + count(file.size() - 1));
+    Ktx2File k = good;
+    k.depth = k.layers = 1;
+    EXPECT_EQ(told(k), "accepted");
+    k = good, k.depth = 2;
+    EXPECT_EQ(told(k), kBrokenKtx2 + "expected one flat picture, found 6 x 4 x 2, 0 layers, 1 faces");
+    k = good, k.layers = 2, k.faces = 6;
+    EXPECT_EQ(told(k), kBrokenKtx2 + "expected one flat picture, found 6 x 4 x 0, 2 layers, 6 faces");
+    k = good, k.width = 0;
+    EXPECT_EQ(told(k), kBrokenKtx2 + "expected one flat picture, found 0 x 4 x 0, 0 layers, 1 faces");
+    k = {.format = 9, .width = (1 << 24) + 1, .height = 2, .levels = {{"x"}}};
+    EXPECT_EQ(told(k), kBrokenKtx2 + "its size is 16777217 x 2");
+    k.width = 2, k.height = (1 << 24) + 1;
+    EXPECT_EQ(told(k), kBrokenKtx2 + "its size is 2 x 16777217");
+    k.height = 1 << 24;
+    EXPECT_EQ(told(k), kBrokenKtx2 + "level 0 has 1 bytes, 1 as stored; its size asks for 33554432");
+    k = good, k.packing = 4;
+    EXPECT_EQ(told(k), kBrokenKtx2 + "its supercompression 4 is not that of its format, or not known");
+    k = good, k.levels = {{texels}, {ramp(23)}};
+    EXPECT_EQ(told(k), kBrokenKtx2 + "level 1 has 23 bytes, 23 as stored; its size asks for 24");
+    k.levels = {{texels}, {ramp(24)}, {ramp(5), 4}};
+    EXPECT_EQ(told(k), kBrokenKtx2 + "level 2 has 4 bytes, 5 as stored; its size asks for 4");
+    k.levelCount = 0; // one, and the others are to be made of it
+    EXPECT_EQ(told(k), "accepted");
+
+    for (const std::uint32_t packing : {2u, 3u}) {
+        const std::string library = packing == 2 ? "zstd: " : "zlib: ";
+        k = {.width = 6, .height = 4, .packing = packing};
+        k.levels = {{packing == 2 ? zstd(ramp(95)) : deflated(ramp(95)), 96}};
+        EXPECT_EQ(told(k), kBrokenKtx2 + library + "expected 96 bytes, found 95");
+        k.levels = {{packing == 2 ? zstd(texels) : deflated(texels), 96}};
+        EXPECT_EQ(told(k), "accepted");
+    }
+    k.packing = 3, k.levels = {{deflated(ramp(97)), 96}};
+    EXPECT_EQ(told(k), kBrokenKtx2 + "zlib: the data end too soon, or go on too long");
+    k.levels = {{"this is no stream", 96}};
+    EXPECT_EQ(told(k), kBrokenKtx2 + "zlib: the data are damaged");
+
+    // One key of 5 bytes with three of padding behind 104 bytes of header and list and 28 of descriptor.
+    k = good, k.keys = {"ab\0cd"s};
+    const std::string keyed = makeKtx2(k);
+    const auto with = [&](std::size_t at, std::uint64_t value) {
+        return ktx2Refusal(std::string(keyed).replace(at, 4, little(value, 4)));
+    };
+    EXPECT_EQ(with(132, 8), "accepted");
+    EXPECT_EQ(with(132, 9), kBrokenKtx2 + "a key and its value take 9 bytes, 8 are left");
+    EXPECT_EQ(with(60, keyed.size() - 132 + 1),
+              kBrokenKtx2 + "its keys take " + count(keyed.size() - 132 + 1) + " bytes from 132, the file has "
+                  + count(keyed.size()));
+    EXPECT_EQ(with(56, keyed.size() - 12 + 1),
+              kBrokenKtx2 + "its keys take 12 bytes from " + count(keyed.size() - 12 + 1) + ", the file has "
+                  + count(keyed.size()));
+}
+
+} // namespace
+} // namespace cotan::test
