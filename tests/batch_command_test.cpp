@@ -262,6 +262,65 @@ TEST_F(BatchCommand, interruptedItEndsItsJobsAndTheNextRunGoesOn)
         EXPECT_EQ(entry.path().filename().string().find(".part"), std::string::npos) << entry.path();
 }
 
+// What a job says of its threads and its report is left as it is.
+TEST_F(BatchCommand, whatAJobSaysOfThreadsAndItsReportCounts)
+{
+    jobs({{{"name", "threads"}, {"command", {"map", "info", "a.png", "--threads", "2"}}},
+          {{"name", "report"}, {"command", {"map", "diff", "a.png", "a.png", "--json", "own.json"}}},
+          {{"name", "none"}, {"command", {"map", "diff", "b.png", "b.png"}}}});
+    const ToolRun run = batch({"jobs.jsonl", "-o", "r.html", "--json", "r.json", "--shard", "1/1", "--store", "kept"});
+    EXPECT_EQ(run.code, 0) << run.err;
+    EXPECT_EQ(states(), (States{{"threads", "done"}, {"report", "done"}, {"none", "done"}}));
+    EXPECT_EQ(read("own.json")["command"], "map diff");
+    const json report = read("r.json");
+    EXPECT_EQ(report["jobs_file"], "jobs.jsonl");
+    EXPECT_EQ(report["shard"], "1/1");
+    EXPECT_GT(report["seconds"].get<double>(), 0);
+    for (const json& job : report["jobs"])
+        EXPECT_EQ(job["degrees"], job["name"] == "threads" ? json() : json(0.0)) << job;
+    EXPECT_TRUE(std::regex_match(run.out, std::regex("3 jobs: 3 done; \\d+\\.\\d s; report: r\\.html\n"))) << run.out;
+    const std::string page = readWhole(folder / "r.html");
+    EXPECT_NE(page.find("<title>jobs.jsonl, shard 1/1</title>"), std::string::npos);
+    EXPECT_TRUE(std::regex_search(page, std::regex("<footer>cotan [0-9.]+: 3 jobs: 3 done; \\d+\\.\\d s</footer>")));
+    EXPECT_TRUE(fs::exists(folder / "kept/results"));
+    EXPECT_FALSE(fs::exists(folder / "r.store"));
+    const ToolRun merged = batch({"jobs.jsonl", "--merge", "--store", "kept", "--json", "-"});
+    EXPECT_EQ(merged.code, 0) << merged.err;
+    EXPECT_EQ(json::parse(merged.out)["jobs"].size(), 3u);
+}
+
+TEST_F(BatchCommand, endsWithTheWorstThatWasFoundAndDrawsModelsWhereAsked)
+{
+    write(quad(2), folder.path());
+    jobs({{{"name", "lint"}, {"command", {"lint", "quad.gltf", "--limit", "0"}}}, flip("a.png", "x.png")});
+    const ToolRun limit = batch({"jobs.jsonl", "-o", "r.html", "--thumbnails", "models"});
+    EXPECT_EQ(limit.code, 5);
+    EXPECT_NE(limit.err.find("1 of 2 jobs are over a limit; the worst is 'lint': "), std::string::npos) << limit.err;
+    const auto pictures = [&] {
+        const std::string page = readWhole(folder / "r.html");
+        const std::string begin = "id=\"data\">";
+        const std::size_t at = page.find(begin) + begin.size();
+        States all;
+        const json data = json::parse(page.substr(at, page.find("</script>", at) - at));
+        for (const json& row : data["rows"])
+            all[row[0]] = row[11].is_null() ? "none" : "one";
+        return all;
+    };
+    EXPECT_EQ(pictures(), (States{{"lint", "one"}, {"x.png", "one"}}));
+    jobs({{{"name", "lint"}, {"command", {"lint", "quad.gltf", "--limit", "0"}}}, // kept
+          {{"name", "tangents"}, {"command", {"tangents", "quad.gltf"}}},
+          {{"name", "gone"}, {"command", {"map", "info", "gone.png"}}},
+          flip("b.png", "y.png")});
+    const ToolRun bad = batch({"jobs.jsonl", "-o", "r.html"});
+    EXPECT_EQ(pictures(), (States{{"lint", "one"}, {"tangents", "none"}, {"y.png", "one"}, {"gone", "none"}}));
+    EXPECT_EQ(bad.code, 2); // what is over its limit is done
+    EXPECT_NE(bad.err.find("1 of 4 jobs are not done; the worst is 'gone': gone.png: no such file"), std::string::npos)
+        << bad.err;
+    jobs({flip("a.png", "z.png")});
+    batch({"jobs.jsonl", "-o", "r.html", "--thumbnails", "none"});
+    EXPECT_EQ(pictures(), (States{{"z.png", "none"}}));
+}
+
 // A job's words name its files: every option that takes a file, by its help, says whether it is read or written.
 TEST(BatchWords, everyOptionThatNamesAFileSaysWhatIsDoneWithIt)
 {

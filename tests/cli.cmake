@@ -7,7 +7,7 @@ target_compile_definitions(cli_test PRIVATE COTAN_TOOL="$<TARGET_FILE:cotan>")
 add_dependencies(cli_test cotan)
 # What is read and what is written: by functions, and by every command.
 cotan_test(files_test
-  SOURCES files_test.cpp files_told_test.cpp module_test.cpp overwrite_test.cpp
+  SOURCES app_words_test.cpp files_test.cpp files_told_test.cpp module_test.cpp overwrite_test.cpp
   LIBRARIES cotan_app cotan_files cotan_model cotan_scene nlohmann_json::nlohmann_json fmt::fmt)
 add_library(module_versions MODULE module_versions.cpp)
 # Not beside the tests, where it would be found whatever folder is asked for.
@@ -32,7 +32,7 @@ if(Python3_FOUND)
 endif()
 # Words as values, without a process.
 cotan_test(words_test
-  SOURCES arguments_test.cpp help_text_test.cpp bake_scenes_test.cpp camera_words_test.cpp picture_light_test.cpp picture_options_test.cpp turntable_test.cpp
+  SOURCES arguments_test.cpp completion_text_test.cpp help_text_test.cpp bake_scenes_test.cpp camera_words_test.cpp picture_light_test.cpp picture_options_test.cpp turntable_test.cpp
   LIBRARIES cotan_app cotan_scene fmt::fmt)
 # The manual's pages, and completion by the shells themselves.
 foreach(part man words bash zsh fish)

@@ -141,6 +141,70 @@ TEST(GltfBounds, geometryTakesTheBytesOfItsArraysAndNoMore)
     }
 }
 
+// The first set of joints comes with its vertices; others, morph targets and corners of flat triangles count again.
+TEST(GltfBounds, whatAsksForVerticesAgainCountsThemAgain)
+{
+    struct Row {
+        const char* what;
+        void (*add)(Zeros&);
+        std::size_t vertices, last; // in all, and of what comes last
+    };
+    const auto joints = [](Zeros& z) {
+        z.give("JOINTS_0", "VEC4", kUByte), z.give("WEIGHTS_0", "VEC4");
+        z.give("JOINTS_1", "VEC4", kUByte), z.give("WEIGHTS_1", "VEC4");
+    };
+    for (const Row& row :
+         {Row{"vertices alone", [](Zeros&) {}, 60, 60},
+          {"joints", [](Zeros& z) { z.give("JOINTS_0", "VEC4", kUByte), z.give("WEIGHTS_0", "VEC4"); }, 60, 60},
+          {"two sets of joints", joints, 120, 60},
+          {"three sets of joints",
+           [](Zeros& z) {
+               for (const char* const set : {"0", "1", "2"}) {
+                   z.give(("JOINTS_" + std::string(set)).c_str(), "VEC4", kUByte);
+                   z.give(("WEIGHTS_" + std::string(set)).c_str(), "VEC4");
+               }
+           },
+           180, 60},
+          {"two targets",
+           [](Zeros& z) {
+               const json target = {{"POSITION", z.of("VEC3")}};
+               primitive(z.g)["targets"] = {target, target};
+           },
+           180, 60},
+          {"flat triangles of a strip",
+           [](Zeros& z) { primitive(z.g)["attributes"].erase("NORMAL"), primitive(z.g)["mode"] = 5; }, 60 + 3 * 58,
+           3 * 58}}) {
+        Zeros z(60);
+        z.give("NORMAL", "VEC3");
+        row.add(z);
+        LoadLimits limits;
+        limits.vertices = row.vertices;
+        EXPECT_EQ(refusalOf(z.g, limits), "") << row.what;
+        --limits.vertices;
+        const std::string said = refusalOf(z.g, limits), limit = std::to_string(limits.vertices);
+        EXPECT_NE(said.find("the limit is " + limit + " vertices in all, this one brings " + std::to_string(row.last)),
+                  std::string::npos)
+            << row.what << ": " << said;
+    }
+}
+
+// Columns of matrices begin at multiples of four bytes (glTF 2.0, 3.6.2.4).
+TEST(GltfBounds, anElementOfEachTypeAndComponentTakesItsBytes)
+{
+    const std::tuple<const char*, int, std::size_t> cases[] = {
+        {"SCALAR", kUByte, 1}, {"VEC3", kUByte, 3},  {"VEC4", kUShort, 8},  {"MAT2", kUByte, 8},   {"MAT2", kUShort, 8},
+        {"MAT2", kFloat, 16},  {"MAT3", kUByte, 12}, {"MAT3", 5120, 12},    {"MAT3", kUShort, 24}, {"MAT3", 5122, 24},
+        {"MAT3", kFloat, 36},  {"MAT4", kUByte, 16}, {"MAT4", kUShort, 32}, {"MAT4", kFloat, 64}};
+    for (const auto& [type, component, bytes] : cases)
+        for (const std::size_t missing : {0, 1}) {
+            Gltf g = square();
+            const int view = g.view(std::vector<std::uint8_t>(3 * bytes - missing, 0));
+            g.accessor({{"bufferView", view}, {"componentType", component}, {"type", type}, {"count", 3}});
+            const std::string said = refusalOf(g, {});
+            EXPECT_EQ(said == "", missing == 0) << type << component << said;
+        }
+}
+
 TEST(GltfBounds, imagesOfAllAndOfOneAreHeldToTheirBytes)
 {
     Gltf g = square();

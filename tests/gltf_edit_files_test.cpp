@@ -191,6 +191,25 @@ TEST(GltfFiles, newImagesBesideAModelGetPlainNamesThatAreFree)
     EXPECT_EQ(same, uris);
 }
 
+// An image that was read is never replaced, not even where it is the model's own.
+TEST(GltfFiles, newImagesBesideAModelDoNotReplaceThoseThatItWasReadFrom)
+{
+    const TemporaryFolder folder;
+    const stdfs::path source = writeModel(folder), model = folder.path / "m.gltf";
+    json root = json::parse(wholeFile(source));
+    root["images"][1] = {{"uri", "m-c.png"}, {"name", "c"}};
+    const std::string before = flatPng() + "read";
+    folder.write("m-c.png", before);
+    folder.write("m.gltf", root.dump());
+    auto document = cotan::openGltfDocument(model);
+    ASSERT_TRUE(document);
+    cotan::replaceGltfImage(*document, 1, bytesOf(flatPng()), "image/png");
+    ASSERT_TRUE(cotan::writeGltf(*document, model));
+    EXPECT_EQ(readBack(model).root["images"][1]["uri"], "m-c-2.png");
+    EXPECT_EQ(wholeFile(folder.path / "m-c.png"), before);
+    EXPECT_EQ(wholeFile(folder.path / "m-c-2.png"), flatPng());
+}
+
 // Whatever was there, it goes; only the images that it calls its own may go with it.
 TEST(GltfFiles, aModelThatIsReplacedMayHaveNoImagesOrBeNoModel)
 {

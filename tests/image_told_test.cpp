@@ -271,6 +271,55 @@ TEST_F(PictureFile, whatDoesNotFitOnADeviceIsToldByEveryWriter)
     EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder), {}), 6);
 }
 
+// What ends a PNG is written last: where its bytes are the first that do not fit, ending it says so.
+TEST_F(PictureFile, theEndOfAPngThatDoesNotFitIsTold)
+{
+    const auto full = folder / "full.png", whole = folder / "whole.png";
+    std::filesystem::create_symlink("/dev/full", full);
+    int tried = 0;
+    for (int width = 1320; width < 1366; ++width) {
+        Image image = makeImage(width, 1, PixelType::unorm8);
+        std::uint32_t state = 7;
+        for (std::size_t i = 0; i < 4 * image.pixelCount(); ++i) // which no compression makes small
+            image.bytes8()[i] = std::uint8_t((state = state * 1664525u + 1013904223u) >> 24);
+        const auto writeTo = [&](const std::filesystem::path& file) {
+            auto rows = createRows(file, {width, 1});
+            if (!rows)
+                return Status(rows.error());
+            const Status written = (*rows)->write(image);
+            return written ? (*rows)->finish() : written;
+        };
+        ASSERT_TRUE(writeTo(whole));
+        const auto size = std::filesystem::file_size(whole);
+        if (size <= 4096 || size > 4096 + 12) // of the buffer, and of the chunk at the end
+            continue;
+        ++tried;
+        const Status ended = writeTo(full);
+        EXPECT_EQ(textOf(ended), full.string() + ": expected to write the picture, libpng found: writing failed");
+        EXPECT_TRUE(!ended && ended.error().kind == ErrorKind::output);
+    }
+    EXPECT_GT(tried, 0);
+}
+
+// What a format of 8 bits cannot hold is rounded as toUnorm8 rounds it; no number at all is 0.
+TEST_F(PictureFile, formatsOfEightBitsTakeTheNearestOfWhatTheyAreGiven)
+{
+    Image floats = makeImage(64, 9, PixelType::float32), wide = makeImage(64, 9, PixelType::unorm16);
+    for (std::size_t i = 0; i < 4 * floats.pixelCount(); ++i) {
+        floats.floats()[i] = (float(i % 1021) - 200) / 600;
+        wide.words()[i] = std::uint16_t(i * 28); // up to 64484
+    }
+    floats.floats()[5] = std::numeric_limits<float>::quiet_NaN();
+    floats.floats()[9] = std::numeric_limits<float>::infinity();
+    for (const Image& image : {floats, wide}) {
+        ASSERT_TRUE(writeImage(folder / "a.tga", image));
+        const auto found = readImage(folder / "a.tga");
+        ASSERT_TRUE(found);
+        EXPECT_EQ(found->type, PixelType::unorm8);
+        EXPECT_EQ(found->data, toUnorm8(image).data);
+    }
+}
+
 // Of pictures that are read whole, each texel says whether there is alpha: 8 bits and floats, the first and the last.
 TEST_F(PictureFile, rowsOfAWholePictureHaveAlphaWhereATexelHas)
 {

@@ -114,5 +114,30 @@ TEST(TangentSpaceLighting, withoutMapOrTangentsIsLightingInTheWorld)
               0);
 }
 
+// Of lights, that is; the environment is read in the world, with stretched highlights.
+TEST(TangentSpaceLighting, doesNotStretchHighlightsAndFollowsNoRays)
+{
+    Scene little = squareScene();
+    little.materials[0].metallic = 1;
+    little.materials[0].anisotropy.strength = 0.25f;
+    Scene much = little;
+    much.materials[0].anisotropy.strength = 0.9f;
+    much.materials[0].anisotropy.rotation = 0.7f;
+    View view = litView(Shading::pbr, Lighting::tangentPixel, Frame::orthonormal);
+    view.environment = false;
+    const auto draw = [](const Scene& scene, const View& v) { return rendered(scene, v).data; };
+    EXPECT_EQ(draw(little, view), draw(much, view));
+    View other = view;
+    other.normalMapping = NormalMapping::rays;
+    EXPECT_EQ(draw(much, view), draw(much, other));
+    other.lighting = view.lighting = Lighting::world;
+    EXPECT_NE(draw(little, view), draw(much, view));
+    EXPECT_NE(draw(much, view), draw(much, other));
+    other.shading = view.shading = Shading::blinnPhong;
+    EXPECT_EQ(draw(much, view), draw(much, other));
+    view = litView(Shading::pbr, Lighting::tangentPixel, Frame::orthonormal);
+    EXPECT_NE(draw(little, view), draw(much, view));
+}
+
 } // namespace
 } // namespace cotan

@@ -158,6 +158,14 @@ TEST(ProgressLine, countsItsStepsAndNeverSays100)
         }
     });
     EXPECT_EQ(parts, (Words{"p: 0 %", "p: 25 %", "p: 25 %", "p: 50 %", "p: 50 %", ""}));
+    const auto begun = drawnBy(80, 2, "p", [](ProgressLine& progress, const auto& later) {
+        const Progress within = progress.within();
+        for (const double share : {0.0, 0.5}) { // of the first step
+            later();
+            within(share);
+        }
+    });
+    EXPECT_EQ(begun, (Words{"p: 0 %", "p: 0 %", "p: 25 %", ""}));
     const auto unknown = drawnBy(80, 0, "of who knows how many", [](ProgressLine& progress, const auto& later) {
         later();
         progress.step();

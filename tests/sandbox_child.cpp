@@ -154,6 +154,18 @@ const std::map<std::string, void (*)(const ReaderRequest&)> kActs = {
          std::abort();
      }},
     {"leave", [](const ReaderRequest&) { std::exit(0); }},
+    {"say",
+     [](const ReaderRequest&) {
+         std::fputs(std::getenv("SANDBOX_CHILD_SAYS"), stderr);
+         std::exit(0);
+     }},
+    {"plane",
+     [](const ReaderRequest&) {
+         Scene scene = plane();
+         const char* const instances = std::getenv("SANDBOX_CHILD_INSTANCES");
+         scene.instances.resize(instances ? std::size_t(std::atoi(instances)) : 1, scene.instances.at(0));
+         sendAll(sceneBytes(scene));
+     }},
     {"spin",
      [](const ReaderRequest& request) {
          limitTo(budgetFor(request.limits, 0, 0), budgetFor(request.limits, SIZE_MAX, SIZE_MAX));

@@ -1,12 +1,15 @@
 // Readers in a child process: what may go wrong there, and what is left afterwards. sandbox_child.cpp plays the child.
 #include <algorithm>
+#include <cerrno>
 #include <chrono>
 #include <csignal>
 #include <cstdlib>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <thread>
 
+#include <fcntl.h>
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
@@ -15,6 +18,7 @@
 #include "cotan/image.hpp"
 #include "cotan/model.hpp"
 #include "files/sandbox/confine.hpp"
+#include "files/sandbox/process.hpp"
 #include "run_tool.hpp"
 
 namespace cotan {
@@ -254,6 +258,123 @@ TEST_F(Sandboxed, theReaderGoesWhenItsParentIsKilledOrInterrupted)
         EXPECT_TRUE(isGone(reader)) << signal;
     }
     ::unsetenv("SANDBOX_CHILD_PID");
+}
+
+// As many bytes as may be kept, and three dots behind them where there were more.
+TEST(SandboxText, isCutAtItsLimitAndHasSpacesForWhatCannotBeShown)
+{
+    EXPECT_EQ(printable("abcd", 4), "abcd");
+    EXPECT_EQ(printable("abcde", 4), "abcd...");
+    EXPECT_EQ(printable("", 0), "");
+    EXPECT_EQ(printable("\n\t\x1f !~\x7f\xc3\xa4", 99), "    !~ \xc3\xa4");
+    EXPECT_EQ(printable(std::string("a\0b", 3), 3), "a b");
+}
+
+// What the caller allowed holds for what the child sends, too: a plane of 25 vertices and 32 triangles.
+TEST_F(Sandboxed, aSceneOverTheLimitsOfTheCallerIsRefused)
+{
+    const Act acting("plane");
+    const std::string name = model.string() + ": ";
+    const auto told = [&] {
+        const auto scene = loadScene(model, limits);
+        return scene ? "accepted" : scene.error().message;
+    };
+    EXPECT_EQ(told(), "accepted");
+    limits.vertices = 25, limits.triangles = 32;
+    EXPECT_EQ(told(), "accepted");
+    limits.vertices = 24;
+    EXPECT_EQ(told(), name + "over the limit of 24 vertices");
+    limits.vertices = 25, limits.triangles = 31;
+    EXPECT_EQ(told(), name + "over the limit of 31 triangles");
+    ::setenv("SANDBOX_CHILD_INSTANCES", "25", 1);
+    limits.triangles = 32;
+    EXPECT_EQ(told(), "accepted");
+    ::setenv("SANDBOX_CHILD_INSTANCES", "26", 1);
+    EXPECT_EQ(told(), name + "over the limit of 25 instances");
+    ::unsetenv("SANDBOX_CHILD_INSTANCES");
+}
+
+// What it said before it ended: the first line, of 160 bytes at most; and of all it said 4096.
+TEST_F(Sandboxed, theFirstLineOfWhatAReaderSaidIsToldInPart)
+{
+    const std::string the = "the reader of OBJ files ended without an answer";
+    const auto told = [&](const std::string& said) {
+        ::setenv("SANDBOX_CHILD_SAYS", said.c_str(), 1);
+        const std::string message = problem("say");
+        ::unsetenv("SANDBOX_CHILD_SAYS");
+        return message;
+    };
+    EXPECT_EQ(told(""), the);
+    EXPECT_EQ(told("\nmore"), the);
+    EXPECT_EQ(told("one\ntwo"), the + ": one");
+    EXPECT_EQ(told(std::string(160, 'a')), the + ": " + std::string(160, 'a'));
+    EXPECT_EQ(told(std::string(161, 'a')), the + ": " + std::string(160, 'a') + "...");
+}
+
+TEST_F(Sandboxed, theReaderIsNamedForItsKindOfFile)
+{
+    const Act acting("leave");
+    const auto told = [&](const char* name) {
+        const std::string file = (folder / name).string();
+        std::ofstream(file) << "x";
+        const auto scene = loadScene(file, limits);
+        EXPECT_FALSE(scene);
+        return scene ? "" : scene.error().message.substr(std::min(file.size(), scene.error().message.size()));
+    };
+    EXPECT_EQ(told("a.PLY"), ": the reader of PLY files ended without an answer");
+    EXPECT_EQ(told("b.3ds"), ": the reader of 3DS files ended without an answer");
+    const auto picture = [&](const char* name) {
+        std::vector<std::byte> bytes(100, std::byte(0));
+        bytes[0] = std::byte('B'), bytes[1] = std::byte('M');
+        const auto image = decodeImage(bytes, name, limits);
+        return image ? "" : image.error().message;
+    };
+    EXPECT_EQ(picture("a.b"), "a.b: the reader of B pictures ended without an answer");
+    EXPECT_EQ(picture("a."), "a.: the reader of pictures ended without an answer");
+    EXPECT_EQ(picture("a"), "a: the reader of pictures ended without an answer");
+    EXPECT_EQ(picture("a.long"), "a.long: the reader of LONG pictures ended without an answer");
+    EXPECT_EQ(picture("a.longer"), "a.longer: the reader of pictures ended without an answer");
+}
+
+// A shell tells what it was started with: its words, folder, variables and input.
+TEST(Spawned, aProgramHasTheWordsFolderVariablesAndInputThatItIsGiven)
+{
+    const TemporaryFolder folder;
+    const auto run = [&](SpawnRequest request, const std::string& script) -> std::string {
+        const auto out = folder / "out";
+        const Descriptor output(::open(out.c_str(), O_CREAT | O_TRUNC | O_WRONLY | O_CLOEXEC, 0600));
+        request.program = "/bin/sh";
+        request.words.insert(request.words.begin(), {"-c", script, "name"});
+        request.output = output.get();
+        pid_t process = -1;
+        if (const int problem = spawn(request, process))
+            return std::strerror(problem);
+        int status = 0;
+        ::waitpid(process, &status, 0);
+        return readWhole(out) + (WIFEXITED(status) ? std::to_string(WEXITSTATUS(status)) : "killed");
+    };
+    ::setenv("COTAN_TEST_A", "ours", 1);
+    ::setenv("COTAN_TEST_AB", "ours too", 1);
+    EXPECT_EQ(run({.program{}, .words = {"first", "second"}}, "echo $0 $2 $1; exit 3"), "name second first\n3");
+    EXPECT_EQ(run({}, "echo $COTAN_TEST_A; echo $COTAN_TEST_AB >&2; pwd"),
+              "ours\nours too\n" + std::filesystem::current_path().string() + "\n0");
+    EXPECT_EQ(run({.program{},
+                   .words{},
+                   .folder = folder.path(),
+                   .environment = {{"COTAN_TEST_A", "another"}, {"COTAN_TEST_C", "a = b"}}},
+                  "echo $COTAN_TEST_A $COTAN_TEST_AB $COTAN_TEST_C; env | grep -c ^COTAN_TEST_A=; pwd"),
+              "another ours too a = b\n1\n" + std::filesystem::canonical(folder.path()).string() + "\n0");
+    EXPECT_EQ(run({}, "cat; echo end"), "end\n0"); // nothing is there
+    std::ofstream(folder / "in") << "given\n";
+    const Descriptor input(::open((folder / "in").c_str(), O_RDONLY | O_CLOEXEC));
+    EXPECT_EQ(run({.program{}, .words{}, .input = input.get()}, "cat; echo end"), "given\nend\n0");
+    ::signal(SIGUSR1, SIG_IGN); // which programs would inherit
+    EXPECT_EQ(run({}, "kill -USR1 $$; echo alive"), "killed");
+    ::signal(SIGUSR1, SIG_DFL);
+    ::unsetenv("COTAN_TEST_A");
+    ::unsetenv("COTAN_TEST_AB");
+    pid_t none = -1;
+    EXPECT_EQ(spawn({.program = folder / "none", .words = {}, .output = 1}, none), ENOENT);
 }
 
 TEST(SandboxWord, isRefusedInOneLineWhereNobodyListens)

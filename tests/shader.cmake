@@ -1,4 +1,4 @@
-cotan_test(shader_text_test SOURCES shader_text_test.cpp shader_rules_test.cpp LIBRARIES cotan_shader_text)
+cotan_test(shader_text_test SOURCES shader_text_test.cpp shader_rules_test.cpp shader_simplified_test.cpp LIBRARIES cotan_shader_text)
 target_include_directories(shader_text_test PRIVATE ${PROJECT_SOURCE_DIR}/src/shader_text) # the preprocessor
 # What a new frame still lacks.
 cotan_test(frame_table_test SOURCES frame_table_test.cpp LIBRARIES cotan_shader_text)

@@ -186,36 +186,6 @@ TEST(WithoutStructs, aNameThatIsTakenAndAStructBehindAConditionAreRefused)
         std::runtime_error);
 }
 
-// ---- simplified functions -------------------------------------------------------------------
-
-// The body of a function f(cotan_real x), simplified, in GLSL.
-std::string simplified(const std::string& body)
-{
-    Module module;
-    std::map<std::string, Expression> constants;
-    parsePart(module, constants, "test", "COTAN_FUNCTION cotan_real f(cotan_real x)\n{\n" + body + "}\n",
-              "COTAN_LANG_GLSL");
-    simplify(module.functions.at(0));
-    const std::string text = print(module, Language::glsl);
-    return text.substr(text.find("{\n") + 2);
-}
-
-TEST(SimplifiedText, aDeclarationTakesTheAssignmentBehindItUnlessThatReadsIt)
-{
-    EXPECT_EQ(simplified("    cotan_real a = x;\n    a = x * x;\n    return a * a;\n"),
-              "    float a = x * x;\n    return a * a;\n}\n");
-    const std::string reading = "    float a = x;\n    a = a * x;\n    return a * a;\n}\n";
-    EXPECT_EQ(simplified("    cotan_real a = x;\n    a = a * x;\n    return a * a;\n"), reading);
-}
-
-TEST(SimplifiedText, aVariableThatIsReadAgainKeepsItsName)
-{
-    EXPECT_EQ(simplified("    cotan_real a = x * x;\n    cotan_real b = a;\n    return b * b;\n"),
-              "    float b = x * x;\n    return b * b;\n}\n");
-    EXPECT_EQ(simplified("    cotan_real a = x * x;\n    cotan_real b = a;\n    return a * b;\n"),
-              "    float a = x * x;\n    float b = a;\n    return a * b;\n}\n");
-}
-
 // ---- options --------------------------------------------------------------------------------
 
 TEST(ChosenText, theStoredFormIsWrittenOutAndTheOthersAreGone)

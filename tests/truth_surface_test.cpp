@@ -2,6 +2,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <map>
+#include <string>
 
 #include "truth/patch.hpp"
 #include "truth/tessellation.hpp"
@@ -93,6 +95,71 @@ TEST(TruthSurface, outwardNormalsPointAwayFromTheAxis)
             EXPECT_LT(glm::length(p.normal - p.position), 1e-10) << surface.name; // a unit sphere
         }
     }
+}
+
+// What is said of each of them in surface.hpp, by formulas of their own.
+TEST(TruthSurface, eachHasTheShapeAndTheCoordinatesOfItsName)
+{
+    std::map<std::string, const Surface*> named;
+    for (const Surface& surface : surfaces())
+        named[surface.name] = &surface;
+    ASSERT_EQ(named.size(), 4u);
+    const double pi = std::acos(-1.0);
+    Random random(4);
+    for (int i = 0; i < 50; ++i) {
+        const double s = random.unit(), t = random.unit(), around = 2 * pi * s;
+        const glm::dvec3 ring(std::cos(around), std::sin(around), 0), up(0, 0, 1);
+        const SurfacePoint sphere = named["sphere"]->at({s, t});
+        const double latitude = (t - 0.5) * 150 * pi / 180;
+        EXPECT_NEAR(glm::length(sphere.position - (ring * std::cos(latitude) + up * std::sin(latitude))), 0, 1e-12);
+        EXPECT_NEAR(glm::length(sphere.normal - sphere.position), 0, 1e-9);
+        EXPECT_NEAR(glm::length(sphere.dpdv), 2 * pi, 1e-9); // along meridians as at the equator
+        const SurfacePoint mercator = named["mercator"]->at({s, t});
+        EXPECT_NEAR(glm::length(mercator.position), 1, 1e-12);
+        EXPECT_NEAR(std::atanh(mercator.position.z), 4 * (t - 0.5), 1e-9); // the inverse of Mercator's projection
+        EXPECT_NEAR(glm::dot(glm::normalize(glm::dvec3(mercator.position.x, mercator.position.y, 0)), ring), 1, 1e-12);
+        EXPECT_NEAR(glm::length(mercator.dpdu), glm::length(mercator.dpdv), 1e-9); // conformal
+        EXPECT_NEAR(glm::dot(mercator.dpdu, mercator.dpdv), 0, 1e-9);
+        const SurfacePoint torus = named["torus"]->at({s, t});
+        const double tube = 2 * pi * t;
+        EXPECT_NEAR(glm::length(torus.position - (ring * (1 + 0.4 * std::cos(tube)) + up * (0.4 * std::sin(tube)))), 0,
+                    1e-12);
+        EXPECT_NEAR(glm::length(torus.normal - (ring * std::cos(tube) + up * std::sin(tube))), 0, 1e-9);
+        EXPECT_NEAR(glm::length(torus.dpdv), 2 * pi, 1e-9);
+        // The spout is a mirror image of itself, narrower the further along.
+        const Surface& spout = *named["spout"];
+        const glm::dvec3 here = spout.at({s, t}).position, there = spout.at({1 - s, t}).position;
+        EXPECT_NEAR(glm::length(here - there * glm::dvec3(1, -1, 1)), 0, 1e-12);
+        EXPECT_EQ(spout.uv({s, t}), glm::dvec2(s + t * 0.25, 1.5 * t));
+    }
+    // Cubic Bezier curves: a quarter of the ends and three of the middle points, at a half.
+    const Surface& spout = *named["spout"];
+    const auto expectAt = [&](double s, double t, glm::dvec3 expected) {
+        EXPECT_NEAR(glm::length(spout.at({s, t}).position - expected), 0, 1e-12) << s << " " << t;
+    };
+    const double height = 0.75 * 1.33; // of the half tube, over its radius
+    expectAt(0, 0, {0, -0.6, 0});
+    expectAt(1, 0, {0, 0.6, 0});
+    expectAt(0.5, 0, {0.6 * 0.1 * height, 0, 0.6 * height});
+    expectAt(0, 1, {1.8, -0.15, 1.1});
+    expectAt(0.5, 1, {1.8 - 0.15 * 0.3 * height, 0, 1.1 + 0.15 * 0.95 * height});
+    expectAt(0, 0.5, {(3 * 0.8 + 3 * 1.2 + 1.8) / 8, -(0.6 + 3 * 0.5 + 3 * 0.25 + 0.15) / 8, (0.3 + 2.7 + 1.1) / 8});
+    const double outX = 0.06 - 3 * 0.15 - 3 * 0.2 - 0.045, outZ = 0.6 + 3 * 0.475 + 3 * 0.15 + 0.1425;
+    expectAt(0.5, 0.5, {7.8 / 8 + height * outX / 8, 0, 4.1 / 8 + height * outZ / 8});
+}
+
+// A parallelogram turned over, whose gradients of uv have the lengths 1 and 2: the longer one is 2.
+TEST(TruthSurface, aFlatPatchIsItsMatrixAndItsUnitsAreThoseOfTheLongerGradient)
+{
+    const Surface patch = patchSurface({"patch", 0, 1, 0.5, 0});
+    const SurfacePoint p = patch.at({0.25, 0.75});
+    EXPECT_EQ(p.position, glm::dvec3(0.75, 0.125, 0));
+    EXPECT_EQ(p.normal, glm::dvec3(0, 0, 1)); // though u and v run the other way round
+    EXPECT_NEAR(glm::length(p.gradU - glm::dvec3(0, 2, 0)), 0, 1e-12);
+    EXPECT_NEAR(glm::length(p.gradV - glm::dvec3(1, 0, 0)), 0, 1e-12);
+    EXPECT_NEAR(patch.unitsPerUv(), 0.5, 1e-12);
+    const glm::dvec3 m(0.3, -0.4, 1); // s = 1/2: (0.3 * 2 / 2) along y, -0.4 / 2 along x
+    EXPECT_NEAR(glm::length(truthS(p, m) - glm::normalize(glm::dvec3(-0.2, 0.3, 1))), 0, 1e-12);
 }
 
 TEST(Tessellation, trianglesFaceTheirNormalsAndCoverTheParameters)

@@ -133,6 +133,64 @@ TEST(ViewerPictures, aSlowOneIsDrawnSmallerWhileTheCameraMovesAndWholeWhenItRest
     EXPECT_EQ(at.parts.pictures.shown(s).picture->height, 640);
 }
 
+// Scenes, light and the ground are kept between images: each change of what they are made of is drawn, and is gone when
+// it is taken back.
+TEST(ViewerPictures, eachChangeIsDrawnAndGoneWhenItIsTakenBack)
+{
+    State dim = HeadlessSession::small();
+    dim.picture.environment = "none"; // which takes no time
+    HeadlessSession at(std::move(dim));
+    test::write(test::quad(2), at.folder.path());
+    const auto paint = [&](const char* name, int red, int green, int blue) {
+        Image image = makeImage(2, 2, PixelType::unorm8);
+        for (std::size_t i = 0; i < 4; ++i) {
+            std::uint8_t* const texel = image.bytes8() + 4 * i;
+            texel[0] = std::uint8_t(red), texel[1] = std::uint8_t(green), texel[2] = std::uint8_t(blue);
+            texel[3] = 255;
+        }
+        EXPECT_TRUE(writeImage(at.folder / name, image));
+        return at.in(name);
+    };
+    const std::string color = paint("base.png", 200, 40, 90), dark = paint("dark.png", 20, 30, 40);
+    const std::string normal = paint("n.png", 190, 90, 220);
+    State& s = at.state();
+    s.size = {16, 12};
+    s.picture.exposure = 0.5f;
+    s.statisticsShown = false;
+    at.load(at.in("quad.gltf"));
+    const auto drawn = [&] {
+        at.draw();
+        EXPECT_EQ(s.problem, "");
+        return at.parts.pictures.shown(s).picture->data;
+    };
+    const auto before = drawn();
+    const std::vector<std::pair<const char*, std::function<void()>>> changes = {
+        {"base colour", [&] { s.picture.maps.baseColor = color; }},
+        {"roughness", [&] { s.picture.maps.metallicRoughness = dark; }},
+        {"occlusion", [&] { s.picture.maps.occlusion = dark; }},
+        {"normal map", [&] { s.a.normalMap = normal; }},
+        {"convention", [&] { s.a.normalMap = normal, s.a.convention = "green-down"; }},
+        {"frame", [&] { s.a.frame = "cotangent"; }},
+        {"an inspection", [&] { s.show = "checker"; }},
+        {"light", [&] { s.picture.noShadows = true, s.picture.toneMapping = ToneMapping::none; }},
+        {"camera", [&] { s.camera.eye += glm::vec3(0.5f, 0.25f, 0), s.cameraMoved = true; }}};
+    const PictureOptions picture = s.picture;
+    const Side side = s.a;
+    std::vector<std::vector<std::byte>> all;
+    for (const auto& [what, change] : changes) {
+        change();
+        all.push_back(drawn());
+        EXPECT_NE(all.back(), before) << what;
+        s.picture = picture, s.a = side, s.show = "shaded";
+        if (s.cameraMoved)
+            resetCamera(s);
+        EXPECT_EQ(drawn(), before) << what;
+    }
+    for (std::size_t i = 0; i < all.size(); ++i)
+        for (std::size_t k = 0; k < i; ++k)
+            EXPECT_NE(all[i], all[k]) << changes[i].first << ", " << changes[k].first;
+}
+
 TEST(ViewerPictures, ofFloatsAreLightBeforeTheToneCurve)
 {
     HeadlessSession at;

@@ -20,7 +20,7 @@ TESTS = {
     "apps/cotan": "words_test help_test cli_test command_line help_files:man help_files:words help_files:bash help_files:zsh help_files:fish output_bytes:maps output_bytes:meshes output_bytes:pictures map_command_test bake_command_test tangents_command_test judgement_command_test files_test batch_test batch_command_test",
     "apps/viewer": "viewer_test view_window_test",
     "bindings/js": "web",
-    "bindings/python": "python:arrays python:bake python:maps python:models python:geometry python:render python:work python:json python:options",
+    "bindings/python": "python:arrays python:bake python:maps python:models python:geometry python:render python:work python:json python:options python:package python:dask",
     "shaders/cotan": "core_test tangents_test reference_test frame_table_test shader_text_test",
     "apps/lab": "figures_test lighting_test accuracy_test cost_test report_test output_bytes:lab",
     "src/bake": "bake_test lint_test judgement_test convert_test auto_frame_test bake_command_test tangents_gltf_test python:bake",
@@ -48,7 +48,7 @@ judgement_command_test judgement_test auto_frame_test lighting_test lint_test ma
 render_test report_test sandbox_test shader_text_test shapes_test tangents_command_test tangents_gltf_test tangents_test viewer_test
 words_test bake_command_test batch_command_test c_facts c_api command_line output_bytes:maps output_bytes:meshes output_bytes:pictures output_bytes:lab
 output_bytes:shader_text json_fields python:arrays python:bake python:geometry
-python:json python:maps python:models python:options python:render python:types python:work view_window_test
+python:dask python:json python:maps python:models python:options python:package python:render python:types python:work view_window_test
 option_effects:map option_effects:render option_effects:compare
 option_effects:bake option_effects:convert option_effects:others two_renderers
 file_fields:0 file_fields:1 file_fields:2 file_fields:3""".split()

@@ -60,7 +60,7 @@ struct MeshSource {
     // The uv near zero: values minus origin (xy set 0, zw set 1). Differences of uv far from zero would lose their
     // digits in the rasteriser.
     std::array<std::vector<glm::vec2>, 2> texcoords;
-    glm::vec4 texcoordOrigin{0};
+    glm::vec4 texcoordOrigin{};
     std::vector<std::uint32_t> indices; // of the triangles that can be drawn
 
     explicit MeshSource(const Mesh& source) : mesh(&source), texcoords(source.texcoords)

@@ -1,0 +1,199 @@
+// Textures byte by byte, as KTX 2.0 and DDS define them.
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <fstream>
+
+#include "cotan/convention.hpp"
+#include "map_files/texture_file.hpp"
+#include "run_tool.hpp"
+
+namespace cotan::maps {
+namespace {
+
+using test::readWhole, test::TemporaryFolder;
+
+// Numbers in the order of x86's bytes.
+class BytesOfFile {
+public:
+    explicit BytesOfFile(std::string text) : text_(std::move(text)) {}
+    std::uint64_t number(std::size_t at, std::size_t size) const
+    {
+        std::uint64_t value = 0;
+        for (std::size_t i = size; i-- > 0;)
+            value = value << 8 | static_cast<unsigned char>(text_.at(at + i));
+        return value;
+    }
+    std::uint64_t word(std::size_t at) const { return number(at, 4); }
+    std::string text(std::size_t at, std::size_t size) const { return text_.substr(at, size); }
+    std::size_t size() const { return text_.size(); }
+
+private:
+    std::string text_;
+};
+
+struct Format {
+    TexelCode code;
+    std::uint32_t vulkan, dxgi, bytes, model;
+    std::vector<std::uint32_t> channels;
+};
+
+// VkFormat, DXGI_FORMAT, bytes of a pixel or block, KHR_DF_MODEL, KHR_DF_CHANNEL.
+const std::vector<Format> kFormats = {{TexelCode::rgba8, 37, 28, 4, 1, {0, 1, 2, 15}},
+                                      {TexelCode::bc5, 141, 83, 16, 132, {0, 1}},
+                                      {TexelCode::bc7, 145, 98, 16, 134, {0}},
+                                      {TexelCode::bc4, 139, 80, 8, 131, {0}}};
+
+// Of 6 x 5, 3 x 2 and 1 x 1, no two bytes beside each other the same.
+std::vector<TextureLevel> levelsOf(const Format& format)
+{
+    std::vector<TextureLevel> levels{{6, 5, {}}, {3, 2, {}}, {1, 1, {}}};
+    for (TextureLevel& level : levels) {
+        const bool blocks = format.code != TexelCode::rgba8;
+        const int units = blocks ? (level.width + 3) / 4 * ((level.height + 3) / 4) : level.width * level.height;
+        for (std::size_t i = 0; i < std::size_t(units) * format.bytes; ++i)
+            level.texels.push_back(std::byte((i * 7 + std::size_t(level.width)) & 0xff));
+    }
+    return levels;
+}
+
+std::string textOf(const std::vector<std::byte>& bytes)
+{
+    return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
+}
+
+TEST(TextureBytes, ofKtx2AreThoseOfItsSpecification)
+{
+    const TemporaryFolder folder;
+    for (const Format& format : kFormats)
+        for (const std::string frame : {"", "smooth"}) {
+            const auto levels = levelsOf(format);
+            ASSERT_TRUE(writeTextureFile(folder / "a.ktx2", format.code, levels, frame));
+            const BytesOfFile file(readWhole(folder / "a.ktx2"));
+            EXPECT_EQ(file.text(0, 12), "\xabKTX 20\xbb\r\n\x1a\n");
+            const bool blocks = format.code != TexelCode::rgba8;
+            const std::size_t channels = format.channels.size(), described = 4 + 24 + 16 * channels;
+            std::size_t at = 12;
+            for (const std::uint64_t word :
+                 {std::uint64_t(format.vulkan), std::uint64_t(1), std::uint64_t(6), std::uint64_t(5), std::uint64_t(0),
+                  std::uint64_t(0), std::uint64_t(1), std::uint64_t(3), std::uint64_t(0), std::uint64_t(80 + 3 * 24),
+                  std::uint64_t(described), std::uint64_t(80 + 3 * 24 + described)}) {
+                EXPECT_EQ(file.word(at), word) << at;
+                at += 4;
+            }
+            const std::size_t keysAt = file.word(56), keysSize = file.word(60);
+            EXPECT_EQ(file.number(64, 8), 0u); // no data for all levels together
+            EXPECT_EQ(file.number(72, 8), 0u);
+            // The descriptor.
+            at = 152;
+            EXPECT_EQ(file.word(at), described);
+            EXPECT_EQ(file.word(at + 4), 0u);
+            EXPECT_EQ(file.word(at + 8), 2u | (described - 4) << 16);
+            EXPECT_EQ(file.word(at + 12), format.model | 1u << 8 | 1u << 16); // BT.709, linear, no flags
+            EXPECT_EQ(file.word(at + 16), blocks ? 0x0303u : 0u);
+            EXPECT_EQ(file.number(at + 20, 8), format.bytes);
+            const std::size_t bits = format.bytes * 8 / channels;
+            for (std::size_t c = 0; c < channels; ++c) {
+                const std::size_t sample = at + 28 + 16 * c;
+                EXPECT_EQ(file.word(sample), c * bits | (bits - 1) << 16 | std::uint64_t(format.channels[c]) << 24);
+                EXPECT_EQ(file.number(sample + 4, 8), 0u);
+                EXPECT_EQ(file.word(sample + 12), blocks ? 0xffffffffu : 255u);
+            }
+            // Keys with their values, each begun at a multiple of four, in the order of the keys.
+            std::vector<std::string> keys;
+            for (at = keysAt; at < keysAt + keysSize;) {
+                const std::size_t size = file.word(at);
+                keys.push_back(file.text(at + 4, size));
+                for (std::size_t i = size; i % 4 != 0; ++i)
+                    EXPECT_EQ(file.number(at + 4 + i, 1), 0u);
+                at += 4 + (size + 3) / 4 * 4;
+            }
+            EXPECT_EQ(at, keysAt + keysSize);
+            std::vector<std::string> expected = {std::string("KTXorientation\0rd", 17) + '\0',
+                                                 std::string("KTXwriter\0cotan", 15) + '\0'};
+            if (!frame.empty())
+                expected.push_back(std::string("cotanFrame\0smooth", 17) + '\0');
+            EXPECT_EQ(keys, expected);
+            // The levels, the smallest first, each at a multiple of its blocks.
+            std::size_t end = keysAt + keysSize;
+            for (std::size_t i = 3; i-- > 0;) {
+                const std::size_t place = file.number(80 + 24 * i, 8), size = levels[i].texels.size();
+                EXPECT_EQ(place, (end + format.bytes - 1) / format.bytes * format.bytes) << i;
+                EXPECT_EQ(file.number(88 + 24 * i, 8), size);
+                EXPECT_EQ(file.number(96 + 24 * i, 8), size);
+                EXPECT_EQ(file.text(place, size), textOf(levels[i].texels)) << i;
+                for (; end < place; ++end)
+                    EXPECT_EQ(file.number(end, 1), 0u);
+                end = place + size;
+            }
+            EXPECT_EQ(file.size(), end);
+        }
+}
+
+TEST(TextureBytes, ofDdsAreAHeaderAndTheLevelsFromTheLargest)
+{
+    const TemporaryFolder folder;
+    for (const Format& format : kFormats) {
+        const auto levels = levelsOf(format);
+        ASSERT_TRUE(writeTextureFile(folder / "a.DDS", format.code, levels, "smooth"));
+        const BytesOfFile file(readWhole(folder / "a.DDS"));
+        EXPECT_EQ(file.text(0, 4), "DDS ");
+        EXPECT_EQ(file.word(12), 5u);
+        EXPECT_EQ(file.word(16), 6u);
+        EXPECT_EQ(file.word(28), 3u);
+        std::size_t at = 128;
+        if (format.code != TexelCode::rgba8) {
+            EXPECT_EQ(file.word(20), 2u * 2 * format.bytes); // four blocks
+            EXPECT_EQ(file.text(84, 4), "DX10");
+            EXPECT_EQ(file.word(128), format.dxgi);
+            at = 148;
+        }
+        for (const TextureLevel& level : levels) {
+            EXPECT_EQ(file.text(at, level.texels.size()), textOf(level.texels));
+            at += level.texels.size();
+        }
+        EXPECT_EQ(file.size(), at);
+    }
+}
+
+// x and y of one direction, by what a shader of each expansion takes for zero and for one.
+TEST(TextureBytes, blocksHaveTheCodesOfTheirExpansion)
+{
+    const double x = 0.3, y = -0.55;
+    Image image = makeImage(5, 9, PixelType::float32);
+    for (std::size_t i = 0; i < image.pixelCount(); ++i) {
+        float* const p = image.floats() + 4 * i;
+        p[0] = float((x + 1) / 2), p[1] = float((y + 1) / 2), p[2] = 0.9f, p[3] = 1;
+    }
+    const auto decoded = [](const std::byte* block, std::size_t texel) { // of BC4, its first end larger
+        const int a = std::to_integer<int>(block[0]), b = std::to_integer<int>(block[1]);
+        std::uint64_t bits = 0;
+        std::memcpy(&bits, block + 2, 6);
+        const int code = int(bits >> 3 * texel & 7);
+        return code == 0 ? double(a) : code == 1 ? double(b) : ((8 - code) * a + (code - 1) * b) / 7.0;
+    };
+    for (const auto& [expansion, zero, unit] : {std::tuple(Expansion::exact, 128.0, 127.0),
+                                                {Expansion::biased, 127.5, 127.5},
+                                                {Expansion::exact16, 255 * 32768 / 65535.0, 255 * 32767 / 65535.0}}) {
+        Convention to;
+        to.expansion = expansion;
+        const TextureLevel level = levelOf(image, TexelCode::bc5, to);
+        EXPECT_EQ(level.width, 5);
+        EXPECT_EQ(level.height, 9);
+        ASSERT_EQ(level.texels.size(), 2u * 3 * 16);
+        for (std::size_t texel : {0u, 7u, 15u}) {
+            EXPECT_NEAR(decoded(level.texels.data() + 80, texel), zero + unit * x, 0.5 / 7 + 1e-3);
+            EXPECT_NEAR(decoded(level.texels.data() + 88, texel), zero + unit * y, 0.5 / 7 + 1e-3);
+        }
+        EXPECT_EQ(levelOf(image, TexelCode::bc7, to).texels.size(), 2u * 3 * 16);
+    }
+    EXPECT_EQ(levelOf(image, TexelCode::rgba8, {}).texels, image.data);
+    const TextureLevel one = bc4Level(image);
+    EXPECT_EQ(one.width, 5);
+    EXPECT_EQ(one.height, 9);
+    ASSERT_EQ(one.texels.size(), 2u * 3 * 8);
+    EXPECT_NEAR(decoded(one.texels.data() + 40, 5), 255 * (x + 1) / 2, 0.5 / 7 + 1e-3);
+}
+
+} // namespace
+} // namespace cotan::maps
