@@ -71,7 +71,7 @@ public:
 
     std::size_t pwrite(const void* from, std::size_t count, std::int64_t offset) override
     {
-        if (!moveTo(offset, Use::writing))
+        if (count == 0 || !moveTo(offset, Use::writing)) // Targa asks for nothing of a null pointer
             return 0;
         const std::size_t done = std::fwrite(from, 1, count, file_.get());
         at_ += std::int64_t(done);
