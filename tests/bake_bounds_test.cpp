@@ -221,23 +221,6 @@ TEST(BakeBounds, aMapForAFrameSaysSoAndPaddingFillsAsFarAsItIsTold)
 
 // ---- crowds ---------------------------------------------------------------------------------
 
-// So many triangles in one plane, each a little other, all over (0.2, 0.2).
-Mesh crowd(int count)
-{
-    Mesh mesh;
-    for (int i = 0; i < count; ++i) {
-        const auto base = std::uint32_t(mesh.positions.size());
-        const float more = 1e-4f * float(i);
-        for (const glm::vec3 p : {glm::vec3(0, 0, 0), glm::vec3(1 + more, 0, 0), glm::vec3(0, 1 + more, 0)}) {
-            mesh.positions.push_back(p);
-            mesh.normals.push_back({0, 0, 1});
-            mesh.texcoords[0].push_back({p.x / 2, p.y / 2});
-        }
-        mesh.indices.insert(mesh.indices.end(), {base, base + 1, base + 2});
-    }
-    return mesh;
-}
-
 TEST(BakeBounds, raysMayMeetTwoThousandTrianglesOneBehindTheOther)
 {
     for (const auto& [count, message] :

@@ -73,17 +73,7 @@ TEST(BakeCrowded, ofEqualTrianglesTheMapIsThatOfOne)
 
 TEST(BakeCrowded, thousandsThatAreNotEqualAreRefused)
 {
-    Mesh mesh;
-    for (int i = 0; i < kCopies; ++i) { // all in one plane, each a little other
-        const auto base = std::uint32_t(mesh.positions.size());
-        const float more = 1e-4f * float(i);
-        for (const glm::vec3 p : {glm::vec3(0, 0, 0), glm::vec3(1 + more, 0, 0), glm::vec3(0, 1 + more, 0)}) {
-            mesh.positions.push_back(p);
-            mesh.normals.push_back({0, 0, 1});
-            mesh.texcoords[0].push_back({p.x / 2, p.y / 2});
-        }
-        mesh.indices.insert(mesh.indices.end(), {base, base + 1, base + 2});
-    }
+    const Mesh mesh = crowd(kCopies);
     const auto high = bakeOf(square(0), mesh);
     ASSERT_FALSE(high);
     EXPECT_NE(high.error().message.find("high: rays meet about"), std::string::npos) << high.error().message;

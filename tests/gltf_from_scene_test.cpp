@@ -306,6 +306,18 @@ TEST(GltfFromScene, uvTransformsComeBackAndShearsAreSaid)
     }
 }
 
+TEST(GltfFromScene, whatIsSaidOfADocumentWithoutAFileBeginsWithItsField)
+{
+    auto document = gltfDocumentOf(twoPatches());
+    ASSERT_TRUE(document);
+    rootOf(*document)["meshes"][1]["primitives"][0]["attributes"].erase("NORMAL");
+    const GltfCornerTangents tangents{1, 0, {}};
+    const auto set = setGltfTangents(*document, {&tangents, 1});
+    ASSERT_FALSE(set);
+    EXPECT_EQ(set.error().message,
+              "meshes[1].primitives[0]: expected NORMAL, without which glTF gives TANGENT no meaning");
+}
+
 TEST(GltfFromScene, picturesWithoutPixelsAreRefusedByName)
 {
     for (const bool floats : {false, true}) {

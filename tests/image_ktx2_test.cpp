@@ -4,9 +4,9 @@
 #include <algorithm>
 
 #include <gtest/gtest.h>
-#include <zstd.h>
 
 #include "deflate.hpp"
+#include "ktx2_bytes.hpp"
 #include "ktx2_maker.hpp"
 
 namespace cotan {
@@ -16,6 +16,8 @@ using test::deflated;
 using test::Ktx2File;
 using test::little;
 using test::makeKtx2;
+using test::ramp;
+using test::zstd;
 using namespace std::string_literals;
 
 Result<Image> ktx2Image(const std::string& file, const LoadLimits& limits = {})
@@ -37,21 +39,6 @@ std::vector<double> texel(const Image& image, std::size_t i)
                         : image.type == PixelType::unorm16 ? image.words()[c]
                                                            : double(image.floats()[c]));
     return t;
-}
-
-std::string ramp(std::size_t bytes)
-{
-    std::string text;
-    for (std::size_t i = 0; i < bytes; ++i)
-        text += char(i * 37 + 11);
-    return text;
-}
-
-std::string zstd(const std::string& text)
-{
-    std::string packed(ZSTD_compressBound(text.size()), '\0');
-    packed.resize(ZSTD_compress(packed.data(), packed.size(), text.data(), text.size(), 3));
-    return packed;
 }
 
 TEST(Ktx2, everyPlainFormatComesBackAsItIsStored)

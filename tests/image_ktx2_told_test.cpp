@@ -3,10 +3,10 @@
 #include <string>
 
 #include <gtest/gtest.h>
-#include <zstd.h>
 
 #include "cotan/image.hpp"
 #include "deflate.hpp"
+#include "ktx2_bytes.hpp"
 #include "ktx2_maker.hpp"
 #include "picture_file.hpp"
 
@@ -18,21 +18,6 @@ using namespace std::string_literals;
 Result<Image> ktx2Image(const std::string& file) { return decodeImage(bytesOf(file), "a.ktx2"); }
 
 std::string ktx2Refusal(const std::string& file) { return messageOf(ktx2Image(file)); }
-
-std::string ramp(std::size_t bytes)
-{
-    std::string text;
-    for (std::size_t i = 0; i < bytes; ++i)
-        text += char(i * 37 + 11);
-    return text;
-}
-
-std::string zstd(const std::string& text)
-{
-    std::string packed(ZSTD_compressBound(text.size()), '\0');
-    packed.resize(ZSTD_compress(packed.data(), packed.size(), text.data(), text.size(), 3));
-    return packed;
-}
 
 const std::string kBrokenKtx2 = "a.ktx2: broken ktx2 image: ";
 

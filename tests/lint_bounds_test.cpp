@@ -9,6 +9,7 @@
 
 #include "bake/lint/map_fit.hpp"
 #include "cotan/lint.hpp"
+#include "lint_advice.hpp"
 #include "lint_parts.hpp"
 
 namespace cotan {
@@ -48,12 +49,7 @@ GreenEvidence greenOf(const std::string& name, maps::Green green, int image = 3)
 LintReport advisedOn(std::vector<PrimitiveLint> primitives, std::vector<MapFit> fits = {fitAs(9)},
                      std::vector<GreenEvidence> maps = {})
 {
-    LintReport report;
-    report.primitives = std::move(primitives);
-    report.fits = std::move(fits);
-    report.maps = std::move(maps);
-    lint::recommend(report);
-    return report;
+    return adviceOn(std::move(primitives), std::move(fits), std::move(maps));
 }
 
 PrimitiveLint storedAs(double reversedW, double turned, double area = 1)

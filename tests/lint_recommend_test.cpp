@@ -3,6 +3,7 @@
 
 #include "bake/lint/map_fit.hpp"
 #include "cotan/lint.hpp"
+#include "lint_advice.hpp"
 #include "lint_parts.hpp"
 
 namespace cotan {
@@ -33,12 +34,7 @@ MapFit fitAs(double orthonormal95, double cotangent95 = 9, double smooth95 = 9)
 LintReport advisedOn(std::vector<PrimitiveLint> primitives, std::vector<MapFit> fits = {fitAs(9)},
                      std::vector<GreenEvidence> maps = {})
 {
-    LintReport report;
-    report.primitives = std::move(primitives);
-    report.fits = std::move(fits);
-    report.maps = std::move(maps);
-    lint::recommend(report);
-    return report;
+    return adviceOn(std::move(primitives), std::move(fits), std::move(maps));
 }
 
 bool says(const std::string& text, const std::string& words) { return text.find(words) != std::string::npos; }

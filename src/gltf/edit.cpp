@@ -182,7 +182,7 @@ try {
         return std::move(resource.bytes);
     return readGltfResource(document.source->file, resource.file, limits);
 } catch (const GltfProblem& problem) {
-    return inputError(document.source->path.string() + ": " + problem.error.message);
+    return inputError(fileOf(document) + problem.error.message);
 }
 
 void replaceGltfImage(GltfDocument& document, std::size_t image, std::vector<std::byte> bytes,

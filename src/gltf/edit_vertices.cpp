@@ -285,7 +285,7 @@ try {
         added += setGroup(document, group);
     return added;
 } catch (const GltfProblem& problem) {
-    return inputError(document.source->path.string() + ": " + problem.error.message);
+    return inputError(fileOf(document) + problem.error.message);
 } catch (const Error& error) {
     return error;
 }

@@ -329,7 +329,7 @@ auto caughtWriting(const GltfDocument& document, const std::string& name, const 
     } catch (const Error& failure) {
         return failure;
     } catch (const GltfProblem& problem) {
-        return inputError(document.source->path.string() + ": " + oneLine(problem.error.message));
+        return inputError(fileOf(document) + oneLine(problem.error.message));
     } catch (const std::bad_alloc&) {
         return unavailableError(name + ": not enough memory to write it");
     }

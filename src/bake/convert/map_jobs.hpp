@@ -4,7 +4,6 @@
 
 #include <compare>
 #include <cstddef>
-#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -32,13 +31,6 @@ struct MapReader {
     std::size_t vertices = 0, triangles = 0;
     bool stored = false; // it has TANGENT
 };
-
-// "model.glb: " before what is said of the document; nothing where it is of no file.
-inline std::string fileOf(const GltfDocument& document)
-{
-    const std::filesystem::path& file = gltfPath(document);
-    return file.empty() ? "" : file.string() + ": ";
-}
 
 // An image and everything that reads it as its normal map.
 struct MapJob {

@@ -27,7 +27,7 @@ public:
     PlaceFinder(std::span<const MapUse> uses, int width, int height);
 
     // Calls work(y, texels) for each row y from `first` to `last`, with the places of each of its texels in the order
-    // of the uses and triangles: those that cover the centre, or else those that only touch the texel; no more than
+    // of the uses: those that cover the centre, or else those that only touch the texel; no more than
     // kMaxPlaces (kMaxAllPlaces), spread over all. Rows of a block, from a multiple of kBlockRows on, take little more
     // time than one. From several threads.
     using RowWork = std::function<void(int y, const std::vector<std::vector<Place>>& texels)>;

@@ -30,6 +30,13 @@ inline std::size_t countOf(const gltf::Json& root, const char* collection)
     return found == root.end() ? 0 : found->size();
 }
 
+// "model.glb: " before what is said of the document; nothing where it is of no file.
+inline std::string fileOf(const GltfDocument& document)
+{
+    const std::filesystem::path& file = gltfPath(document);
+    return file.empty() ? "" : file.string() + ": ";
+}
+
 // What messages call a primitive: "meshes[0].primitives[1]".
 std::string primitiveField(std::size_t mesh, std::size_t primitive);
 
