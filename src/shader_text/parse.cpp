@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cctype>
-#include <sstream>
 #include <stdexcept>
 
 namespace cotan::shader_text {
@@ -306,8 +305,9 @@ Preprocessed preprocess(std::string_view text, std::string_view language)
 {
     Preprocessed result;
     std::vector<Branch> branches;
-    std::istringstream stream{std::string(text)};
-    for (std::string line; std::getline(stream, line);) {
+    while (!text.empty()) {
+        const std::string line(text.substr(0, text.find('\n')));
+        text.remove_prefix(std::min(line.size() + 1, text.size()));
         if (line.starts_with("#ifndef")) {
             branches.push_back({true, true}); // include guards
         } else if (line.starts_with("#if ") || line.starts_with("#elif")) {
@@ -322,14 +322,12 @@ Preprocessed preprocess(std::string_view text, std::string_view language)
             branches.pop_back();
         } else if (!std::ranges::all_of(branches, &Branch::active) || line.starts_with("#error")) {
             continue;
-        } else if (line.starts_with("#define")) {
-            std::istringstream words(line.substr(0, line.find("//")));
-            std::string define, name, value;
-            words >> define >> name;
-            std::getline(words >> std::ws, value);
+        } else if (line.starts_with("#define ")) {
+            const std::string words = line.substr(8, line.find("//") - 8), name = words.substr(0, words.find(' '));
+            const std::size_t value = words.find_first_not_of(' ', name.size());
             // The others (cotan_vec3 and so on) are the language's names for things: print.cpp's affair.
-            if (name.starts_with("COTAN_") && !value.empty() && name != "COTAN_FUNCTION")
-                result.constants[name] = value;
+            if (name.starts_with("COTAN_") && value != std::string::npos && name != "COTAN_FUNCTION")
+                result.constants[name] = words.substr(value);
             result.text += '\n';
         } else {
             result.text += line + '\n';
