@@ -179,13 +179,13 @@ std::vector<std::vector<glm::dvec2>> placesUnder(glm::vec2 low, glm::vec2 high, 
     const MapUse uses[] = {flat, use}; // the first shows nothing
     const convert::PlaceFinder finder(uses, 4, 2);
     std::vector<std::vector<glm::dvec2>> uv(4);
-    finder.rows(row, row, [&](int y, const std::vector<std::vector<convert::Place>>& texels) {
+    finder.rows(row, row, [&](int y, const PlacesOfRow<convert::Place>& places) {
         EXPECT_EQ(y, row);
-        for (std::size_t x = 0; x < 4; ++x)
-            for (const convert::Place& p : texels[x])
+        for (int x = 0; x < 4; ++x)
+            for (const convert::Place& p : places.of(std::size_t(x)))
                 if (p.covers) {
                     EXPECT_EQ(p.use, 1u);
-                    uv[x].push_back(uvAt(use.surface, p.triangle, p.barycentric));
+                    uv[std::size_t(x)].push_back(uvAt(use.surface, p.triangle, p.barycentric));
                 }
     });
     return uv;
@@ -392,9 +392,10 @@ TEST(PlaceFinder, placesAreNoMoreThanSixteenOfATexelHoweverManyTrianglesShowIt)
     const MapUse use = unormUse(many);
     const convert::PlaceFinder finder({&use, 1}, 8, 8);
     int rows = 0;
-    finder.rows(0, 7, [&](int y, const std::vector<std::vector<convert::Place>>& texels) {
+    finder.rows(0, 7, [&](int y, const PlacesOfRow<convert::Place>& row) {
         EXPECT_EQ(y, rows++);
-        for (const auto& places : texels) {
+        for (int x = 0; x < 8; ++x) {
+            const auto places = row.of(std::size_t(x));
             ASSERT_EQ(places.size(), kMaxPlaces);
             EXPECT_LT(places.front().triangle, 100u); // of 600: they are from all over the list
             EXPECT_GT(places.back().triangle, 500u);

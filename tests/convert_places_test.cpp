@@ -28,9 +28,10 @@ RowsOfPlaces rowsFrom(const PlaceFinder& finder, int first, int last)
 {
     RowsOfPlaces rows;
     int next = first;
-    finder.rows(first, last, [&](int y, const std::vector<std::vector<Place>>& texels) {
+    finder.rows(first, last, [&](int y, const PlacesOfRow<convert::Place>& row) {
         EXPECT_EQ(y, next++);
-        rows[y] = texels;
+        for (std::size_t x = 0; x + 1 < row.first.size(); ++x)
+            rows[y].emplace_back(row.of(x).begin(), row.of(x).end());
     });
     EXPECT_EQ(next, last + 1);
     return rows;

@@ -23,13 +23,6 @@ template<class Read, class IsGood> ValueCheck numberThat(const std::string& expe
 
 long long readWhole(const char* text, char** end) { return std::strtoll(text, end, 0); }
 
-std::string textOf(double value)
-{
-    std::ostringstream text;
-    text << value;
-    return text.str();
-}
-
 } // namespace
 
 ValueCheck numberAbove0()
@@ -47,7 +40,7 @@ ValueCheck numberAbove0Or(const std::string& word)
 
 ValueCheck numberWithin(double least, double most)
 {
-    return numberThat("a number from " + textOf(least) + " to " + textOf(most), std::strtod,
+    return numberThat((std::ostringstream() << "a number from " << least << " to " << most).str(), std::strtod,
                       [=](double value) { return value >= least && value <= most; });
 }
 

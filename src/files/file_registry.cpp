@@ -1,5 +1,6 @@
 #include "files/file_registry.hpp"
 
+#include <algorithm>
 #include <mutex>
 #include <system_error>
 #include <vector>
@@ -139,10 +140,8 @@ Status noteInput(const fs::path& file)
             output.refused = true;
             return replaces(all, output, file.string());
         }
-    for (const Input& input : all.inputs)
-        if (input.identity == *identity)
-            return Done{};
-    all.inputs.push_back({*identity, file.string()});
+    if (std::ranges::find(all.inputs, *identity, &Input::identity) == all.inputs.end())
+        all.inputs.push_back({*identity, file.string()});
     return Done{};
 }
 
@@ -170,10 +169,8 @@ void endOutput(const fs::path& file)
         all.outputWatcher(file);
     const std::lock_guard lock(all.mutex);
     const auto identity = all.on ? identityOf(file) : std::nullopt;
-    if (!identity)
-        return;
     for (Output& output : all.outputs)
-        if (output.identity.place == identity->place) {
+        if (identity && output.identity.place == identity->place) {
             output.identity = *identity; // a new file has taken the place
             output.state = State::done;
         }

@@ -74,9 +74,9 @@ Result<Image> throughMesh(const Image& map, const RecodeSettings& s, const MeshO
             raster.row(y, places, {.most = 1});
             decodeRow(map, y, s.from, normals);
             for (std::size_t x = 0; x < normals.size(); ++x) {
-                if (places.first[x] == places.first[x + 1])
+                if (places.of(x).empty())
                     continue;
-                const UvSample& place = places.places[places.first[x]];
+                const UvSample& place = places.of(x).front();
                 ++found;
                 const std::size_t at = std::size_t(y) * normals.size() + x;
                 const LowPoint p = pointOf(*surface, place.triangle, double(place.b1), double(place.b2));

@@ -63,18 +63,19 @@ UvFew PlaceFinder::wantedOf(const Layer& layer) const
     return few;
 }
 
-void PlaceFinder::addFound(const Layer& layer, const UvRow& row, std::vector<std::vector<Found>>& texels) const
+void PlaceFinder::addFound(const Layer& layer, const UvRow& row, int x, std::vector<Found>& found) const
 {
-    for (int x = 0; x < width_ * foldOf(layer.wrapU); ++x) {
-        auto& texel = texels[std::size_t(x < width_ ? x : 2 * width_ - 1 - x)];
-        for (std::uint32_t i = row.first[std::size_t(x)]; i < row.first[std::size_t(x) + 1]; ++i) {
-            const UvSample& p = row.places[i];
+    const auto add = [&](std::size_t column) {
+        for (const UvSample& p : row.of(column)) {
             const Part& part = *std::prev(std::ranges::upper_bound(layer.parts, p.triangle, {}, &Part::firstTriangle));
             const Place place{part.uses.front(), std::uint32_t(p.triangle - part.firstTriangle), barycentricOf(p),
                               p.covers};
-            texel.push_back({&part, std::uint32_t(texel.size()), place});
+            found.push_back({&part, std::uint32_t(found.size()), place});
         }
-    }
+    };
+    add(std::size_t(x));
+    if (foldOf(layer.wrapU) == 2)
+        add(std::size_t(2 * width_ - 1 - x));
 }
 
 void PlaceFinder::choose(std::vector<Found>& found, std::vector<Place>& places) const
@@ -116,19 +117,22 @@ void PlaceFinder::rows(int first, int last, const RowWork& work) const
         d.mirrored.resize(foldOf(layer.wrapV) == 2 ? count : 0);
         layer.raster->rows(2 * height_ - 1 - last, d.mirrored, few);
     }
-    std::vector<std::vector<Found>> found;
-    std::vector<std::vector<Place>> texels;
+    std::vector<Found> found;
+    PlacesOfRow<Place> row;
     for (std::size_t k = 0; k < count; ++k) {
-        found.assign(std::size_t(width_), {});
-        for (const Drawn& d : drawn) {
-            addFound(*d.layer, d.rows[k], found);
-            if (!d.mirrored.empty())
-                addFound(*d.layer, d.mirrored[count - 1 - k], found);
+        row.first.assign(1, 0);
+        row.places.clear();
+        for (int x = 0; x < width_; ++x) {
+            found.clear();
+            for (const Drawn& d : drawn) {
+                addFound(*d.layer, d.rows[k], x, found);
+                if (!d.mirrored.empty())
+                    addFound(*d.layer, d.mirrored[count - 1 - k], x, found);
+            }
+            choose(found, row.places);
+            row.first.push_back(std::uint32_t(row.places.size()));
         }
-        texels.assign(std::size_t(width_), {});
-        for (std::size_t x = 0; x < found.size(); ++x)
-            choose(found[x], texels[x]);
-        work(first + int(k), texels);
+        work(first + int(k), row);
     }
 }
 

@@ -26,12 +26,11 @@ class PlaceFinder {
 public:
     PlaceFinder(std::span<const MapUse> uses, int width, int height);
 
-    // Calls work(y, texels) for each row y from `first` to `last`, with the places of each of its texels in the order
-    // of the uses: those that cover the centre, or else those that only touch the texel; no more than
-    // kMaxPlaces (kMaxAllPlaces), spread over all. Rows of a block, from a multiple of kBlockRows on, take little more
-    // time than one. From several threads.
-    using RowWork = std::function<void(int y, const std::vector<std::vector<Place>>& texels)>;
-    static constexpr int kBlockRows = UvRaster::kBlockRows;
+    // Calls work(y, row) for each row y from `first` to `last`, with the places of each of its texels in the order of
+    // the uses: those that cover the centre, or else those that only touch the texel; no more than
+    // kMaxPlaces (kMaxAllPlaces), spread over all. Rows of a block, from a multiple of UvRaster::kBlockRows on, take
+    // little more time than one. From several threads.
+    using RowWork = std::function<void(int y, const PlacesOfRow<Place>& row)>;
     void rows(int first, int last, const RowWork& work) const;
 
 private:
@@ -54,8 +53,8 @@ private:
 
     void addTo(Layer& layer, std::uint32_t use);
     UvFew wantedOf(const Layer& layer) const;
-    // To the texels what the raster of a layer found in a row.
-    void addFound(const Layer& layer, const UvRow& row, std::vector<std::vector<Found>>& texels) const;
+    // What the raster of a layer found in a row of a texel's column, and in the column that mirrors it.
+    void addFound(const Layer& layer, const UvRow& row, int x, std::vector<Found>& found) const;
     void choose(std::vector<Found>& found, std::vector<Place>& places) const;
 
     std::span<const MapUse> uses_;

@@ -146,8 +146,8 @@ public:
             eachBlock(first, last, [&](int top, int bottom) {
                 if (rows && rows->stopped())
                     return;
-                finder_.rows(top, bottom, [&](int y, const Texels& texels) {
-                    solveRow(y, texels);
+                finder_.rows(top, bottom, [&](int y, const PlacesOfRow<Place>& row) {
+                    solveRow(y, row);
                     if (rows)
                         rows->step();
                 });
@@ -162,9 +162,9 @@ public:
             if (std::all_of(&nearest_[std::size_t(top)], &nearest_[std::size_t(bottom)] + 1,
                             [](const std::vector<Lent>& lent) { return lent.empty(); }))
                 return;
-            finder_.rows(top, bottom, [&](int y, const Texels& texels) {
+            finder_.rows(top, bottom, [&](int y, const PlacesOfRow<Place>& row) {
                 for (Lent& lent : nearest_[std::size_t(y)])
-                    lent.place = texels[std::size_t(lent.x)].front();
+                    lent.place = row.of(std::size_t(lent.x)).front();
             });
         });
         parallelFor(0, map_.height, [&](int y) { padRow(y); });
@@ -183,8 +183,6 @@ public:
     }
 
 private:
-    using Texels = std::vector<std::vector<Place>>; // of a row: the places of each
-
     // The stored direction, along (red, green, blue), whatever green means.
     glm::dvec3 oldTexel(int x, int y) const { return f64::cotan_decode(storedTexel(map_, x, y), plain_); }
 
@@ -231,17 +229,17 @@ private:
     // Calls work(top, bottom) for blocks of the rows from first to last - 1, on all threads.
     template<class Work> void eachBlock(int first, int last, const Work& work) const
     {
-        const int rows = std::clamp(kTexelsAtATime / map_.width, 1, PlaceFinder::kBlockRows);
+        const int rows = std::clamp(kTexelsAtATime / map_.width, 1, UvRaster::kBlockRows);
         parallelFor(0, (last - first + rows - 1) / rows,
                     [&](int i) { work(first + i * rows, std::min(first + (i + 1) * rows, last) - 1); });
     }
 
-    void solveRow(int y, const Texels& texels)
+    void solveRow(int y, const PlacesOfRow<Place>& row)
     {
         RowCounts& counts = rows_[std::size_t(y)];
         std::vector<Demand> demands;
         for (int x = 0; x < map_.width; ++x) {
-            const std::vector<Place>& places = texels[std::size_t(x)];
+            const std::span<const Place> places = row.of(std::size_t(x));
             if (places.empty())
                 continue;
             const glm::dvec3 old = oldTexel(x, y);

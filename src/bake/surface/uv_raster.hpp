@@ -37,12 +37,20 @@ template<class Texel> struct UvScratch {
     std::vector<std::uint32_t> orders, sorted;     // number of the triangle, beside `found` and beside the result
 };
 
-// The places of one row of texels: those of texel x are places[first[x]] to places[first[x + 1] - 1],
-// in the order of the triangles. They are of the triangles that cover its centre; where there is none, of those that
-// come within half a texel's diagonal of it. Triangles that share an edge never both cover a centre on it.
-struct UvRow {
-    std::vector<std::uint32_t> first; // width + 1
-    std::vector<UvSample> places;
+// The places of each texel of a row, one texel after the other.
+template<class Place> struct PlacesOfRow {
+    std::vector<std::uint32_t> first; // width + 1: where those of a texel begin
+    std::vector<Place> places;
+
+    std::span<const Place> of(std::size_t x) const
+    {
+        return std::span(places).subspan(first[x], first[x + 1] - first[x]);
+    }
+};
+
+// Of a texel in the order of the triangles: those that cover its centre; where there is none, those that come within
+// half a texel's diagonal of it. Triangles that share an edge never both cover a centre on it.
+struct UvRow : PlacesOfRow<UvSample> {
     UvScratch<int> scratch; // no part of the result
 };
 
