@@ -51,6 +51,7 @@ endif()
 if(Python3_FOUND AND TARGET cotan_image AND TARGET OpenImageIO::OpenImageIO)
   add_test(NAME Extending.addsOneOfEachByTwoPlaces
     COMMAND ${Python3_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/extending_test.py ${PROJECT_SOURCE_DIR})
+  set_tests_properties(Extending.addsOneOfEachByTwoPlaces PROPERTIES COST 110)
 endif()
 if(Python3_FOUND)
   add_test(NAME PublicHeaders.beginWithExamplesThatCompile

@@ -1,6 +1,6 @@
 // Loaded before a program (LD_PRELOAD), makes its Nth call that touches a file of one folder fail: open, read, write,
 // rename and so on. COTAN_FAIL_FOLDER: the folder; COTAN_FAIL_CALL: N, from 1; 0: none. COTAN_FAIL_LOG: a file to which
-// a process that ends adds how many such calls it made. tests/failing_calls_test.py uses it.
+// a process that ends adds a line with the names of such calls that it made. tests/failing_calls_test.py uses it.
 #define _GNU_SOURCE
 #include <dlfcn.h>
 #include <errno.h>
@@ -16,8 +16,9 @@
 #include <sys/uio.h>
 #include <unistd.h>
 
-enum { kMostFiles = 4096 };
+enum { kMostFiles = 4096, kMostCalls = 4096 };
 static atomic_long calls;
+static const char* names[kMostCalls];
 static atomic_char ours[kMostFiles]; // by descriptor: a file of the folder
 static long failing;
 static char folder[PATH_MAX];
@@ -36,7 +37,9 @@ __attribute__((destructor)) static void end(void)
     FILE* (*real)(const char*, const char*) = (FILE * (*)(const char*, const char*)) dlsym(RTLD_NEXT, "fopen");
     FILE* file = log ? real(log, "a") : NULL;
     if (file) {
-        fprintf(file, "%ld\n", (long)calls);
+        for (long i = 0; i < calls && i < kMostCalls; ++i)
+            fprintf(file, "%s ", names[i] ? names[i] : "?");
+        fputc('\n', file);
         fclose(file);
     }
 }
@@ -46,9 +49,12 @@ static int isOurs(const char* path)
     return path && folder[0] && (path[0] != '/' || strncmp(path, folder, strlen(folder)) == 0);
 }
 
-static int fails(int error)
+static int fails(const char* name, int error)
 {
-    if (atomic_fetch_add(&calls, 1) + 1 != failing)
+    const long call = atomic_fetch_add(&calls, 1);
+    if (call < kMostCalls)
+        names[call] = name;
+    if (call + 1 != failing)
         return 0;
     errno = error;
     return 1;
@@ -78,7 +84,7 @@ static int opened(int file, const char* path)
         const mode_t mode = va_arg(rest, mode_t);                                                                      \
         va_end(rest);                                                                                                  \
         REAL(int, #name, const char*, int, ...);                                                                       \
-        if (isOurs(path) && fails(flags & (O_WRONLY | O_RDWR) ? ENOSPC : EACCES))                                      \
+        if (isOurs(path) && fails(#name, flags & (O_WRONLY | O_RDWR) ? ENOSPC : EACCES))                               \
             return -1;                                                                                                 \
         return opened(real(path, flags, mode), path);                                                                  \
     }
@@ -93,7 +99,7 @@ OPEN(open64)
         const mode_t mode = va_arg(rest, mode_t);                                                                      \
         va_end(rest);                                                                                                  \
         REAL(int, #name, int, const char*, int, ...);                                                                  \
-        if (isOurs(path) && fails(flags & (O_WRONLY | O_RDWR) ? ENOSPC : EACCES))                                      \
+        if (isOurs(path) && fails(#name, flags & (O_WRONLY | O_RDWR) ? ENOSPC : EACCES))                               \
             return -1;                                                                                                 \
         return opened(real(at, path, flags, mode), path);                                                              \
     }
@@ -104,7 +110,7 @@ OPENAT(openat64)
     FILE* name(const char* path, const char* mode)                                                                     \
     {                                                                                                                  \
         REAL(FILE*, #name, const char*, const char*);                                                                  \
-        if (isOurs(path) && fails(mode[0] == 'r' ? EACCES : ENOSPC))                                                   \
+        if (isOurs(path) && fails(#name, mode[0] == 'r' ? EACCES : ENOSPC))                                            \
             return NULL;                                                                                               \
         FILE* file = real(path, mode);                                                                                 \
         if (file)                                                                                                      \
@@ -119,7 +125,7 @@ FOPEN(fopen64)
     type name parameters                                                                                               \
     {                                                                                                                  \
         REAL(type, #name, __VA_ARGS__);                                                                                \
-        if (mine && fails(error))                                                                                      \
+        if (mine && fails(#name, error))                                                                               \
             return -1;                                                                                                 \
         return real arguments;                                                                                         \
     }
@@ -152,7 +158,7 @@ int close(int file)
 size_t fread(void* to, size_t size, size_t count, FILE* file)
 {
     REAL(size_t, "fread", void*, size_t, size_t, FILE*);
-    if (marked(fileno(file)) && fails(EIO))
+    if (marked(fileno(file)) && fails("fread", EIO))
         return 0;
     return real(to, size, count, file);
 }
@@ -160,7 +166,7 @@ size_t fread(void* to, size_t size, size_t count, FILE* file)
 size_t fwrite(const void* from, size_t size, size_t count, FILE* file)
 {
     REAL(size_t, "fwrite", const void*, size_t, size_t, FILE*);
-    if (marked(fileno(file)) && fails(ENOSPC))
+    if (marked(fileno(file)) && fails("fwrite", ENOSPC))
         return 0;
     return real(from, size, count, file);
 }
@@ -171,7 +177,7 @@ int fclose(FILE* file)
     const int mine = marked(fileno(file));
     mark(fileno(file), 0);
     const int result = real(file);
-    return mine && fails(ENOSPC) ? EOF : result;
+    return mine && fails("fclose", ENOSPC) ? EOF : result;
 }
 
 ON_PATH(rename, (const char* from, const char* to), (from, to), const char*, const char*)

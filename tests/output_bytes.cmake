@@ -9,11 +9,11 @@ if(Python3_FOUND)
   endforeach()
   add_test(NAME TwoRenderers.drawTheSame
     COMMAND ${Python3_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/two_renderers_test.py $<TARGET_FILE:cotan> ${CMAKE_CURRENT_SOURCE_DIR}/output_bytes/pictures.txt)
-  set_tests_properties(TwoRenderers.drawTheSame PROPERTIES TIMEOUT 300 SKIP_RETURN_CODE 77)
+  set_tests_properties(TwoRenderers.drawTheSame PROPERTIES TIMEOUT 300 SKIP_RETURN_CODE 77 COST 75)
   if(NOT CMAKE_CXX_FLAGS MATCHES "fsanitize") # whose library wants to be the first
     add_test(NAME FailingCalls.leaveAllOrNothing
       COMMAND ${Python3_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/failing_calls_test.py $<TARGET_FILE:cotan>)
-    set_tests_properties(FailingCalls.leaveAllOrNothing PROPERTIES TIMEOUT 900 SKIP_RETURN_CODE 77)
+    set_tests_properties(FailingCalls.leaveAllOrNothing PROPERTIES TIMEOUT 900 SKIP_RETURN_CODE 77 COST 120 PROCESSORS 2)
   endif()
   foreach(command render compare bake convert map others)
     add_test(NAME OptionEffects.${command}

@@ -2,7 +2,7 @@
 # build have no emscripten. Skipped where that or npm is missing.
 set(tarball ${PROJECT_BINARY_DIR}/web/npm/cotan-${PROJECT_VERSION}.tgz)
 add_test(NAME web_package COMMAND ${PROJECT_SOURCE_DIR}/scripts/npm-package ${PROJECT_BINARY_DIR}/web)
-set_tests_properties(web_package PROPERTIES FIXTURES_SETUP web SKIP_RETURN_CODE 3 TIMEOUT 1200)
+set_tests_properties(web_package PROPERTIES FIXTURES_SETUP web SKIP_RETURN_CODE 3 TIMEOUT 1200 COST 200)
 find_program(COTAN_NODE node)
 if(NOT COTAN_NODE)
   cotan_without(Node.js "not found: install nodejs" "no tests of the npm package and of the page")
