@@ -195,6 +195,39 @@ TEST(CRefusals, packingNeedsEachArrayUnlessThereIsNothing)
     EXPECT_EQ(cotan_pack_tangents(1, three, four, &packed, refusal, sizeof refusal), COTAN_OK);
 }
 
+TEST(CRefusals, copiesOfVerticesNeedPlacesForThemAndTheirCount)
+{
+    const Square square;
+    const cotan_mesh mesh = square.mesh();
+    const std::vector<float> corners(4 * 6, 1);
+    std::array<std::uint32_t, 6> indices{}, sources{}, provoking{};
+    std::size_t count = 77;
+    const auto vertices = [&](const float* read, std::uint32_t* a, std::uint32_t* b, std::size_t* c) {
+        return cotan_split_vertices(4, 6, square.indices.data(), read, a, b, c, refusal, sizeof refusal);
+    };
+    const auto mirrored = [&](std::uint32_t* a, std::uint32_t* b, std::size_t* c) {
+        return cotan_split_mirrored(&mesh, a, b, c, refusal, sizeof refusal);
+    };
+    const auto provoked = [&](std::uint32_t* a, std::uint32_t* b, std::size_t* c, std::uint32_t* d) {
+        return cotan_provoking(4, 6, square.indices.data(), 0, a, b, c, d, refusal, sizeof refusal);
+    };
+    expectRefused(vertices(nullptr, indices.data(), sources.data(), &count), "corners");
+    expectRefused(vertices(corners.data(), nullptr, sources.data(), &count), "split_indices");
+    expectRefused(vertices(corners.data(), indices.data(), nullptr, &count), "sources");
+    expectRefused(vertices(corners.data(), indices.data(), sources.data(), nullptr), "split_count");
+    expectRefused(mirrored(nullptr, sources.data(), &count), "split_indices");
+    expectRefused(mirrored(indices.data(), nullptr, &count), "sources");
+    expectRefused(mirrored(indices.data(), sources.data(), nullptr), "split_count");
+    expectRefused(provoked(nullptr, sources.data(), &count, provoking.data()), "made_indices");
+    expectRefused(provoked(indices.data(), nullptr, &count, provoking.data()), "sources");
+    expectRefused(provoked(indices.data(), sources.data(), nullptr, provoking.data()), "made_count");
+    expectRefused(provoked(indices.data(), sources.data(), &count, nullptr), "corners");
+    EXPECT_EQ(count, 77u);
+    EXPECT_EQ(vertices(corners.data(), indices.data(), sources.data(), &count), COTAN_OK) << refusal;
+    EXPECT_EQ(mirrored(indices.data(), sources.data(), &count), COTAN_OK) << refusal;
+    EXPECT_EQ(provoked(indices.data(), sources.data(), &count, provoking.data()), COTAN_OK) << refusal;
+}
+
 TEST(CRefusals, mapsNeedEachOfTheirPicturesAndWords)
 {
     Picture map, out, other;

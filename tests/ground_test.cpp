@@ -87,6 +87,18 @@ TEST(Ground, darkeningIsTheSkyThatRaysDoNotReach)
     EXPECT_LT(d.most, 0.5);
 }
 
+TEST(Ground, aLampWithoutADirectionShinesFromAbove)
+{
+    const Solids solids;
+    View view = sunnyView();
+    view.lights[0].direction = {0, -1, 0};
+    const auto above = makeGround(sceneOf(solids), view);
+    view.lights[0].direction = {0, 0, 0};
+    const auto none = makeGround(sceneOf(solids), view);
+    ASSERT_TRUE(above && none);
+    EXPECT_EQ(compared(*none, [&](const dvec3& p) { return groundShareAt(*above, vec2(p.x, p.z)); }).most, 0);
+}
+
 TEST(Ground, lampAndSkyCountByWhatTheyBringToALevelPlane)
 {
     const Solids solids;

@@ -229,13 +229,14 @@ TEST(ProblemAreas, theCameraIsNearerThanWhatStandsBeforeTheTriangle)
     scene.meshes.push_back(makePatch(3, 0, false, 1));
     scene.meshes.push_back(makePatch(1, 0, false, 1));
     scene.instances.push_back({"stretched", 0, glm::mat4(1)});
-    const glm::mat4 before = glm::translate(glm::mat4(1), glm::vec3(-3, -3, 8));
+    const glm::mat4 before = glm::translate(glm::mat4(1), glm::vec3(-3, -3, 4));
     scene.instances.push_back({"before it", 1, glm::scale(before, glm::vec3(9))});
     const std::vector<ProblemArea> spots = problemAreas(scene);
     ASSERT_EQ(spots.size(), 1u);
     const auto hit = pick(scene, spots[0].camera, {100, 100}, {50, 50});
     ASSERT_TRUE(hit);
     EXPECT_EQ(hit->mesh, 0);
+    EXPECT_LT(spots[0].camera.eye.z, 4);
     EXPECT_EQ(spots[0].view, "stretch");
 }
 

@@ -1,4 +1,5 @@
 // A reader's process as tests need it: it reads, or does what SANDBOX_CHILD_DOES says.
+#include <cerrno>
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
@@ -18,6 +19,7 @@
 #include <sys/resource.h>
 #include <sys/socket.h>
 #include <sys/stat.h>
+#include <sys/syscall.h>
 #include <unistd.h>
 
 #include "cotan/files.hpp"
@@ -135,6 +137,69 @@ std::string powers(const ReaderRequest& request)
     char* const words[] = {nullptr};
     ::execve("/bin/true", words, words);                            // ends this process where it works
     note(::open(request.name.c_str(), O_RDONLY) < 0, "no-reading"); // that it must be able to
+    return found;
+}
+
+// Calls that are not refused. One that is answers EPERM, whatever it is given; others say what is wrong with that.
+std::string notRefused()
+{
+    const std::pair<long, const char*> calls[] = {
+        {SYS_execve, "execve"},
+        {SYS_execveat, "execveat"},
+        {SYS_ptrace, "ptrace"},
+        {SYS_process_vm_readv, "process_vm_readv"},
+        {SYS_process_vm_writev, "process_vm_writev"},
+        {SYS_kill, "kill"},
+        {SYS_tkill, "tkill"},
+        {SYS_rt_sigqueueinfo, "rt_sigqueueinfo"},
+        {SYS_rt_tgsigqueueinfo, "rt_tgsigqueueinfo"},
+        {SYS_tgkill, "tgkill"},
+        {SYS_prlimit64, "prlimit64"},
+        {SYS_pidfd_open, "pidfd_open"},
+        {SYS_pidfd_getfd, "pidfd_getfd"},
+        {SYS_pidfd_send_signal, "pidfd_send_signal"},
+        {SYS_socket, "socket"},
+        {SYS_socketpair, "socketpair"},
+        {SYS_connect, "connect"},
+        {SYS_bind, "bind"},
+        {SYS_listen, "listen"},
+        {SYS_accept, "accept"},
+        {SYS_accept4, "accept4"},
+        {SYS_io_uring_setup, "io_uring_setup"},
+        {SYS_bpf, "bpf"},
+        {SYS_perf_event_open, "perf_event_open"},
+        {SYS_userfaultfd, "userfaultfd"},
+        {SYS_keyctl, "keyctl"},
+        {SYS_add_key, "add_key"},
+        {SYS_request_key, "request_key"},
+        {SYS_mount, "mount"},
+        {SYS_umount2, "umount2"},
+        {SYS_chroot, "chroot"},
+        {SYS_pivot_root, "pivot_root"},
+        {SYS_unshare, "unshare"},
+        {SYS_setns, "setns"},
+        {SYS_fchmod, "fchmod"},
+        {SYS_fchmodat, "fchmodat"},
+        {SYS_fchown, "fchown"},
+        {SYS_fchownat, "fchownat"},
+        {SYS_utimensat, "utimensat"},
+        {SYS_setxattr, "setxattr"},
+        {SYS_lsetxattr, "lsetxattr"},
+        {SYS_fsetxattr, "fsetxattr"},
+        {SYS_removexattr, "removexattr"},
+        {SYS_lremovexattr, "lremovexattr"},
+        {SYS_fremovexattr, "fremovexattr"},
+        {SYS_shmget, "shmget"},
+        {SYS_shmat, "shmat"},
+        {SYS_msgget, "msgget"},
+        {SYS_mq_open, "mq_open"},
+        {SYS_setpgid, "setpgid"},
+        {SYS_ioctl, "ioctl"},
+    };
+    std::string found;
+    for (const auto& [number, name] : calls)
+        if (::syscall(number, -1, -1, -1, -1, -1, -1) != -1 || errno != EPERM)
+            found += fmt::format(" {}", name);
     return found;
 }
 
@@ -267,6 +332,11 @@ const std::map<std::string, void (*)(const ReaderRequest&)> kActs = {
      [](const ReaderRequest& request) {
          confine();
          answerError("can:" + powers(request) + ".");
+     }},
+    {"calls",
+     [](const ReaderRequest&) {
+         confine();
+         answerError("not refused:" + notRefused() + ".");
      }},
     {"descriptors", [](const ReaderRequest&) { answerError("open:" + openDescriptors() + "."); }},
 };

@@ -117,6 +117,14 @@ TEST_F(Sandboxed, theReaderCanReadAndDoNothingElse)
     EXPECT_TRUE(std::filesystem::exists(model));
 }
 
+TEST_F(Sandboxed, callsThatNoReaderNeedsAreRefusedWhateverTheyAreGiven)
+{
+    if (kSanitized)
+        GTEST_SKIP() << "with sanitizers no call is forbidden";
+    const Act acting("calls");
+    EXPECT_EQ(loadScene(model, limits).error().message, "not refused:.");
+}
+
 TEST_F(Sandboxed, theReaderHasNoDescriptorsOfOurs)
 {
     const std::ifstream ours(model);

@@ -20,7 +20,7 @@ TESTS = {
     "apps/cotan": "words_test help_test cli_test command_line help_files:man help_files:words help_files:bash help_files:zsh help_files:fish output_bytes:maps output_bytes:meshes output_bytes:pictures map_command_test bake_command_test tangents_command_test judgement_command_test files_test batch_test batch_command_test",
     "apps/viewer": "viewer_test view_window_test",
     "bindings/js": "web",
-    "bindings/python": "python:arrays python:bake python:maps python:models python:geometry python:render python:work python:json python:options python:package python:dask",
+    "bindings/python": "python:arrays python:bake python:maps python:models python:geometry python:render python:work python:json python:options python:package python:dask python:header",
     "shaders/cotan": "core_test tangents_test reference_test frame_table_test shader_text_test",
     "apps/lab": "figures_test lighting_test accuracy_test cost_test report_test output_bytes:lab",
     "src/bake": "bake_test lint_test judgement_test convert_test auto_frame_test bake_command_test tangents_gltf_test python:bake",

@@ -389,8 +389,6 @@ Result<GivenCommand> Arguments::parse(std::vector<std::string> words) const
             if (option->count() > 0)
                 result.options.push_back({option->get_single_name(), option->results(), tool_->facts[option].use});
     }
-    if (result.name.empty())
-        return usageError("expected a command; found none");
     return result;
 }
 
