@@ -92,12 +92,14 @@ TEST_F(BakeHighMapCommand, oneMapIsThatOfEachHighFile)
 {
     write(quad(1), folder.path());
     writeSquares();
-    std::ofstream(folder / "aside.obj") << "v 5 0 0\nv 6 0 0\nv 6 1 0\nvt 0 0\nvt 1 0\nvt 1 1\nf 1/1 2/2 3/3\n";
+    std::ofstream(folder / "aside.obj")
+        << "mtllib none.mtl\nv 5 0 0\nv 6 0 0\nv 6 1 0\nvt 0 0\nvt 1 0\nvt 1 1\nf 1/1 2/2 3/3\n";
     const ToolRun r =
         bake({"--high", "square.obj", "--high", "aside.obj", "--low", "square.obj", "--high-normals", "map",
               "--high-map", "waves.png", "--high-convention", "gltf", "--frame", "orthonormal", "--size", "128x128"});
     ASSERT_EQ(r.code, 0) << r.err;
     EXPECT_EQ(r.err.find("high meshes"), std::string::npos) << "each has a map: " << r.err;
+    EXPECT_NE(r.err.find("material library none.mtl was not found"), std::string::npos) << r.err;
     expectSame(picture("m.png"), picture("waves.png"), "of the first");
 }
 

@@ -281,6 +281,60 @@ TEST(UvRaster, spansAreTheTexelsWhoseCentresAreCovered)
     EXPECT_EQ(spanned, covered);
 }
 
+// Of a point to a segment.
+double distanceTo(glm::dvec2 p, glm::dvec2 a, glm::dvec2 b)
+{
+    const double along = std::clamp(glm::dot(p - a, b - a) / glm::dot(b - a, b - a), 0.0, 1.0);
+    return glm::length(p - glm::mix(a, b, along));
+}
+
+TEST(UvRaster, touchedAreTheTexelsWhoseCentreIsWithinHalfADiagonalOfTheTriangle)
+{
+    constexpr int kWidth = 37, kHeight = 23;
+    constexpr double kUnsure = 1e-4; // texels of 1 / 37, in float
+    Random random(11);
+    std::size_t touched = 0, covered = 0;
+    for (int t = 0; t < 300; ++t) {
+        Layout l{{}, {0, 1, 2}};
+        const glm::dvec2 middle(random.range(0.1, 0.9), random.range(0.1, 0.9));
+        const double size = t % 2 == 0 ? 0.15 : 0.01; // five texels, or less than one
+        for (int k = 0; k < 3; ++k)
+            l.texcoords.emplace_back(middle + glm::dvec2(random.range(-size, size), random.range(-size, size)));
+        glm::dvec2 corner[3];
+        for (int k = 0; k < 3; ++k)
+            corner[k] = glm::dvec2(l.texcoords[std::size_t(k)]) * glm::dvec2(kWidth, kHeight);
+        const UvRaster raster(l.view(), kWidth, kHeight);
+        UvRow row;
+        for (int y = 0; y < kHeight; ++y) {
+            raster.row(y, row);
+            for (int x = 0; x < kWidth; ++x) {
+                const glm::dvec2 centre(x + 0.5, y + 0.5);
+                int left = 0;
+                double away = 1e9;
+                for (int k = 0; k < 3; ++k) {
+                    const glm::dvec2 a = corner[k], b = corner[(k + 1) % 3];
+                    left += (b.x - a.x) * (centre.y - a.y) > (b.y - a.y) * (centre.x - a.x);
+                    away = std::min(away, distanceTo(centre, a, b));
+                }
+                if (away < kUnsure || std::abs(away - std::sqrt(0.5)) < kUnsure)
+                    continue;
+                const bool inside = left % 3 == 0, touches = !inside && away < std::sqrt(0.5);
+                ASSERT_EQ(row.of(std::size_t(x)).size(), inside || touches) << t << " " << x << " " << y << " " << away;
+                if (!inside && !touches)
+                    continue;
+                const UvSample& p = row.of(std::size_t(x)).front();
+                EXPECT_EQ(p.covers, inside);
+                const glm::dvec2 place =
+                    corner[0] * (1 - double(p.b1) - double(p.b2)) + corner[1] * double(p.b1) + corner[2] * double(p.b2);
+                EXPECT_NEAR(glm::length(place - centre), inside ? 0 : away, 2e-3); // a ten-thousandth inwards
+                ++(inside ? covered : touched);
+            }
+        }
+    }
+    EXPECT_GT(covered, 500u);
+    EXPECT_GT(touched, 500u);
+}
+
 TEST(UvRaster, aFewPlacesAreSomeOfAllAndOneIsTheFirst)
 {
     Layout l = jitteredGrid(9);

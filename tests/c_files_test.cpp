@@ -187,6 +187,13 @@ TEST(CFiles, imagesAreRenderedWithTheWordsThatAreThere)
     EXPECT_EQ(made.height, 10);
     EXPECT_EQ(made.bits, 8);
     cotan_image_free(image);
+    const char* lit[] = {"--lighting", "tangent-vertex", "--frame", "orthonormal"};
+    options.words = lit;
+    options.word_count = 4;
+    EXPECT_EQ(render(&image), COTAN_USAGE);
+    EXPECT_NE(std::string(text).find("tangent-vertex: expected a frame with tangents at the vertices"),
+              std::string::npos)
+        << text;
     options.floats = 1;
     options.word_count = 0; // then no array is read
     ASSERT_EQ(render(&image), COTAN_OK) << text;

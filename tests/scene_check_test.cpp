@@ -176,6 +176,11 @@ TEST(SceneCheck, picturesMayBeLeftOutWhereTheRulesSaySo)
     scene.images[0] = {};
     EXPECT_FALSE(checkScene(scene));
     EXPECT_TRUE(checkScene(scene, "scene", {.pixels = false}));
+    for (const glm::ivec2 size : {glm::ivec2(0, 5), {5, 0}, {5, 5}}) {
+        scene.images[0].width = size.x;
+        scene.images[0].height = size.y;
+        EXPECT_FALSE(checkScene(scene, "scene", {.pixels = false})) << size.x << " x " << size.y;
+    }
 }
 
 } // namespace

@@ -12,10 +12,8 @@ namespace {
 
 // Bins by the exponent and the first 12 bits of the fraction of a float: positive floats sort as their bits do.
 constexpr int kDropped = 23 - 12;
-constexpr std::size_t kBins = std::size_t(0x80000000u) >> kDropped;
+constexpr std::size_t kOctaves = 256, kBins = 1 << 12; // bins of an octave
 constexpr double kNothing = std::numeric_limits<double>::quiet_NaN();
-
-std::size_t binOf(double value) { return std::bit_cast<std::uint32_t>(float(std::abs(value))) >> kDropped; }
 
 // The first bin is that of zero, and of what is below 1e-41.
 double upperEnd(std::size_t bin)
@@ -25,6 +23,14 @@ double upperEnd(std::size_t bin)
 
 } // namespace
 
+void ValueStatistics::addToBin(double value, double weight)
+{
+    const std::size_t at = std::bit_cast<std::uint32_t>(float(std::abs(value))) >> kDropped;
+    std::vector<double>& bins = octaves_[at / kBins];
+    bins.resize(kBins);
+    bins[at % kBins] += weight;
+}
+
 void ValueStatistics::add(double value, double weight)
 {
     if (!(weight > 0) || !std::isfinite(value * weight))
@@ -33,17 +39,14 @@ void ValueStatistics::add(double value, double weight)
     total_ += weight;
     sum_ += value * weight;
     maximum_ = std::max(maximum_, value);
-    if (!bins_.empty()) {
-        bins_[binOf(value)] += weight;
-        return;
-    }
+    if (!octaves_.empty())
+        return addToBin(value, weight);
     exact_.emplace_back(value, weight);
-    sorted_ = false;
     if (exact_.size() <= kExactValues)
         return;
-    bins_.resize(kBins);
+    octaves_.resize(kOctaves);
     for (const auto& [v, w] : exact_)
-        bins_[binOf(v)] += w;
+        addToBin(v, w);
     exact_ = {};
 }
 
@@ -55,16 +58,15 @@ double ValueStatistics::percentile(double part)
 {
     if (count_ == 0)
         return kNothing;
-    if (!sorted_)
-        std::sort(exact_.begin(), exact_.end());
-    sorted_ = true;
+    std::sort(exact_.begin(), exact_.end());
     double reached = 0;
     for (const auto& [value, weight] : exact_)
         if (reached += weight; reached >= part * total_)
             return value;
-    for (std::size_t i = 0; i < bins_.size(); ++i)
-        if (reached += bins_[i]; reached >= part * total_)
-            return std::min(upperEnd(i), maximum_);
+    for (std::size_t octave = 0; octave < octaves_.size(); ++octave)
+        for (std::size_t i = 0; i < octaves_[octave].size(); ++i)
+            if (reached += octaves_[octave][i]; reached >= part * total_)
+                return std::min(upperEnd(octave * kBins + i), maximum_);
     return maximum_; // the sum in this order is less than the total, by rounding
 }
 

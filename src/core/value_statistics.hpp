@@ -8,7 +8,7 @@
 namespace cotan {
 
 // Values come one by one. Up to kExactValues everything is exact. Beyond that a percentile is the upper end of one of
-// 4096 bins an octave, so too large by 1/4096 at most, and never above the maximum; this takes 8 MiB.
+// 4096 bins an octave, so too large by 1/4096 at most, and never above the maximum; an octave with values takes 32 KiB.
 class ValueStatistics {
 public:
     static constexpr std::size_t kExactValues = 1 << 16;
@@ -25,9 +25,10 @@ public:
     double percentile(double part);
 
 private:
+    void addToBin(double value, double weight);
+
     std::vector<std::pair<double, double>> exact_;
-    std::vector<double> bins_; // weights; empty while `exact_` holds everything
-    bool sorted_ = true;       // `exact_`
+    std::vector<std::vector<double>> octaves_; // weights by bin, or nothing; empty while `exact_` holds everything
     std::size_t count_ = 0;
     double total_ = 0, sum_ = 0, maximum_ = 0;
 };
