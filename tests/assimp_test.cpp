@@ -7,6 +7,7 @@
 #include <functional>
 #include <sstream>
 
+#include <fmt/format.h>
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 #include <sys/resource.h>
@@ -198,6 +199,27 @@ TEST_F(AssimpFile, limitsAreHeld)
     limits.nodes = 1;
     EXPECT_NE(problem("a.obj", "o a\n" + kQuad + kQuadFace + "o b\n" + kQuadFace, limits).find("1 nodes"),
               std::string::npos);
+}
+
+// Assimp takes the square of a polygon's corners: 150,000 of them, which cross one another, took 4 s in each command.
+TEST_F(AssimpFile, polygonsMayHave70000CornersTogether)
+{
+    const auto withPolygons = [](const std::vector<int>& corners) {
+        std::string text = fmt::format("ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\n"
+                                       "property float z\nelement face {}\n"
+                                       "property list int int vertex_indices\nend_header\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n",
+                                       corners.size());
+        for (const int count : corners) {
+            text += fmt::format("{}", count);
+            for (int i = 0; i < count; ++i)
+                text += fmt::format(" {}", i % 4);
+            text += '\n';
+        }
+        return text;
+    };
+    for (const auto& corners : {std::vector{71'000}, {50'000, 50'100}})
+        EXPECT_NE(problem("a.ply", withPolygons(corners)).find("expected triangles, found "), std::string::npos);
+    EXPECT_EQ(problem("a.ply", withPolygons({20'000, 20'000})), "");
 }
 
 TEST_F(AssimpFile, concavePolygonKeepsItsArea)

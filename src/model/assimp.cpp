@@ -173,16 +173,20 @@ const aiScene* import(Job& job, Assimp::Importer& importer)
 // Assimp's own steps trust the indices, and that what is counted is there.
 void checkIndices(const aiScene& source)
 {
+    constexpr double kMostClipped = 5e9; // of one polygon with 70,000 corners, which take Assimp a second or two
+    double clipped = 0; // corners of polygons, each polygon's squared: so long it takes to cut off their ears
     for (unsigned m = 0; m < source.mNumMeshes; ++m) {
         const aiMesh& mesh = *source.mMeshes[m];
         const char* const name = mesh.mName.C_Str();
         if ((mesh.mNumVertices > 0 && !mesh.mVertices) || (mesh.mNumFaces > 0 && !mesh.mFaces))
-            failModel("mesh {}: expected {} vertices and {} faces, found none", name, mesh.mNumVertices,
-                      mesh.mNumFaces);
+            failModel("mesh {}: expected vertices ({}) and faces ({})", name, mesh.mNumVertices, mesh.mNumFaces);
         for (unsigned f = 0; f < mesh.mNumFaces; ++f) {
             const aiFace& face = mesh.mFaces[f];
             if (face.mNumIndices > 0 && !face.mIndices)
                 failModel("mesh {}: face {}: expected {} indices, found none", name, f, face.mNumIndices);
+            clipped += face.mNumIndices > 4 ? double(face.mNumIndices) * face.mNumIndices : 0;
+            if (clipped > kMostClipped)
+                failModel("mesh {}: face {}: expected triangles, found {} corners", name, f, face.mNumIndices);
             for (unsigned i = 0; i < face.mNumIndices; ++i)
                 if (face.mIndices[i] >= mesh.mNumVertices)
                     failModel("mesh {}: face {}: expected an index below {}, found {}", name, f, mesh.mNumVertices,
@@ -191,8 +195,7 @@ void checkIndices(const aiScene& source)
     }
 }
 
-// Assimp takes a face without corners for a polygon, and counts it in front of its table where other kinds are beside
-// it.
+// Assimp takes a face without corners for a polygon, and counts it in front of its table where there are other kinds.
 void removeEmptyFaces(const aiScene& source, Job& job)
 {
     for (unsigned m = 0; m < source.mNumMeshes; ++m) {

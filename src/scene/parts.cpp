@@ -214,16 +214,15 @@ namespace {
 
 // All in times the picture. On Mesa's driver for the CPU, 1280 x 720 pixels at one of these limits take about 10 s of
 // processor.
-constexpr double kDroppedFrom = 20;  // from which on it is worth looking for triangles that repeat
-constexpr double kMaxCovered = 64;   // by what hides what is behind
-constexpr double kMaxLayers = 16;    // by what is translucent: each is shaded, and put in order
-constexpr double kPlainLayer = 0.5;  // of such a one without a coat and the like; with one of these it is 1
-constexpr double kFurtherLobe = 0.8; // for each more: coat, sheen, other highlights
-constexpr double kMaxLights = 200;   // times what is covered, at most once
-constexpr double kMaxEdges = 2;      // by pixels along long edges, of which each is shaded and shows little
-constexpr double kLongEdge = 16;     // pixels: shorter ones are what many small triangles have
-constexpr double kFewPoints =
-    30'000; // models of n times as many vertices, each in its own place, may take n times as long
+constexpr double kDroppedFrom = 20;   // from which on it is worth looking for triangles that repeat
+constexpr double kMaxCovered = 64;    // by what hides what is behind
+constexpr double kMaxLayers = 16;     // by what is translucent: each is shaded, and put in order
+constexpr double kPlainLayer = 0.5;   // of such a one without a coat and the like; with one of these it is 1
+constexpr double kFurtherLobe = 0.8;  // for each more: coat, sheen, other highlights
+constexpr double kMaxLights = 200;    // times what is covered, at most once
+constexpr double kMaxEdges = 2;       // by pixels along long edges, of which each is shaded and shows little
+constexpr double kLongEdge = 16;      // pixels: shorter ones are what many small triangles have
+constexpr double kFewPoints = 30'000; // models of n times as many places of vertices may take n times as long
 
 // A camera's axes and scale.
 struct Seeing {

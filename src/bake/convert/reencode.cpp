@@ -111,8 +111,7 @@ double degreesOff(const Demand& d, glm::dvec3 texel) { return glm::degrees(angle
 
 namespace {
 
-using convert::Place;
-using convert::PlaceFinder;
+using convert::Place, convert::PlaceFinder;
 
 struct RowCounts {
     std::size_t covered = 0, padded = 0, several = 0, disagreeing = 0, belowHorizon = 0;
