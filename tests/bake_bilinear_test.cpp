@@ -41,10 +41,9 @@ public:
         auto [row, isNew] = rows_.try_emplace(y);
         if (isNew)
             raster_.row(y, row->second);
-        const auto first = row->second.places.begin() + row->second.first[std::size_t(x)];
-        const auto last = row->second.places.begin() + row->second.first[std::size_t(x) + 1];
-        const auto place = std::find_if(first, last, [](const UvSample& p) { return p.covers; });
-        if (place == last)
+        const auto places = row->second.of(std::size_t(x));
+        const auto place = std::ranges::find_if(places, &UvSample::covers);
+        if (place == places.end())
             return false;
         const double b1 = place->b1, b2 = place->b2;
         normal = target(interpolate(mesh_, {place->triangle, {1 - b1 - b2, b1, b2}}));

@@ -56,11 +56,10 @@ void forTexels(const Pair& setup, const Baked& baked, const std::function<void(g
     for (int y = 0; y < baked.height; ++y) {
         raster.row(y, row);
         for (int x = 0; x < baked.width; ++x)
-            for (std::uint32_t k = row.first[std::size_t(x)]; k < row.first[std::size_t(x) + 1]; ++k) {
-                if (!row.places[k].covers)
+            for (const UvSample& place : row.of(std::size_t(x))) {
+                if (!place.covers)
                     continue;
-                const LowPoint p =
-                    pointOf(setup.low, row.places[k].triangle, double(row.places[k].b1), double(row.places[k].b2));
+                const LowPoint p = pointOf(setup.low, place.triangle, double(place.b1), double(place.b2));
                 check(glm::vec3(p.position), glm::vec3(p.normal),
                       baked.values[std::size_t(y) * std::size_t(baked.width) + std::size_t(x)]);
             }

@@ -92,8 +92,8 @@ TEST(UvRaster, barycentricsLeadBackToTheTexelsCentre)
     for (int y = 0; y < 23; ++y) {
         raster.row(y, row);
         for (int x = 0; x < 37; ++x) {
-            ASSERT_EQ(row.first[std::size_t(x) + 1] - row.first[std::size_t(x)], 1u);
-            const UvSample& p = row.places[row.first[std::size_t(x)]];
+            ASSERT_EQ(row.of(std::size_t(x)).size(), 1u);
+            const UvSample& p = row.of(std::size_t(x)).front();
             const std::uint32_t* v = &l.indices[3 * std::size_t(p.triangle)];
             const glm::vec2 uv =
                 l.texcoords[v[0]] * (1 - p.b1 - p.b2) + l.texcoords[v[1]] * p.b1 + l.texcoords[v[2]] * p.b2;
@@ -110,8 +110,8 @@ TEST(UvRaster, trianglesThatOnlyTouchATexelGiveTheirNearestPoint)
     const UvRaster raster(l.view(), 4, 4);
     UvRow row;
     raster.row(1, row);
-    ASSERT_EQ(row.first[2] - row.first[1], 1u); // texel (1, 1), whose centre is (0.375, 0.375)
-    const UvSample& p = row.places[row.first[1]];
+    ASSERT_EQ(row.of(1).size(), 1u); // texel (1, 1), whose centre is (0.375, 0.375)
+    const UvSample& p = row.of(1).front();
     EXPECT_FALSE(p.covers);
     EXPECT_NEAR(p.b1 * 0.08f + p.b2 * 0.04f + 0.26f, 0.32f, 0.021f); // on the edge from (0.34, 0.26) to (0.3, 0.3)
 }
@@ -135,14 +135,14 @@ TEST(UvRaster, placesThatOnlyTouchCountWhereNoCentreIsCovered)
             std::vector<UvSample> expected;
             for (bool covers : {true, false})
                 for (std::size_t f = 0; f < rows.size() && (covers || expected.empty() || !expected[0].covers); ++f)
-                    for (std::uint32_t i = rows[f].first[x]; i < rows[f].first[x + 1]; ++i)
-                        if (UvSample p = rows[f].places[i]; p.covers == covers) {
+                    for (UvSample p : rows[f].of(x))
+                        if (p.covers == covers) {
                             p.triangle = std::uint32_t(f);
                             expected.push_back(p);
                         }
-            ASSERT_EQ(together.first[x + 1] - together.first[x], expected.size());
+            ASSERT_EQ(together.of(x).size(), expected.size());
             for (std::size_t i = 0; i < expected.size(); ++i) {
-                const UvSample& p = together.places[together.first[x] + i];
+                const UvSample& p = together.of(x)[i];
                 EXPECT_EQ(p.triangle, expected[i].triangle);
                 EXPECT_EQ(p.b1, expected[i].b1);
                 EXPECT_EQ(p.covers, expected[i].covers);
@@ -199,7 +199,7 @@ PlacesOfTexels placesOf(const UvRow& row)
 {
     PlacesOfTexels places;
     for (std::size_t x = 0; x + 1 < row.first.size(); ++x)
-        places.emplace_back(row.places.begin() + row.first[x], row.places.begin() + row.first[x + 1]);
+        places.emplace_back(row.of(x).begin(), row.of(x).end());
     return places;
 }
 
@@ -274,9 +274,9 @@ TEST(UvRaster, spansAreTheTexelsWhoseCentresAreCovered)
     for (int y = 0; y < 43; ++y) {
         raster.row(y, row);
         for (int x = 0; x < 61; ++x)
-            for (std::uint32_t i = row.first[std::size_t(x)]; i < row.first[std::size_t(x) + 1]; ++i)
-                if (row.places[i].covers)
-                    covered.insert({int(row.places[i].triangle), y, x});
+            for (const UvSample& p : row.of(std::size_t(x)))
+                if (p.covers)
+                    covered.insert({int(p.triangle), y, x});
     }
     EXPECT_EQ(spanned, covered);
 }
@@ -350,8 +350,8 @@ TEST(UvRaster, aFewPlacesAreSomeOfAllAndOneIsTheFirst)
         for (std::size_t x = 0; x < 61; ++x) {
             const auto of = [&](const UvRow& row) {
                 std::vector<std::uint32_t> triangles;
-                for (std::uint32_t i = row.first[x]; i < row.first[x + 1]; ++i)
-                    triangles.push_back(row.places[i].triangle);
+                for (const UvSample& p : row.of(x))
+                    triangles.push_back(p.triangle);
                 return triangles;
             };
             ASSERT_EQ(of(all).size(), 6u);
