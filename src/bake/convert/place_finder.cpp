@@ -104,18 +104,19 @@ void PlaceFinder::choose(std::vector<Found>& found, std::vector<Place>& places) 
 
 void PlaceFinder::rows(int first, int last, const RowWork& work) const
 {
-    struct Drawn { // rows of a layer, from the top of its image to the bottom
+    struct Drawn {
         const Layer* layer;
-        std::vector<UvRow> rows, mirrored;
+        std::vector<UvRow> rows; // from the top down; behind them, from the bottom up, those that mirror them
     };
     const auto count = std::size_t(last - first + 1);
     std::vector<Drawn> drawn;
     for (const Layer& layer : layers_) {
-        Drawn& d = drawn.emplace_back(Drawn{&layer, std::vector<UvRow>(count), {}});
+        Drawn& d = drawn.emplace_back(Drawn{&layer, std::vector<UvRow>(count * std::size_t(foldOf(layer.wrapV)))});
         const UvFew few = wantedOf(layer);
-        layer.raster->rows(first, d.rows, few);
-        d.mirrored.resize(foldOf(layer.wrapV) == 2 ? count : 0);
-        layer.raster->rows(2 * height_ - 1 - last, d.mirrored, few);
+        layer.raster->rows(first, std::span(d.rows).first(count), few);
+        layer.raster->rows(2 * height_ - 1 - last, std::span(d.rows).subspan(count), few);
+        for (UvRow& row : d.rows)
+            row.scratch = {}; // as large as the places
     }
     std::vector<Found> found;
     PlacesOfRow<Place> row;
@@ -126,8 +127,8 @@ void PlaceFinder::rows(int first, int last, const RowWork& work) const
             found.clear();
             for (const Drawn& d : drawn) {
                 addFound(*d.layer, d.rows[k], x, found);
-                if (!d.mirrored.empty())
-                    addFound(*d.layer, d.mirrored[count - 1 - k], x, found);
+                if (d.rows.size() > count)
+                    addFound(*d.layer, d.rows[2 * count - 1 - k], x, found);
             }
             choose(found, row.places);
             row.first.push_back(std::uint32_t(row.places.size()));

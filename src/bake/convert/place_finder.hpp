@@ -27,9 +27,8 @@ public:
     PlaceFinder(std::span<const MapUse> uses, int width, int height);
 
     // Calls work(y, row) for each row y from `first` to `last`, with the places of each of its texels in the order of
-    // the uses: those that cover the centre, or else those that only touch the texel; no more than
-    // kMaxPlaces (kMaxAllPlaces), spread over all. Rows of a block, from a multiple of UvRaster::kBlockRows on, take
-    // little more time than one. From several threads.
+    // the uses: those that cover the centre, or else those that only touch the texel; at most kMaxPlaces
+    // (kMaxAllPlaces), spread over all. For several threads; a block of rows takes little longer than one row.
     using RowWork = std::function<void(int y, const PlacesOfRow<Place>& row)>;
     void rows(int first, int last, const RowWork& work) const;
 

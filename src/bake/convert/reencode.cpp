@@ -120,7 +120,7 @@ struct RowCounts {
 
 // Rows whose angles wait in memory until they are counted.
 constexpr int kRowsAtATime = 128;
-// Texels whose places a thread holds, 8 rows of them at the most.
+// Texels whose places a thread holds, 4 rows of them at the most.
 constexpr int kTexelsAtATime = 1 << 14;
 
 class Reencoder {
@@ -228,7 +228,7 @@ private:
     // Calls work(top, bottom) for blocks of the rows from first to last - 1, on all threads.
     template<class Work> void eachBlock(int first, int last, const Work& work) const
     {
-        const int rows = std::clamp(kTexelsAtATime / map_.width, 1, UvRaster::kBlockRows);
+        const int rows = std::clamp(kTexelsAtATime / map_.width, 1, UvRaster::kBlockRows / 2);
         parallelFor(0, (last - first + rows - 1) / rows,
                     [&](int i) { work(first + i * rows, std::min(first + (i + 1) * rows, last) - 1); });
     }
