@@ -21,13 +21,10 @@ function(cotan_without what reason cost)
   set_property(GLOBAL APPEND PROPERTY COTAN_WITHOUT "${what} (${reason}): ${cost}")
 endfunction()
 
-# Several files of a target compiled as one: what they include is read, and what they instantiate is made, once. What
-# is built whole has three times as many at once; where files are changed, one is compiled again with fewer.
+# With COTAN_UNITY, up to `batch` files of a target are compiled as one: what they include is read, and what they
+# instantiate is made, once.
 function(cotan_unity target batch)
   if(COTAN_UNITY)
-    if(COTAN_WHOLE)
-      math(EXPR batch "3 * ${batch}")
-    endif()
     set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
     # Files of one folder only: names that are local to a file may occur again in another folder.
     get_target_property(sources ${target} SOURCES)
@@ -147,7 +144,7 @@ function(cotan_part name)
     if(EMSCRIPTEN)
       target_compile_options(cotan_${name} PRIVATE -Oz)
     endif()
-    cotan_unity(cotan_${name} 8)
+    cotan_unity(cotan_${name} 24)
   else()
     add_library(cotan_${name} INTERFACE)
     target_include_directories(cotan_${name} INTERFACE ${includes})
@@ -171,5 +168,5 @@ function(cotan_app_library name folder)
   add_library(cotan_${name} STATIC ${PART_SOURCES})
   target_include_directories(cotan_${name} PUBLIC ${folder})
   target_link_libraries(cotan_${name} PUBLIC ${PART_PUBLIC} PRIVATE ${PART_PRIVATE} cotan_warnings)
-  cotan_unity(cotan_${name} 8)
+  cotan_unity(cotan_${name} 24)
 endfunction()

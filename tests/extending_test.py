@@ -127,7 +127,7 @@ with tempfile.TemporaryDirectory() as folder:
                    "target_include_directories(added PRIVATE apps/lab shaders)\n"
                    "target_link_libraries(added PRIVATE cotan_image cotan_shader_text cotan_core)\n")
     build = pathlib.Path(folder) / "build"
-    options = ["-DCMAKE_BUILD_TYPE=Debug", "-DCMAKE_CXX_FLAGS_DEBUG=-O0", "-DCOTAN_TESTS=OFF", "-DCOTAN_INSTALL=OFF", "-DCOTAN_WHOLE=ON"]
+    options = ["-DCMAKE_BUILD_TYPE=Debug", "-DCMAKE_CXX_FLAGS_DEBUG=-O0", "-DCOTAN_TESTS=OFF", "-DCOTAN_INSTALL=OFF"]
     def run(command):
         done = subprocess.run(command, capture_output=True, text=True)
         if done.returncode:

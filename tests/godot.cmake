@@ -3,7 +3,7 @@ if(TARGET shader_test)
   add_executable(godot_test godot_test.cpp godot_draw.cpp godot_parity.cpp shader_cases.cpp shader_light.cpp)
   target_link_libraries(godot_test PRIVATE cotan_shader_text cotan_scene cotan_truth cotan_image
     nlohmann_json::nlohmann_json fmt::fmt GTest::gtest cotan_warnings)
-  set_target_properties(godot_test PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 4)
+  cotan_unity(godot_test 4)
   target_compile_definitions(godot_test PRIVATE COTAN_TOOL="$<TARGET_FILE:cotan>" COTAN_GLSLANG_PATH="${COTAN_GLSLANG}"
     COTAN_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
   add_dependencies(godot_test cotan)

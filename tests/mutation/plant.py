@@ -75,7 +75,7 @@ def copy_sources(texts):
 def configure():
     subprocess.run(["cmake", "-S", SOURCE, "-B", BUILD, "-G", "Ninja", "-DCMAKE_BUILD_TYPE=RelWithDebInfo",
                     "-DCMAKE_CXX_FLAGS_RELWITHDEBINFO=-O1", f"-DCMAKE_CXX_FLAGS=-w -fpermissive -Wno-narrowing -iquote {PORTABLE}",
-                    "-DCOTAN_WARNINGS_AS_ERRORS=OFF", "-DCOTAN_WHOLE=ON"], check=True, stdout=subprocess.DEVNULL)
+                    "-DCOTAN_WARNINGS_AS_ERRORS=OFF", "-DCOTAN_UNITY=ON"], check=True, stdout=subprocess.DEVNULL)
 
 
 def build(targets, jobs, go_on=False):
