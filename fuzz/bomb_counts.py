@@ -39,6 +39,27 @@ def many_primitives(r, folder):
     return g.write(folder)
 
 
+def many_members(r, folder):
+    """An object of very many members, beside much that is looked up in it; and as many as objects may have."""
+    g = Gltf()
+    material = g.map(flat_map(4))
+    attributes = g.triangle()
+    g.place([{"attributes": attributes, "material": material}])
+    count = r.randint(2000, 4000)
+    for _ in range(count):
+        g.root["materials"].append({"normalTexture": {"index": g.add("textures", {"source": 0})}})
+    g.root["meshes"][0]["primitives"] = [{"attributes": attributes, "material": k} for k in range(count)]
+    owner = r.choice([g.root, g.root["meshes"][0], g.root["materials"][0], g.root["textures"][0], g.root["images"][0],
+                      g.root["accessors"][0], g.root["bufferViews"][0]])
+    if r.random() < 0.5:
+        for primitive in g.root["meshes"][0]["primitives"]:
+            primitive["material"] = 0
+    first = {f"m{k}": 0 for k in range(r.choice([4000, 40_000]))} | owner  # readers look from the first on
+    owner.clear()
+    owner.update(first)
+    return g.write(folder)
+
+
 def many_nodes(r, folder):
     """Nodes beside or inside one another, over one mesh."""
     g = Gltf()

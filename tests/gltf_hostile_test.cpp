@@ -128,6 +128,31 @@ TEST(GltfHostile, aMillionMembersOfAnObjectAreReadAtOnce)
     EXPECT_LT(seconds.count(), 60); // about 1 s, and ten times that with sanitizers
 }
 
+// What reads a file looks for a name among all members of an object: 50,000 in the root made a conversion take 10 s.
+TEST(GltfHostile, objectsHaveAtMost4096MembersOutsideExtras)
+{
+    const auto membersOf = [](int count) {
+        std::string members;
+        for (int i = 0; i < count; ++i)
+            members += "\"other" + std::to_string(i) + "\":[],";
+        return members;
+    };
+    const auto withNode = [](const std::string& members) {
+        std::string text = square().text();
+        const std::string node = "{\"mesh\":0}";
+        return text.replace(text.find(node), node.size(), "{" + members + "\"mesh\":0}");
+    };
+    COTAN_LOADED(scene, loadText(withNode(membersOf(4095))));
+    EXPECT_EQ(scene.instances.size(), 1u);
+    COTAN_REFUSED(loadText(withNode(membersOf(4096))), "expected at most 4096 members in an object outside extras");
+    const std::string large = "{" + membersOf(5000) + "\"last\":0}";
+    COTAN_LOADED(extra, loadText(withNode("\"extras\":{\"list\":[1,[" + large + "]]},")));
+    EXPECT_EQ(extra.instances.size(), 1u);
+    COTAN_REFUSED(loadText(withNode("\"extras\":{},\"list\":[" + large + "],")), "expected at most 4096 members");
+    COTAN_REFUSED(loadText(withNode("\"extras\":{\"list\":[0]},\"other\":" + large + ",")),
+                  "expected at most 4096 members");
+}
+
 // ---- types ----------------------------------------------------------------------------------
 
 struct Wrong {

@@ -57,9 +57,8 @@ struct Task {
     }
 };
 
-// For every i < count the smallest j that has the same key. `key(i)` returns an array of
-// std::uint32_t of even length. Linear: hash tables with open addressing, one a thread; equal keys
-// have equal hashes and so meet in one table.
+// For every i < count the smallest j that has the same key. `key(i)` returns an array of std::uint32_t of even length.
+// Linear: hash tables with open addressing, one a thread; equal keys have equal hashes and so meet in one table.
 // beside: something that one thread may do meanwhile; called once.
 template<class KeyOf>
 LargeArray<std::uint32_t> firstEqual(std::uint32_t count, const KeyOf& key, std::size_t threads = 1,

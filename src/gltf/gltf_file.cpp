@@ -91,6 +91,7 @@ public:
 
     bool key(string_t& name) override
     {
+        isExtra_ = levels_.back().isExtra || name == "extras";
         member_ = &levels_.back().place(name);
         return true;
     }
@@ -113,12 +114,13 @@ public:
 private:
     struct Level {
         Json* value = nullptr;
+        bool isExtra = false;                        // part of extras
         std::map<std::string, std::size_t> places{}; // of the members of an object, once there are many
 
         // The member of that name; a new one where there is none.
         Json& place(string_t& name)
         {
-            constexpr std::size_t kFew = 16;
+            constexpr std::size_t kFew = 16, kMost = 4096;
             auto& members = value->get_ref<Json::object_t&>();
             if (members.size() < kFew) {
                 for (auto& [known, member] : members)
@@ -131,8 +133,9 @@ private:
                 if (const auto [known, isNew] = places.emplace(name, members.size()); !isNew)
                     return (members.begin() + std::ptrdiff_t(known->second))->second;
             }
-            members.emplace_back(std::move(name), nullptr);
-            return members.back().second;
+            if (members.size() >= kMost && !isExtra) // readers look for names one by one
+                failGltf("JSON: expected at most {} members in an object outside extras, found more", kMost);
+            return members.emplace_back(std::move(name), nullptr).second;
         }
     };
 
@@ -171,7 +174,9 @@ private:
         constexpr std::size_t kDeepest = 128; // what walks through a document recurses once a level
         if (levels_.size() >= kDeepest)
             failGltf("JSON: nested deeper than {} levels", kDeepest);
-        levels_.push_back({&put(std::move(value))});
+        const bool isExtra =
+            !levels_.empty() && (levels_.back().isExtra || (levels_.back().value->is_object() && isExtra_));
+        levels_.push_back({&put(std::move(value)), isExtra});
         return true;
     }
 
@@ -184,6 +189,7 @@ private:
     std::string_view text_;
     std::vector<Level> levels_; // the objects and arrays that are open
     Json* member_ = nullptr;    // of the innermost, named last
+    bool isExtra_ = false;      // that member
 };
 
 // ---- URIs -----------------------------------------------------------------------------------

@@ -86,8 +86,7 @@ bool readPixels(Decoder& decoder, unsigned char* pixels, std::size_t rowBytes)
     return true;
 }
 
-// The scans that the markers of a file begin: of data between them an 0xff is followed by 0 or is a
-// restart marker.
+// The scans that the markers of a file begin: of data between them an 0xff is followed by 0 or is a restart marker.
 std::size_t countScans(std::span<const std::byte> bytes)
 {
     const auto* const data = reinterpret_cast<const unsigned char*>(bytes.data());

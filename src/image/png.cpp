@@ -255,8 +255,7 @@ std::optional<Result<std::unique_ptr<RowReader>>> openPngRows(const std::filesys
 
 namespace {
 
-// Measured on 2048 x 2048 maps: a third larger than with libpng's defaults, in a fifth of the
-// time (180 ms).
+// Measured on 2048 x 2048 maps: a third larger than with libpng's defaults, in a fifth of the time (180 ms).
 struct PngEffort {
     int level, filters;
 };

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <cstdint>
 #include <cstring>
+#include <map>
 #include <string_view>
-#include <unordered_map>
 #include <utility>
 #include <vector>
 
@@ -66,8 +66,7 @@ Slope slopeOf(const glm::vec3& n, bool xyz)
     return {-n.x / n.z, -n.y / n.z, z * z};
 }
 
-// The stored bytes of the colour that fills what lies between charts: the one in the most runs. Empty if
-// there is none.
+// The stored bytes of the colour that fills what lies between charts: the one in the most runs. Empty if there is none.
 using Colour = std::string_view;
 
 Colour at(const Image& image, std::size_t i)
@@ -77,7 +76,7 @@ Colour at(const Image& image, std::size_t i)
 
 std::string colourBetween(const std::vector<Patch>& patches)
 {
-    std::unordered_map<Colour, std::size_t> inRuns;
+    std::map<Colour, std::size_t> inRuns;
     std::size_t all = 0;
     for (const Patch& patch : patches) {
         const std::size_t width = std::size_t(patch.texels.width), count = patch.texels.pixelCount();

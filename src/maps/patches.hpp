@@ -12,11 +12,10 @@ struct Patch {
     Image texels;
 };
 
-// Takes the strips of a picture, which follow one another from the top, and keeps its patches: one for
-// each square of a grid of at most 16 x 16 over the picture. Up to 2048 texels a side they are whole
-// squares and hold the whole picture; above, each is the middle of its square, 128 x 128 texels. Each
-// patch has the row below and the column to the right of it too, where the picture has them. The result
-// does not depend on how the picture was cut into strips.
+// Takes the strips of a picture, which follow one another from the top, and keeps its patches: one for each square of a
+// grid of at most 16 x 16 over the picture. Up to 2048 texels a side they are whole squares and hold the whole picture;
+// above, each is the middle of its square, 128 x 128 texels. Each patch has the row below and the column to the right
+// of it too, where the picture has them. The result does not depend on how the picture was cut into strips.
 class PatchSampler {
 public:
     PatchSampler(int width, int height, PixelType type);

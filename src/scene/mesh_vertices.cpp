@@ -4,10 +4,11 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
+#include <map>
 #include <numeric>
 #include <span>
 #include <tuple>
-#include <unordered_map>
+#include <utility>
 #include <vector>
 
 #include <glm/geometric.hpp>
@@ -174,7 +175,7 @@ std::vector<glm::vec3> groupNormals(JoinedGroups& groups, const std::vector<Inde
 void assignNormals(Mesh& mesh, JoinedGroups& groups, const std::vector<glm::vec3>& normals)
 {
     std::vector<Index> groupOfVertex(mesh.vertexCount(), kNone);
-    std::unordered_map<std::uint64_t, Index> splits; // (vertex, group) to the new vertex
+    std::map<std::pair<Index, Index>, Index> splits; // (vertex, group) to the new vertex
     mesh.normals.assign(mesh.vertexCount(), glm::vec3(0, 0, 1));
     for (Index corner = 0; corner < mesh.indices.size(); ++corner) {
         const Index vertex = mesh.indices[corner];
@@ -183,7 +184,7 @@ void assignNormals(Mesh& mesh, JoinedGroups& groups, const std::vector<glm::vec3
             groupOfVertex[vertex] = group;
             mesh.normals[vertex] = normals[group];
         } else if (groupOfVertex[vertex] != group && mesh.normals[vertex] != normals[group]) {
-            const auto [found, isNew] = splits.try_emplace(std::uint64_t(vertex) << 32 | group, 0);
+            const auto [found, isNew] = splits.try_emplace({vertex, group}, 0);
             if (isNew) {
                 found->second = Index(mesh.vertexCount());
                 eachAttribute(mesh, [vertex](auto& attribute) { attribute.push_back(attribute[vertex]); });

@@ -239,9 +239,8 @@ std::string seen(const Whole& orthonormal, const Whole& cotangent)
                        how, orthonormal.mean, cotangent.mean);
 }
 
-// Counts what the command would do; dropTangents (bake/convert/map_jobs.cpp) says which tangents go. Maps that are
-// to be read as they are stay: with the frame orthonormal by --keep-maps, with one that the file names without a
-// command.
+// Counts what the command would do; dropTangents (bake/convert/map_jobs.cpp) says which tangents go. Maps that are to
+// be read as they are stay: with the frame orthonormal by --keep-maps, with one that the file names without a command.
 void foresee(LintReport& report)
 {
     for (const MapFit& fit : report.fits)

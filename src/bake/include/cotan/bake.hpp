@@ -53,8 +53,7 @@ enum class BakeSearch {
 enum class HighNormals {
     smooth, // interpolated between vertices; those of the faces where they cancel out
     curved, // of the curved surface through the vertices and their normals, where the ray meets it: for meshes whose
-            // triangles are larger than texels. After curve(); smooth without, and where
-            // a triangle is not nearly flat
+            // triangles are larger than texels. After curve(); smooth without, and where a triangle is not nearly flat
     face,
 };
 

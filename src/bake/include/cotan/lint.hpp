@@ -168,9 +168,8 @@ struct LintOptions {
 std::size_t lintBytes(const Scene& scene);
 
 // Looks at every primitive (mesh) of the scene as its instances move it: those that differ by rotations,
-// mirroring and uniform scales count as one. Never fails: primitives without triangles or uv are listed
-// with what is known; of a scene that does not hold together (checkScene) only `defects` says so. options.memory is not
-// asked.
+// mirroring and uniform scales count as one. Never fails: primitives without triangles or uv are listed with what is
+// known; of a scene that does not hold together (checkScene) only `defects` says so. options.memory is not asked.
 LintReport lintScene(const Scene& scene, const LintOptions& options = {});
 // The same with progress, on the thread of the caller: four times for each mesh, and at the end. Errors:
 // ErrorKind::stopped; ErrorKind::input, before anything is done, where lintBytes are more than options.memory.

@@ -34,8 +34,7 @@ enum class Channels {
 // What the numbers mean.
 enum class MapKind { tangentSpace, objectSpace, height };
 
-// Which way the rows of the image run with v. It decides what "green up" means: whether green
-// points along +v.
+// Which way the rows of the image run with v. It decides what "green up" means: whether green points along +v.
 enum class VDirection {
     down, // v = 0 at the top row: glTF, Direct3D, Vulkan
     up,   // v = 0 at the bottom row: OBJ, OpenGL tutorials, Blender, Unity

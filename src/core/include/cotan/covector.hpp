@@ -137,8 +137,7 @@ private:
 
 // ---- three ways to carry a normal to world space ---------------------------------------------
 //
-// For M = R S (rotation after scale along the axes), the only kind of matrix for which all three
-// are the same:
+// For M = R S (rotation after scale along the axes), the only kind of matrix for which all three are the same:
 //
 //   way               formula        right for                         wrong for
 //   undoScale         R S^-1 n       rotation x axis-aligned scale     shear, a scale in a rotated

@@ -160,9 +160,8 @@ template<class Real> packed::vec<3, Real> encode(const CotangentFrame<Real>& f, 
     return cotan_encode(detail::toText(f), target.raw());
 }
 
-// The frame in another space. Covectors go by the inverse transpose; for a map that is not a
-// rotation with uniform scale the lengths change, and with them the perturbed normal: bake in the
-// scale that will be used.
+// The frame in another space. Covectors go by the inverse transpose; for a map that is not a rotation with uniform
+// scale the lengths change, and with them the perturbed normal: bake in the scale that will be used.
 template<class Real> CotangentFrame<Real> transform(const LinearMap<Real>& map, const CotangentFrame<Real>& f)
 {
     return {map(f.t), map(f.b), map(f.n)};

@@ -92,12 +92,11 @@ RingMeshlets ringMeshlets(const MeshView& mesh, std::uint32_t maxVertices = 64, 
 // An index buffer in which every triangle owns a vertex, so that the vertex shader can hand something on
 // that belongs to the triangle: U and V of the frame `triangle`.
 //
-// A graphics API takes values that are not interpolated from one vertex of a triangle, its provoking
-// vertex. In an ordinary mesh several triangles share it. Here vertices are numbered so that
-// triangle f has vertex number f as its provoking vertex and shares it with no triangle that would
-// need it for the same. A vertex shader that is given the number k < triangles reads the three corners
-// 3k, 3k + 1 and 3k + 2 of `corners`, the mesh's own vertices, from storage buffers. Nothing else is
-// stored, and it follows every deformation.
+// A graphics API takes values that are not interpolated from one vertex of a triangle, its provoking vertex. In an
+// ordinary mesh several triangles share it. Here vertices are numbered so that triangle f has vertex number f as its
+// provoking vertex and shares it with no triangle that would need it for the same. A vertex shader that is given the
+// number k < triangles reads the three corners 3k, 3k + 1 and 3k + 2 of `corners`, the mesh's own vertices, from
+// storage buffers. Nothing else is stored, and it follows every deformation.
 // The idea is that of meshopt_generateProvokingIndexBuffer (meshoptimizer, A. Kapoulkine), which
 // does not number by triangle.
 

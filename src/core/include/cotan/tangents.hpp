@@ -22,10 +22,9 @@ namespace cotan {
 
 // ---- from a mesh ---------------------------------------------------------------------------
 
-// A mesh as plain arrays. positions, normals and texcoords have one entry a vertex; normals are
-// unit, or zero where unknown; indices are three a triangle, each smaller than the number of
-// vertices. An array of another size or an index out of range makes every function here return an
-// empty result.
+// A mesh as plain arrays. positions, normals and texcoords have one entry a vertex; normals are unit, or zero where
+// unknown; indices are three a triangle, each smaller than the number of vertices. An array of another size or an index
+// out of range makes every function here return an empty result.
 struct MeshView {
     std::span<const packed::vec3> positions;
     std::span<const packed::vec3> normals;
@@ -72,9 +71,8 @@ struct Cotangents {
 // Cotangents averaged at the vertices, for the frame `smooth`: the frame `gradient` of each
 // triangle with the vertex's normal, weighted by the corner's angle seen along that normal.
 // Neither unit nor perpendicular to each other: stretch and shear of the texcoords are kept.
-// Continuous inside a chart. Mirrored and unmirrored charts are kept apart, except at a vertex
-// that triangles of both kinds index: it gets the side with the larger angle, so split such
-// vertices first (splitMirrored).
+// Continuous inside a chart. Mirrored and unmirrored charts are kept apart, except at a vertex that triangles of both
+// kinds index: it gets the side with the larger angle, so split such vertices first (splitMirrored).
 // Degenerate input: triangles without area in space or uv add nothing; a vertex with no other
 // triangle gets zero, which the frame turns into the plain normal.
 // threads: how many to use for large meshes, 0: all cores; the result does not depend on it.

@@ -89,9 +89,8 @@ struct LoadLimits {
     std::size_t vertices = 100'000'000;           // of all meshes together
     std::size_t triangles = 100'000'000;          // instances not multiplied
     std::size_t nodes = 1'000'000;
-    // glTF: what the vertices and triangles may take in memory beyond sixteen times the size of the
-    // file and its buffers. A few bytes can ask for any amount, by accessors without data and by
-    // primitives that share them.
+    // glTF: what the vertices and triangles may take in memory beyond sixteen times the size of the file and its
+    // buffers. A few bytes can ask for any amount, by accessors without data and by primitives that share them.
     std::size_t geometryBytes = std::size_t(64) << 20;
     int imageSide = 16384;                           // pixels
     std::size_t imageBytes = std::size_t(640) << 20; // decoded, of one image

@@ -50,8 +50,7 @@ Result<Image> decodeImage(std::span<const std::byte> bytes, const std::string& n
 // The file appears whole or not at all: it is written beside its place, then renamed. PNG takes
 // unorm8 and unorm16 as they are and float32 clamped to [0,1] at 8 bits; EXR keeps floats. PNG and EXR also store
 // Image::frame, where it is not empty, under the key cotanFrame.
-// Errors: ErrorKind::output where the folder cannot be written, ErrorKind::usage for an extension
-// that nothing writes.
+// Errors: ErrorKind::output where the folder cannot be written, ErrorKind::usage for an extension that nothing writes.
 Status writeImage(const std::filesystem::path& file, const Image& image);
 
 // The bytes of a PNG file, packed tighter and more slowly than writeImage does. image: unorm8 or

@@ -271,10 +271,9 @@ struct Heights {
 };
 
 // Least squares: the height whose slopes are nearest to the map's. Periodic: R. Frankot, R.
-// Chellappa, A Method for Enforcing Integrability in Shape from Shading Algorithms, 1988, with the
-// kernel's own response in place of the derivative's. Free: the same over heights that are clamped at the
-// borders, by cosine transforms; spectral: over differences of neighbours, Poisson's equation with natural
-// boundaries.
+// Chellappa, A Method for Enforcing Integrability in Shape from Shading Algorithms, 1988, with the kernel's own
+// response in place of the derivative's. Free: the same over heights that are clamped at the borders, by cosine
+// transforms; spectral: over differences of neighbours, Poisson's equation with natural boundaries.
 Heights heightFromNormals(const Image& map, const ToHeightSettings& settings);
 
 // Bytes that heightFromNormals takes beside the map, for a check before it is called: of periodic heights. Free ones
@@ -315,9 +314,8 @@ struct MipLevel {
 double roughnessFromLength(double roughness, double length, VarianceModel model); // toksvig, vmf
 double roughnessFromVariance(double roughness, double variance);                  // lean
 
-// Levels 0 (the map itself, re-encoded) to 1 x 1. Each texel is the mean over its area of the level
-// before, also where sizes are odd. Texels that are no direction do not count; slopes are held at
-// 128.
+// Levels 0 (the map itself, re-encoded) to 1 x 1. Each texel is the mean over its area of the level before, also where
+// sizes are odd. Texels that are no direction do not count; slopes are held at 128.
 std::vector<MipLevel> mipChain(const Image& map, const MipSettings& settings);
 
 // ---- comparison ----------------------------------------------------------------------------
