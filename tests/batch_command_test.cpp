@@ -249,7 +249,13 @@ TEST_F(BatchCommand, interruptedItEndsItsJobsAndTheNextRunGoesOn)
             ::execl(COTAN_TOOL, COTAN_TOOL, "batch", "jobs.jsonl", "-o", "r.html", "--quiet", nullptr);
             ::_exit(there ? 127 : 126);
         }
-        std::this_thread::sleep_for(std::chrono::milliseconds(700));
+        // In the middle: after the first picture, and then after the first of those that are left.
+        const auto images = [&] {
+            return std::ranges::count_if(fs::directory_iterator(folder.path()),
+                                         [](const auto& entry) { return entry.path().extension() == ".png"; });
+        };
+        for (const auto before = images(), most = before + 1; images() < most && ::waitpid(child, nullptr, WNOHANG) == 0;)
+            std::this_thread::sleep_for(std::chrono::milliseconds(5));
         ::kill(child, signal);
         int status = 0;
         ::waitpid(child, &status, 0);
