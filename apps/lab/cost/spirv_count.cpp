@@ -7,12 +7,12 @@ int spirvInstructions(std::span<const std::uint32_t> words)
     // Numbers of the SPIR-V specification, section 3.49.
     constexpr std::uint32_t kMagic = 0x07230203, kNop = 0, kLine = 8, kFunction = 54, kFunctionEnd = 56, kVariable = 59,
                             kLabel = 248, kNoLine = 317;
-    constexpr std::size_t kHeader = 5;
-    if (words.size() < kHeader || words[0] != kMagic)
+    constexpr std::size_t kHeaderWords = 5;
+    if (words.size() < kHeaderWords || words[0] != kMagic)
         return 0;
     int count = 0;
     bool inside = false;
-    for (std::size_t at = kHeader; at < words.size();) {
+    for (std::size_t at = kHeaderWords; at < words.size();) {
         const std::uint32_t code = words[at] & 0xffffu;
         const std::uint32_t length = words[at] >> 16;
         if (length == 0 || at + length > words.size())
