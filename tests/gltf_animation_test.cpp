@@ -205,6 +205,14 @@ TEST(GltfAnimation, damageIsOneLineWhereItIsAskedForAndElseNoMatter)
         COTAN_REFUSED(g.load(at(0)), word);
         EXPECT_TRUE(g.load()) << where;
     }
+    Gltf unnamed = good; // names are looked for before they are checked
+    unnamed.root["animations"][1]["name"] = 5;
+    COTAN_REFUSED(unnamed.load(at(0, "1")), "animations[1].name: expected a string");
+    const auto unknown = unnamed.load(at(0, "go"));
+    ASSERT_FALSE(unknown);
+    EXPECT_NE(unknown.error().message.find("expected one of its 2 animations"), std::string::npos)
+        << unknown.error().message;
+    EXPECT_TRUE(unnamed.load());
     COTAN_REFUSED(moved({{"translation", {1, 1}, {1, 2, 3, 4, 5, 6}, "VEC3"}}).load(at(0)), "expected rising times");
     Gltf fixed = good;
     fixed.root["nodes"][0]["matrix"] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};

@@ -173,10 +173,13 @@ private:
     std::string field_;
 };
 
-// As the file has them.
+// As the file has them, which is not checked yet; empty for what is no text.
 std::vector<std::string> animationNames(const Json& root)
 {
-    return gltf::readAll(&root, "animations", [](const Json& a) { return gltf::valueOr(a, "name", std::string()); });
+    return gltf::readAll(&root, "animations", [](const Json& a) {
+        const Json* const name = gltf::member(a, "name");
+        return name && name->is_string() ? name->get<std::string>() : std::string();
+    });
 }
 
 // Seconds; 0 where the accessor does not hold times.
