@@ -155,6 +155,21 @@ TEST_F(BakeHighMapCommand, meshesWithoutMapAreCountedAndSmooth)
     EXPECT_NE(ao.err.find("changes nothing"), std::string::npos) << ao.err;
 }
 
+// Facets that nobody has modelled would be baked in silence.
+TEST_F(BakeHighMapCommand, whatIsOddAboutAHighModelIsSaidWhetherItsMapCountsOrNot)
+{
+    Made high = quad(1);
+    high.root["meshes"][0]["primitives"][0]["attributes"].erase("NORMAL");
+    write(high, folder.path());
+    writeSquares();
+    for (const char* const normals : {"smooth", "face", "map"}) {
+        const ToolRun r =
+            bake({"--high", "quad.gltf", "--low", "square.obj", "--high-normals", normals, "--size", "8x8"});
+        ASSERT_EQ(r.code, 0) << r.err;
+        EXPECT_NE(r.err.find("meshes[0].primitives[0]: no NORMAL, flat normals are made"), std::string::npos) << r.err;
+    }
+}
+
 TEST_F(BakeHighMapCommand, badInputGetsOneLineAndItsExitCode)
 {
     write(quad(1), folder.path());

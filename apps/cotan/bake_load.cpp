@@ -237,11 +237,8 @@ std::vector<std::string> warningsOf(const BakeCommandOptions& o, const Scene& lo
                                     bool mapsCount)
 {
     std::vector<std::string> warnings = low.warnings;
-    if (!mapsCount) {
-        if (o.highNormals == "map")
-            warnings.push_back(fmt::format("--high-normals map changes nothing in a map of the kind {}", o.kind));
-        return warnings;
-    }
+    if (!mapsCount && o.highNormals == "map")
+        warnings.push_back(fmt::format("--high-normals map changes nothing in a map of the kind {}", o.kind));
     for (const Scene& scene : high.scenes)
         for (const std::string& line : scene.warnings)
             if (std::find(low.warnings.begin(), low.warnings.end(), line) == low.warnings.end())
