@@ -176,7 +176,7 @@ private:
 
 // The low surface's triangles without those that have the same uv as two earlier ones: the first of them is baked, the
 // second says that a texel is claimed twice.
-std::vector<std::uint32_t> indicesToBake(const LowSurface& low)
+std::vector<std::uint32_t> indicesToDraw(const LowSurface& low)
 {
     std::vector<std::uint32_t> indices = low.indices;
     const auto uv = [&](std::uint32_t v) { return glm::vec3(low.texcoords[v], 0); };
@@ -190,27 +190,17 @@ std::vector<std::uint32_t> indicesToBake(const LowSurface& low)
     return indices;
 }
 
-// Refuses triangles that lie over one another in so many rows of texels that finding each texel's first takes too long:
-// those of one layer are in few more rows than there are texels.
-Status checkRows(const UvTriangles& triangles, glm::dvec2 size)
+// Rows of texels that the triangles are in, each for itself: those of one layer are in few more than there are texels.
+double rowsOf(const UvTriangles& triangles, double height)
 {
     double rows = 0;
     for (std::size_t i = 0; i + 2 < triangles.indices.size(); i += 3) {
-        double low = 1e30, high = -1e30;
-        for (std::size_t k = 0; k < 3; ++k) {
-            const double v = double(triangles.texcoords[triangles.indices[i + k]].y) * size.y;
-            low = std::min(low, v);
-            high = std::max(high, v);
-        }
+        const auto v = [&](std::size_t k) { return double(triangles.texcoords[triangles.indices[i + k]].y) * height; };
+        const auto [low, high] = std::minmax({v(0), v(1), v(2)});
         if (const bool drawn = high > low; drawn)
-            rows += std::min(high - low, size.y);
+            rows += std::min(high - low, height);
     }
-    const double most = kMaxRows + 2 * size.x * size.y;
-    if (rows > most)
-        return inputError(fmt::format("low: its triangles lie over one another in {:.3g} rows of texels; expected at "
-                                      "most {:.3g}: fewer, or a smaller map",
-                                      rows, most));
-    return Done{};
+    return rows;
 }
 
 void countTriangles(const LowSurface& low, BakeStatistics& statistics)
@@ -223,6 +213,18 @@ void countTriangles(const LowSurface& low, BakeStatistics& statistics)
 }
 
 } // namespace
+
+Result<UvTriangles> trianglesToDraw(const LowSurface& low, glm::ivec2 size, std::vector<std::uint32_t>& indices)
+{
+    indices = indicesToDraw(low);
+    const UvTriangles triangles{low.texcoords, indices};
+    const double rows = rowsOf(triangles, size.y), most = kMaxRows + 2 * double(size.x) * double(size.y);
+    if (rows > most)
+        return inputError(fmt::format("its triangles lie over one another in {:.3g} rows of texels; expected at most "
+                                      "{:.3g}: fewer, or a smaller map",
+                                      rows, most));
+    return triangles;
+}
 
 Result<Baked> bake(const LowSurface& low, const HighSurface& high, const BakeOptions& given, const Progress& progress)
 {
@@ -241,12 +243,12 @@ Result<Baked> bake(const LowSurface& low, const HighSurface& high, const BakeOpt
     const auto start = std::chrono::steady_clock::now();
     const std::size_t texels = std::size_t(options.width) * std::size_t(options.height);
     Baked out{options.width, options.height, std::vector(texels, glm::vec3(0)), std::vector<std::uint8_t>(texels), {}};
-    const std::vector<std::uint32_t> indices = indicesToBake(low);
-    const UvTriangles triangles{low.texcoords, indices};
     const glm::ivec2 size(options.width * options.samples, options.height * options.samples);
-    if (Status fits = checkRows(triangles, glm::dvec2(size)); !fits)
-        return fits.error();
-    const UvRaster raster(triangles, size.x, size.y, options.tile);
+    std::vector<std::uint32_t> indices;
+    const Result<UvTriangles> triangles = trianglesToDraw(low, size, indices);
+    if (!triangles)
+        return inputError("low: " + triangles.error().message);
+    const UvRaster raster(*triangles, size.x, size.y, options.tile);
     const Baker baker(low, high, options);
     std::mutex counting;
     CountedSteps done(progress, std::size_t(options.height)); // rows

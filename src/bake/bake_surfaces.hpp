@@ -8,6 +8,7 @@
 #include "bake/high_surface.hpp"
 #include "bake/ray_starts.hpp"
 #include "bake/surface/low_surface.hpp"
+#include "bake/surface/uv_raster.hpp"
 #include "cotan/bake.hpp"
 #include "cotan/result.hpp"
 
@@ -27,6 +28,10 @@ struct Baked {
 // triangles lie over one another in too many rows of texels; ErrorKind::stopped.
 Result<Baked> bake(const LowSurface& low, const HighSurface& high, const BakeOptions& options,
                    const Progress& progress = {});
+
+// What UvRaster::firsts is asked about for an image of that size. indices: of the triangles, which must outlive them.
+// Errors: ErrorKind::input where they lie over one another in too many rows of texels.
+Result<UvTriangles> trianglesToDraw(const LowSurface& low, glm::ivec2 size, std::vector<std::uint32_t>& indices);
 
 // Measures options.starts where bake() needs them and they are null. Errors: those of makeRayStarts.
 Status measureRayStarts(const LowSurface& low, const HighSurface& high, BakeOptions& options, const LowRest& rest = {});

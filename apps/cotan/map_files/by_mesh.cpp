@@ -1,6 +1,8 @@
 #include "by_mesh.hpp"
 
+#include <algorithm>
 #include <atomic>
+#include <span>
 #include <vector>
 
 #include <glm/geometric.hpp>
@@ -8,6 +10,7 @@
 #include "bake/bake_surfaces.hpp"
 #include "bake/surface/low_surface.hpp"
 #include "bake/surface/uv_raster.hpp"
+#include "core/loops.hpp"
 #include "cotan/model.hpp"
 #include "maps/texels.hpp"
 
@@ -58,40 +61,46 @@ Result<Image> throughMesh(const Image& map, const RecodeSettings& s, const MeshO
     const auto surface = makeLowSurface(*scene, mesh.material, mesh.frame, mesh.tangents);
     if (!surface)
         return surface.error();
-    const UvRaster raster({surface->texcoords, surface->indices}, map.width, map.height);
+    std::vector<std::uint32_t> indices;
+    const Result<UvTriangles> triangles = trianglesToDraw(*surface, {map.width, map.height}, indices);
+    if (!triangles)
+        return inputError(mesh.file.string() + ": " + triangles.error().message);
+    const UvRaster raster(*triangles, map.width, map.height);
     const bool fromObject = s.from.kind == MapKind::objectSpace;
     Baked values{map.width,
                  map.height,
                  std::vector<glm::vec3>(map.pixelCount(), glm::vec3(0)),
                  std::vector<std::uint8_t>(map.pixelCount(), 0),
                  {}};
+    const auto width = std::size_t(map.width);
     std::atomic<std::size_t> invalid = 0, found = 0;
-    CountedSteps rows(progress, std::size_t(map.height));
-    forRowBands(map.height, [&](int first, int last) {
-        UvRow places;
-        std::vector<glm::vec3> normals(std::size_t(map.width));
-        for (int y = first; y < last && !rows.stopped(); ++y) {
-            raster.row(y, places, {.most = 1});
-            decodeRow(map, y, s.from, normals);
-            for (std::size_t x = 0; x < normals.size(); ++x) {
-                if (places.of(x).empty())
-                    continue;
-                const UvSample& place = places.of(x).front();
-                ++found;
-                const std::size_t at = std::size_t(y) * normals.size() + x;
+    CountedSteps blocks(progress, std::size_t(raster.blocks()));
+    parallelRanges(0, raster.blocks(), 1, [&](int begin, int end) {
+        UvFirsts firsts;
+        std::vector<glm::vec3> normals(width * UvRaster::kBlockRows);
+        for (int block = begin; block < end && !blocks.stopped(); ++block) {
+            raster.firsts(block, firsts);
+            const int top = block * UvRaster::kBlockRows, bottom = std::min(top + UvRaster::kBlockRows, map.height);
+            for (int y = top; y < bottom; ++y)
+                decodeRow(map, y, s.from, std::span(normals).subspan(std::size_t(y - top) * width, width));
+            found += firsts.places.size();
+            for (std::size_t i = 0; i < firsts.places.size(); ++i) {
+                const UvSample& place = firsts.places[i];
+                const std::size_t at = std::size_t(firsts.texels[i].y) * width + std::size_t(firsts.texels[i].x);
+                const glm::vec3& normal = normals[at - std::size_t(top) * width];
                 const LowPoint p = pointOf(*surface, place.triangle, double(place.b1), double(place.b2));
-                if (normals[x] == glm::vec3(0)) { // no direction: that of the surface
+                if (normal == glm::vec3(0)) { // no direction: that of the surface
                     ++invalid;
                     values.values[at] = fromObject ? glm::vec3(0, 0, 1) : glm::vec3(p.normal);
                 } else {
-                    values.values[at] = turned(normals[x], p.frame, fromObject);
+                    values.values[at] = turned(normal, p.frame, fromObject);
                 }
                 values.states[at] = texelCovered;
             }
-            rows.step();
+            blocks.step();
         }
     });
-    if (rows.stopped())
+    if (blocks.stopped())
         return stoppedError();
     shown = found;
     counts = {invalid, 0};
