@@ -254,7 +254,8 @@ TEST_F(BatchCommand, interruptedItEndsItsJobsAndTheNextRunGoesOn)
             return std::ranges::count_if(fs::directory_iterator(folder.path()),
                                          [](const auto& entry) { return entry.path().extension() == ".png"; });
         };
-        for (const auto before = images(), most = before + 1; images() < most && ::waitpid(child, nullptr, WNOHANG) == 0;)
+        for (const auto before = images(), most = before + 1;
+             images() < most && ::waitpid(child, nullptr, WNOHANG) == 0;)
             std::this_thread::sleep_for(std::chrono::milliseconds(5));
         ::kill(child, signal);
         int status = 0;

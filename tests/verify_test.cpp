@@ -170,6 +170,26 @@ TEST(VerifyConversion, theSidesAreFourAroundAndOneFromAbove)
     EXPECT_EQ(sides->cameras[4].up, glm::vec3(0, 0, -1));
 }
 
+// Many sheets of one place, which are no longer one: a renderer would draw them all.
+Scene stackOf(std::size_t sheets)
+{
+    Scene scene = quadWith(kFlatTexel);
+    scene.instances.assign(sheets, scene.instances[0]);
+    return scene;
+}
+
+// A conversion of 1 MB took over a minute.
+TEST(VerifyConversion, whatIsDrawnTooManyTimesOverIsRefusedBeforeItIsDrawn)
+{
+    const auto renderer = reference();
+    const auto few = drawSides(*renderer, {stackOf(20), Frame::cotangent}, {}, 32);
+    EXPECT_TRUE(few) << few.error().message;
+    const auto many = drawSides(*renderer, {stackOf(300), Frame::cotangent}, {}, 32);
+    ASSERT_FALSE(many);
+    EXPECT_EQ(many.error().kind, ErrorKind::input);
+    EXPECT_NE(many.error().message.find("its triangles cover the picture"), std::string::npos) << many.error().message;
+}
+
 // A quad at z = 0, and above it one that rises by `slope` along x.
 struct Pair {
     Scene low, high;
@@ -212,6 +232,21 @@ TEST(VerifyBake, whatIsBakedFitsAndAFlatMapIsOffByTheSlopeOfTheHighSurface)
     EXPECT_EQ(off->views[0].degrees.count, fits->views[0].degrees.count);
     for (std::size_t side : {1, 3}) // from there the low quad is a line
         EXPECT_EQ(off->views[side].degrees.count, 0u) << side;
+}
+
+TEST(VerifyBake, whatIsDrawnTooManyTimesOverIsRefusedBeforeItIsDrawn)
+{
+    const Pair pair = tiltedPair(0.1);
+    const BakeOptions options;
+    const auto low = makeLowSurface(pair.low, -1, options.frame, TangentOrigin::generated);
+    const auto high = HighSurface::make({pair.high}, 0);
+    ASSERT_TRUE(low && high);
+    const Image map = solidImage({kFlatTexel, 255});
+    EXPECT_TRUE(verifyBake(*reference(), {stackOf(20), *low, *high, options, map, {}}, 32));
+    const auto compared = verifyBake(*reference(), {stackOf(300), *low, *high, options, map, {}}, 32);
+    ASSERT_FALSE(compared);
+    EXPECT_EQ(compared.error().kind, ErrorKind::input);
+    EXPECT_NE(compared.error().message.find("its triangles cover the picture"), std::string::npos);
 }
 
 TEST(VerifyBake, aMaterialThatTheSceneDoesNotHaveIsRefused)

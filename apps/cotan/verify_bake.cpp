@@ -9,6 +9,7 @@
 #include "inspect/angles.hpp"
 #include "scene/geometry.hpp"
 #include "scene/normal_maps.hpp"
+#include "scene/parts.hpp"
 #include "seen_high.hpp"
 
 namespace cotan::app {
@@ -31,20 +32,28 @@ ComparedView compareView(const SeenHigh& seen, const Image& drawn, const std::ve
     return view;
 }
 
-// scene: as it is loaded.
-Result<ComparedViews> compareAround(Renderer& renderer, const Scene& scene, const BakeToVerify& bake, int side)
+// From all around.
+std::vector<View> viewsOf(const Scene& scene, const BakeToVerify& bake, int side)
 {
     constexpr double kQuarter = 1.5707963; // radians
+    View view;
+    view.width = view.height = side;
+    view.frame = bake.options.frame;
+    view.output = Output::normal;
+    std::vector<View> views(kBakeViews, view);
     const Camera front = fitCamera(bounds(scene), side, side);
+    for (int k = 0; k < kBakeViews; ++k)
+        views[std::size_t(k)].camera = turnedAbout(front, k * kQuarter);
+    return views;
+}
+
+// views: of the scene that is loaded.
+Result<ComparedViews> compareAround(Renderer& renderer, const std::vector<View>& views, const BakeToVerify& bake)
+{
     ComparedViews compared;
     compared.mapped = true;
     AngleCounter all;
-    for (int k = 0; k < kBakeViews; ++k) {
-        View view;
-        view.width = view.height = side;
-        view.camera = turnedAbout(front, k * kQuarter);
-        view.frame = bake.options.frame;
-        view.output = Output::normal;
+    for (const View& view : views) {
         const auto drawn = renderer.draw(view);
         if (!drawn)
             return drawn.error();
@@ -80,11 +89,15 @@ Result<ComparedViews> verifyBake(Renderer& renderer, const BakeToVerify& bake, i
     Scene scene = bake.scene;
     putNormalMap(scene, bake.map, bake.format, bake.material);
     deriveVertexFrames(scene, bake.options.frame, bake.tangents);
+    const std::vector<View> views = viewsOf(scene, bake, side);
+    for (const View& view : views)
+        if (Status fits = settleCovered(scene, view); !fits)
+            return fits.error();
     const auto forget = [](Renderer* drawing) { drawing->forget(); }; // the scene ends here
     const std::unique_ptr<Renderer, decltype(forget)> shown(&renderer, forget);
     if (Status loaded = renderer.load(scene); !loaded)
         return loaded.error();
-    return compareAround(renderer, scene, bake, side);
+    return compareAround(renderer, views, bake);
 }
 
 } // namespace cotan::app

@@ -174,14 +174,13 @@ private:
         constexpr std::size_t kDeepest = 128; // what walks through a document recurses once a level
         if (levels_.size() >= kDeepest)
             failGltf("JSON: nested deeper than {} levels", kDeepest);
-        const bool isExtra =
-            !levels_.empty() && (levels_.back().isExtra || (levels_.back().value->is_object() && isExtra_));
-        levels_.push_back({&put(std::move(value)), isExtra});
+        levels_.push_back({&put(std::move(value)), isExtra_});
         return true;
     }
 
     bool close()
     {
+        isExtra_ = levels_.back().isExtra;
         levels_.pop_back();
         return true;
     }
@@ -189,7 +188,7 @@ private:
     std::string_view text_;
     std::vector<Level> levels_; // the objects and arrays that are open
     Json* member_ = nullptr;    // of the innermost, named last
-    bool isExtra_ = false;      // that member
+    bool isExtra_ = false;      // the next value
 };
 
 // ---- URIs -----------------------------------------------------------------------------------

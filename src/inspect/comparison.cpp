@@ -9,6 +9,7 @@
 
 #include "inspect/angles.hpp"
 #include "scene/geometry.hpp"
+#include "scene/parts.hpp"
 
 namespace cotan {
 
@@ -22,7 +23,6 @@ std::vector<float> mappedAngles(std::vector<float> degrees, bool mapped)
     return degrees;
 }
 
-// kConversionViews of them.
 std::vector<Camera> camerasAround(const Scene& scene, int side)
 {
     const Camera fit = fitCamera(bounds(scene), side, side);
@@ -46,14 +46,17 @@ Result<DrawnSides> drawSides(Renderer& renderer, ModelInFrame model, std::vector
     sides.mapped = drawsNormalMaps(model.scene);
     sides.cameras = cameras.empty() ? camerasAround(model.scene, side) : std::move(cameras);
     deriveVertexFrames(model.scene, model.frame, model.tangents);
-    const auto forget = [](Renderer* drawing) { drawing->forget(); }; // the scene ends here
-    const std::unique_ptr<Renderer, decltype(forget)> shown(&renderer, forget);
-    if (Status loaded = renderer.load(model.scene); !loaded)
-        return loaded.error();
     View view;
     view.width = view.height = side;
     view.frame = model.frame;
     view.output = Output::normal;
+    view.camera = sides.cameras.front();
+    if (Status fits = settleCovered(model.scene, view); !fits)
+        return fits.error();
+    const auto forget = [](Renderer* drawing) { drawing->forget(); }; // the scene ends here
+    const std::unique_ptr<Renderer, decltype(forget)> shown(&renderer, forget);
+    if (Status loaded = renderer.load(model.scene); !loaded)
+        return loaded.error();
     for (const Camera& camera : sides.cameras) {
         view.camera = camera;
         auto image = renderer.draw(view);

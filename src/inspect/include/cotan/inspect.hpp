@@ -208,7 +208,7 @@ struct DrawnSides {
 // Draws both models with the cameras of the first and compares. side: of a picture, in pixels.
 // The renderer has no scene afterwards. It reports each picture to renderer.progress: kConversionViews of the
 // one model, then as many of the other.
-// Errors: those of Renderer::load and Renderer::draw.
+// Errors: those of Renderer::load and Renderer::draw; ErrorKind::input where triangles cover a picture too many times.
 Result<ComparedViews> verifyConversion(Renderer& renderer, ModelInFrame before, ModelInFrame after,
                                        int side = kConversionSide);
 

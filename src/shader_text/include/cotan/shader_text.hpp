@@ -103,8 +103,7 @@ std::string fusedFrameNames(std::string_view beforeLast = ", ");
 // vertices; what the language does not have. The same choice gives the same bytes.
 Result<ShaderText> makeShaderText(const Choice& choice);
 
-// For tests: functions of `extra`, portable text appended after all parts, and what they call,
-// without a header.
+// For tests: functions of `extra`, portable text appended after all parts, and what they call, without a header.
 std::string translate(Language language, std::string_view extra);
 
 } // namespace cotan::shader_text
