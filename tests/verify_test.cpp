@@ -190,6 +190,20 @@ TEST(VerifyConversion, whatIsDrawnTooManyTimesOverIsRefusedBeforeItIsDrawn)
     EXPECT_NE(many.error().message.find("its triangles cover the picture"), std::string::npos) << many.error().message;
 }
 
+TEST(VerifyConversion, modelsAsLargeAsFloatsWithoutTheirSquaresAreDrawn)
+{
+    const auto renderer = reference();
+    Scene scene = quadWith(kFlatTexel);
+    for (int axis = 0; axis < 3; ++axis)
+        scene.instances[0].toWorld[axis][axis] = 1e23f;
+    const auto sides = drawSides(*renderer, {scene, Frame::cotangent}, {}, 32);
+    ASSERT_TRUE(sides) << sides.error().message;
+    for (const Camera& camera : sides->cameras)
+        EXPECT_NEAR(glm::length(glm::dvec3(camera.eye - camera.target))
+                        / glm::length(glm::dvec3(sides->cameras[0].eye - sides->cameras[0].target)),
+                    1, 1e-5); // floats
+}
+
 // A quad at z = 0, and above it one that rises by `slope` along x.
 struct Pair {
     Scene low, high;

@@ -30,7 +30,7 @@ std::vector<Camera> camerasAround(const Scene& scene, int side)
     for (int k = 1; k < kConversionViews - 1; ++k)
         cameras.push_back(turnedAbout(fit, float(std::numbers::pi) / 2 * float(k)));
     Camera above = fit;
-    above.eye = fit.target + glm::vec3(0, glm::length(fit.eye - fit.target), 0);
+    above.eye = fit.target + glm::vec3(0, glm::length(glm::dvec3(fit.eye - fit.target)), 0);
     above.up = {0, 0, -1};
     cameras.push_back(above);
     return cameras;
