@@ -176,7 +176,7 @@ private:
 
 // The low surface's triangles without those that have the same uv as two earlier ones: the first of them is baked, the
 // second says that a texel is claimed twice.
-std::vector<std::uint32_t> indicesToDraw(const LowSurface& low)
+std::vector<std::uint32_t> withoutRepeated(const LowSurface& low)
 {
     std::vector<std::uint32_t> indices = low.indices;
     const auto uv = [&](std::uint32_t v) { return glm::vec3(low.texcoords[v], 0); };
@@ -214,16 +214,15 @@ void countTriangles(const LowSurface& low, BakeStatistics& statistics)
 
 } // namespace
 
-Result<UvTriangles> trianglesToDraw(const LowSurface& low, glm::ivec2 size, std::vector<std::uint32_t>& indices)
+Result<std::vector<std::uint32_t>> indicesToDraw(const LowSurface& low, glm::ivec2 size)
 {
-    indices = indicesToDraw(low);
-    const UvTriangles triangles{low.texcoords, indices};
-    const double rows = rowsOf(triangles, size.y), most = kMaxRows + 2 * double(size.x) * double(size.y);
+    std::vector<std::uint32_t> indices = withoutRepeated(low);
+    const double rows = rowsOf({low.texcoords, indices}, size.y), most = kMaxRows + 2 * double(size.x) * double(size.y);
     if (rows > most)
         return inputError(fmt::format("its triangles lie over one another in {:.3g} rows of texels; expected at most "
                                       "{:.3g}: fewer, or a smaller map",
                                       rows, most));
-    return triangles;
+    return indices;
 }
 
 Result<Baked> bake(const LowSurface& low, const HighSurface& high, const BakeOptions& given, const Progress& progress)
@@ -244,11 +243,10 @@ Result<Baked> bake(const LowSurface& low, const HighSurface& high, const BakeOpt
     const std::size_t texels = std::size_t(options.width) * std::size_t(options.height);
     Baked out{options.width, options.height, std::vector(texels, glm::vec3(0)), std::vector<std::uint8_t>(texels), {}};
     const glm::ivec2 size(options.width * options.samples, options.height * options.samples);
-    std::vector<std::uint32_t> indices;
-    const Result<UvTriangles> triangles = trianglesToDraw(low, size, indices);
-    if (!triangles)
-        return inputError("low: " + triangles.error().message);
-    const UvRaster raster(*triangles, size.x, size.y, options.tile);
+    const Result<std::vector<std::uint32_t>> indices = indicesToDraw(low, size);
+    if (!indices)
+        return inputError("low: " + indices.error().message);
+    const UvRaster raster({low.texcoords, *indices}, size.x, size.y, options.tile);
     const Baker baker(low, high, options);
     std::mutex counting;
     CountedSteps done(progress, std::size_t(options.height)); // rows

@@ -8,7 +8,6 @@
 #include "bake/high_surface.hpp"
 #include "bake/ray_starts.hpp"
 #include "bake/surface/low_surface.hpp"
-#include "bake/surface/uv_raster.hpp"
 #include "cotan/bake.hpp"
 #include "cotan/result.hpp"
 
@@ -29,9 +28,9 @@ struct Baked {
 Result<Baked> bake(const LowSurface& low, const HighSurface& high, const BakeOptions& options,
                    const Progress& progress = {});
 
-// What UvRaster::firsts is asked about for an image of that size. indices: of the triangles, which must outlive them.
+// The corners of the triangles that UvRaster::firsts is asked about for an image of that size.
 // Errors: ErrorKind::input where they lie over one another in too many rows of texels.
-Result<UvTriangles> trianglesToDraw(const LowSurface& low, glm::ivec2 size, std::vector<std::uint32_t>& indices);
+Result<std::vector<std::uint32_t>> indicesToDraw(const LowSurface& low, glm::ivec2 size);
 
 // Measures options.starts where bake() needs them and they are null. Errors: those of makeRayStarts.
 Status measureRayStarts(const LowSurface& low, const HighSurface& high, BakeOptions& options, const LowRest& rest = {});

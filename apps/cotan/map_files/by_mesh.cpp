@@ -61,11 +61,10 @@ Result<Image> throughMesh(const Image& map, const RecodeSettings& s, const MeshO
     const auto surface = makeLowSurface(*scene, mesh.material, mesh.frame, mesh.tangents);
     if (!surface)
         return surface.error();
-    std::vector<std::uint32_t> indices;
-    const Result<UvTriangles> triangles = trianglesToDraw(*surface, {map.width, map.height}, indices);
-    if (!triangles)
-        return inputError(mesh.file.string() + ": " + triangles.error().message);
-    const UvRaster raster(*triangles, map.width, map.height);
+    const auto indices = indicesToDraw(*surface, {map.width, map.height});
+    if (!indices)
+        return inputError(mesh.file.string() + ": " + indices.error().message);
+    const UvRaster raster({surface->texcoords, *indices}, map.width, map.height);
     const bool fromObject = s.from.kind == MapKind::objectSpace;
     Baked values{map.width,
                  map.height,
