@@ -254,8 +254,11 @@ TEST_F(BatchCommand, interruptedItEndsItsJobsAndTheNextRunGoesOn)
             return std::ranges::count_if(fs::directory_iterator(folder.path()),
                                          [](const auto& entry) { return entry.path().extension() == ".png"; });
         };
-        for (const auto before = images(), most = before + 1;
-             images() < most && ::waitpid(child, nullptr, WNOHANG) == 0;)
+        const auto ended = [child] { // and still there to be waited for
+            siginfo_t which{};
+            return ::waitid(P_PID, id_t(child), &which, WEXITED | WNOHANG | WNOWAIT) != 0 || which.si_pid != 0;
+        };
+        for (const auto before = images(); images() == before && !ended();)
             std::this_thread::sleep_for(std::chrono::milliseconds(5));
         ::kill(child, signal);
         int status = 0;

@@ -149,6 +149,8 @@ TEST(GltfHostile, objectsHaveAtMost4096MembersOutsideExtras)
     COTAN_LOADED(extra, loadText(withNode("\"extras\":{\"list\":[1,[" + large + "]]},")));
     EXPECT_EQ(extra.instances.size(), 1u);
     COTAN_REFUSED(loadText(withNode("\"extras\":{},\"list\":[" + large + "],")), "expected at most 4096 members");
+    COTAN_REFUSED(loadText(withNode("\"list\":[{\"extras\":{\"a\":0}}," + large + "],")),
+                  "expected at most 4096 members");
     COTAN_REFUSED(loadText(withNode("\"extras\":{\"list\":[0]},\"other\":" + large + ",")),
                   "expected at most 4096 members");
 }

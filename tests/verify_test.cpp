@@ -188,6 +188,15 @@ TEST(VerifyConversion, whatIsDrawnTooManyTimesOverIsRefusedBeforeItIsDrawn)
     ASSERT_FALSE(many);
     EXPECT_EQ(many.error().kind, ErrorKind::input);
     EXPECT_NE(many.error().message.find("its triangles cover the picture"), std::string::npos) << many.error().message;
+    Scene aside = stackOf(300); // lines from the front
+    for (Instance& sheet : aside.instances)
+        std::swap(sheet.toWorld[0], sheet.toWorld[2]);
+    Scene one = aside;
+    one.instances.resize(1);
+    const auto around = drawSides(*renderer, {one, Frame::cotangent}, {}, 256);
+    ASSERT_TRUE(around) << around.error().message;
+    EXPECT_TRUE(drawSides(*renderer, {aside, Frame::cotangent}, {around->cameras[0]}, 256));
+    EXPECT_FALSE(drawSides(*renderer, {aside, Frame::cotangent}, around->cameras, 256));
 }
 
 TEST(VerifyConversion, modelsAsLargeAsFloatsWithoutTheirSquaresAreDrawn)
@@ -248,16 +257,23 @@ TEST(VerifyBake, whatIsBakedFitsAndAFlatMapIsOffByTheSlopeOfTheHighSurface)
         EXPECT_EQ(off->views[side].degrees.count, 0u) << side;
 }
 
-TEST(VerifyBake, whatIsDrawnTooManyTimesOverIsRefusedBeforeItIsDrawn)
+// A flat map of a tilted pair, compared; scene: what is drawn with it.
+Result<ComparedViews> verifiedFlat(const Scene& scene, int material, int side)
 {
     const Pair pair = tiltedPair(0.1);
     const BakeOptions options;
     const auto low = makeLowSurface(pair.low, -1, options.frame, TangentOrigin::generated);
     const auto high = HighSurface::make({pair.high}, 0);
-    ASSERT_TRUE(low && high);
+    if (!low || !high)
+        return (low ? high.error() : low.error());
     const Image map = solidImage({kFlatTexel, 255});
-    EXPECT_TRUE(verifyBake(*reference(), {stackOf(20), *low, *high, options, map, {}}, 32));
-    const auto compared = verifyBake(*reference(), {stackOf(300), *low, *high, options, map, {}}, 32);
+    return verifyBake(*reference(), {scene, *low, *high, options, map, {}, material}, side);
+}
+
+TEST(VerifyBake, whatIsDrawnTooManyTimesOverIsRefusedBeforeItIsDrawn)
+{
+    EXPECT_TRUE(verifiedFlat(stackOf(20), -1, 32));
+    const auto compared = verifiedFlat(stackOf(300), -1, 32);
     ASSERT_FALSE(compared);
     EXPECT_EQ(compared.error().kind, ErrorKind::input);
     EXPECT_NE(compared.error().message.find("its triangles cover the picture"), std::string::npos);
@@ -265,14 +281,8 @@ TEST(VerifyBake, whatIsDrawnTooManyTimesOverIsRefusedBeforeItIsDrawn)
 
 TEST(VerifyBake, aMaterialThatTheSceneDoesNotHaveIsRefused)
 {
-    const Pair pair = tiltedPair(0.1);
-    const BakeOptions options;
-    const auto low = makeLowSurface(pair.low, -1, options.frame, TangentOrigin::generated);
-    const auto high = HighSurface::make({pair.high}, 0);
-    ASSERT_TRUE(low && high);
-    const Image map = solidImage({kFlatTexel, 255});
     for (int material : {-2, 1}) {
-        const auto compared = verifyBake(*reference(), {pair.low, *low, *high, options, map, {}, material}, kPixels);
+        const auto compared = verifiedFlat(tiltedPair(0.1).low, material, kPixels);
         ASSERT_FALSE(compared);
         EXPECT_EQ(compared.error().kind, ErrorKind::usage);
         const std::string found = "expected a material from -1 to 0; found " + std::to_string(material);

@@ -50,9 +50,11 @@ Result<DrawnSides> drawSides(Renderer& renderer, ModelInFrame model, std::vector
     view.width = view.height = side;
     view.frame = model.frame;
     view.output = Output::normal;
-    view.camera = sides.cameras.front();
-    if (Status fits = settleCovered(model.scene, view); !fits)
-        return fits.error();
+    for (const Camera& camera : sides.cameras) {
+        view.camera = camera;
+        if (Status fits = settleCovered(model.scene, view); !fits)
+            return fits.error();
+    }
     const auto forget = [](Renderer* drawing) { drawing->forget(); }; // the scene ends here
     const std::unique_ptr<Renderer, decltype(forget)> shown(&renderer, forget);
     if (Status loaded = renderer.load(model.scene); !loaded)
